@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Set up, demonstrate, test and package Spectral Unwrap.
+
+Runs with a bare Python 3.9 or newer on Debian and Ubuntu; everything built goes under build/.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import List, Optional
+
+from tools import demo, environment, packaging
+from tools.steps import StepError
+
+
+def parse(arguments: Optional[List[str]] = None) -> argparse.Namespace:
+    """Read the command line; arguments that `test` does not know are pytest's."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    commands = parser.add_subparsers(dest="command", required=True)
+    command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
+    command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; Suzanne when left out")
+    commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
+    commands.add_parser("package", help="write the installable zips to build/packages/")
+    options, rest = parser.parse_known_args(arguments)
+    if rest and options.command != "test":
+        parser.error(f"unrecognized arguments: {' '.join(rest)}")
+    options.pytest_arguments = rest
+    return options
+
+
+def main() -> int:
+    """Run one command and return its exit code."""
+    options = parse()
+    try:
+        if options.command == "demo":
+            mesh = demo.check_mesh(options.mesh)
+            environment.set_up("build", "bpy", "demo")
+            return demo.run(mesh)
+        if options.command == "test":
+            environment.set_up("build", "bpy", "demo", "package", "test")
+            return environment.run_pytest(options.pytest_arguments)
+        environment.set_up("build", "bpy", "package")
+        return packaging.run()
+    except StepError as error:
+        print(f"\n{error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("\nInterrupted; run the same command again to go on.", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

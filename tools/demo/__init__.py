@@ -1,0 +1,4 @@
+def check_mesh(m):
+    return m
+def run(m):
+    return 0

