@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Move and scale charts in the UV plane: side by side, or back into the bounding boxes that they had.
+
+All functions take `uv` (C, 2) float64 and `chart` (C,) integer, the chart of every corner, -1 for corners to leave
+alone; chart numbers need not be consecutive. Charts are only translated, scaled uniformly and turned by quarter turns,
+so that angles are kept.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# Gap between charts side by side, relative to the mean chart size: enough for single precision and for Blender's
+# packer, which joins faces whose coordinates agree along a common edge.
+GAP = 0.1
+
+
+@dataclass(frozen=True)
+class _Charts:
+    """Corners grouped by chart: K charts, `corners` sorted so that chart k starts at `starts[k]`."""
+
+    corners: np.ndarray
+    starts: np.ndarray
+    rank: np.ndarray  # (len(corners),) 0..K-1, the chart of every entry of `corners`
+
+    def bounds(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the lower and upper corners of the charts' bounding boxes, (K, 2) each."""
+        points = uv[self.corners]
+        return np.minimum.reduceat(points, self.starts), np.maximum.reduceat(points, self.starts)
+
+
+def _group(chart: np.ndarray) -> _Charts:
+    corners = np.flatnonzero(chart >= 0)
+    corners = corners[np.argsort(chart[corners], kind="stable")]
+    number = chart[corners]
+    first = np.diff(number, prepend=-1) != 0
+    return _Charts(corners, np.flatnonzero(first), np.cumsum(first) - 1)
+
+
+def side_by_side(uv: np.ndarray, chart: np.ndarray) -> np.ndarray:
+    """Lay the charts out on shelves inside the unit square, at a common scale, their bounding boxes apart.
+
+    Returns a copy of `uv`, (C, 2) float64. This is no packing: it gives Blender's packer islands of the right relative
+    size that do not touch.
+    """
+    result = np.array(uv, dtype=np.float64)
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result
+    low, high = charts.bounds(result)
+    # Any magnitude is possible; dividing first keeps squares and sums in range.
+    unit = (high - low).max()
+    unit = unit if unit > 0.0 else 1.0
+    size = (high - low) / unit
+    gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
+    position, side = _shelves(size + gap)
+    offset = (position + gap / 2.0) / side
+    result[charts.corners] = (result[charts.corners] - low[charts.rank]) / (unit * side) + offset[charts.rank]
+    return result
+
+
+def _shelves(size: np.ndarray) -> tuple[np.ndarray, float]:
+    """Arrange boxes of `size` (K, 2) in rows, tallest first.
+
+    Returns their lower corners (K, 2) and the side of the square, at the origin, that holds all of them.
+    """
+    width = max(size[:, 0].max(), np.sqrt(size.prod(axis=1).sum()))
+    position = np.empty_like(size)
+    x = y = row_height = 0.0
+    for box in np.argsort(-size[:, 1], kind="stable"):
+        box_width, box_height = size[box]
+        if x > 0.0 and x + box_width > width:
+            x, y, row_height = 0.0, y + row_height, 0.0
+        position[box] = x, y
+        x += box_width
+        row_height = max(row_height, box_height)
+    return position, max(width, y + row_height)
+
+
+def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Fit every chart into the bounding box that its corners have in `former` (C, 2), the centre kept.
+
+    A chart is scaled to the largest size that fits, after a quarter turn if it fits larger that way. A chart whose
+    former box has no width, no height or a non-finite coordinate is left as it is.
+
+    Returns a copy of `uv`, (C, 2) float64, and which corners were placed, (C,) bool.
+    """
+    result = np.array(uv, dtype=np.float64)
+    placed = np.zeros(len(result), dtype=bool)
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result, placed
+    former_low, former_high = charts.bounds(former)
+    # Halved before adding: coordinates near the largest float must not overflow.
+    centre = former_low / 2.0 + former_high / 2.0
+    room = former_high - former_low
+    fits = np.isfinite(room).all(axis=1) & (room > 0.0).all(axis=1)
+
+    low, high = charts.bounds(result)
+    size = high - low
+    points = result[charts.corners] - (low / 2.0 + high / 2.0)[charts.rank]
+    turn = fits & (_largest_scale(size[:, ::-1], room) > _largest_scale(size, room))
+    turned = turn[charts.rank]
+    points[turned] = np.column_stack([-points[turned, 1], points[turned, 0]])
+    size[turn] = size[turn, ::-1]
+
+    scale = _largest_scale(size, room)
+    keep = (fits & np.isfinite(scale))[charts.rank]
+    rank = charts.rank[keep]
+    result[charts.corners[keep]] = points[keep] * scale[rank, None] + centre[rank]
+    placed[charts.corners[keep]] = True
+    return result, placed
+
+
+def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
+    """Return the largest factors by which boxes of `size` (K, 2) still fit into `room` (K, 2)."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return np.nanmin(np.where(size > 0.0, room / size, np.inf), axis=1)

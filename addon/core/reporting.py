@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the operator tells the user: counts and distortion of the solved islands, reasons of the failed ones.
+
+Blender calls a chart an island; so do these sentences.
+"""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .unwrapping import Solution
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Totals over all charts of all meshes.
+
+    Attributes:
+        solved: number of solved charts.
+        mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
+        max_qc: largest quasi-conformal distortion of a triangle.
+        flipped: number of faces with a flipped triangle.
+        failures: how many charts failed for each reason.
+        refused: why meshes were refused as a whole, one "name: reason" each.
+    """
+
+    solved: int
+    mean_qc: float
+    max_qc: float
+    flipped: int
+    failures: Counter[str]
+    refused: tuple[str, ...]
+
+    @property
+    def failed(self) -> int:
+        """Number of failed charts."""
+        return sum(self.failures.values())
+
+
+def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
+    """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
+    charts = [chart for solution in solutions for chart in solution.charts]
+    solved = [chart for chart in charts if chart.status == "solved"]
+    area = sum(chart.area for chart in solved)
+    return Summary(
+        solved=len(solved),
+        mean_qc=sum(chart.mean_qc * (chart.area / area) for chart in solved) if area > 0.0 else float("nan"),
+        max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
+        flipped=sum(chart.flipped for chart in solved),
+        failures=Counter(chart.message for chart in charts if chart.status != "solved"),
+        refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
+    )
+
+
+def information(summary: Summary, seconds: float) -> str:
+    """Return the sentence for a call that solved at least one chart; `seconds` is the whole operator's time."""
+    return (
+        f"Unwrapped {_count(summary.solved, 'island')}: mean QC {_qc(summary.mean_qc)}, "
+        f"maximum QC {_qc(summary.max_qc)}, {_count(summary.flipped, 'flipped face')}, {seconds:.2f} s"
+    )
+
+
+def failures(summary: Summary) -> str:
+    """Return why charts or whole meshes were left as they were; empty if none was."""
+    parts = []
+    if summary.failed:
+        total = summary.solved + summary.failed
+        reasons = "; ".join(
+            message if len(summary.failures) == 1 else f"{count}: {message}"
+            for message, count in summary.failures.most_common()
+        )
+        parts.append(f"{summary.failed} of {_count(total, 'island')} failed and kept their UVs: {reasons}")
+    if summary.refused:
+        parts.append(f"Not unwrapped: {'; '.join(summary.refused)}")
+    return ". ".join(parts)
+
+
+def without_bounds(count: int) -> str:
+    """Return the sentence for `count` charts that could not be kept in place; empty for none."""
+    if count == 0:
+        return ""
+    return f"{_count(count, 'island')} had no UV bounds to keep and were laid out side by side in the unit square"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _qc(value: float) -> str:
+    return f"{value:.4f}" if value < 100.0 else f"{value:.3g}"

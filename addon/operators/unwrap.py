@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Spectral Unwrap operator."""
+
+import time
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty
+
+from .. import edit_mode_unwrap, names
+from ..core import reporting, unwrapping
+from ..core.native import NativeModuleError
+from ..packing import PackingError
+
+
+class UV_OT_spectral_unwrap(bpy.types.Operator):
+    """Unwrap the selected faces by Spectral Conformal Parameterization."""
+
+    bl_idname = names.UNWRAP_OPERATOR
+    bl_label = names.UNWRAP_LABEL
+    bl_description = names.UNWRAP_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    method: EnumProperty(name="Method", description="Unwrapping method", items=names.METHOD_ITEMS)
+    weights: EnumProperty(name="Weights", description="How much each triangle counts", items=names.WEIGHTS_ITEMS)
+    boundary: EnumProperty(
+        name="Boundary", description="How much each boundary vertex counts", items=names.BOUNDARY_ITEMS
+    )
+    placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=names.PLACEMENT_ITEMS)
+    margin: FloatProperty(
+        name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode."""
+        return context.mode == "EDIT_MESH"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Lay out Adjust Last Operation."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(self, "method")
+        layout.prop(self, "weights")
+        row = layout.row()
+        row.active = self.method == "SPECTRAL"
+        row.prop(self, "boundary")
+        layout.separator()
+        layout.prop(self, "placement")
+        row = layout.row()
+        row.active = self.placement == names.PACK
+        row.prop(self, "margin")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Unwrap with the operator's settings and report the result."""
+        start = time.perf_counter()
+        options = unwrapping.Options(self.method.lower(), self.weights.lower(), self.boundary.lower())
+        try:
+            outcome = edit_mode_unwrap.unwrap(context, options, self.placement == names.KEEP, self.margin)
+        except (NativeModuleError, PackingError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if outcome is None:
+            self.report({"WARNING"}, "No faces selected; select the faces to unwrap")
+            return {"CANCELLED"}
+        if outcome.summary.solved:
+            self.report({"INFO"}, reporting.information(outcome.summary, time.perf_counter() - start))
+        for warning in (reporting.failures(outcome.summary), reporting.without_bounds(outcome.without_bounds)):
+            if warning:
+                self.report({"WARNING"}, warning)
+        return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

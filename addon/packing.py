@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's own packer, over chosen faces only."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+
+import bmesh
+import bpy
+import numpy as np
+
+from . import compatibility, mesh_io
+from .mesh_io import EditMesh
+
+
+class PackingError(RuntimeError):
+    """Blender's packer did not run; the message says what to do."""
+
+
+def pack(
+    context: bpy.types.Context, edit_meshes: Sequence[EditMesh], faces: Sequence[np.ndarray], margin: float
+) -> None:
+    """Pack the islands of the given selected `faces`, one (F,) bool per mesh, into the UV tile; leave all others.
+
+    Raises:
+        PackingError: the packer did not run.
+    """
+    chosen = {edit_mesh.mesh: flags for edit_mesh, flags in zip(edit_meshes, faces)}
+    meshes = [edit_object.data for edit_object in context.objects_in_mode_unique_data]
+    # The packer takes every selected UV of every object in edit mode. With failed islands or unselected UVs among the
+    # selected faces, the UV selection must say what to pack; that alone takes as long as all the rest in Python.
+    everything = all(mesh.total_face_sel == np.count_nonzero(chosen.get(mesh, ())) for mesh in meshes)
+    with _selected_faces(context, meshes) if everything else _selected_uvs(context, meshes, chosen):
+        result = compatibility.pack_islands(margin)
+    if "FINISHED" not in result:
+        raise PackingError("Blender's Pack Islands did not run; unwrap with Keep in Place and pack the islands by hand")
+
+
+@contextmanager
+def _selected_faces(context: bpy.types.Context, meshes: Sequence[bpy.types.Mesh]) -> Iterator[None]:
+    """Let the mesh selection stand for the UV selection; then restore what was there."""
+    with _sync_selection(context, True), ExitStack() as stack:
+        for mesh in meshes:
+            stack.enter_context(compatibility.mesh_selection_only(bmesh.from_edit_mesh(mesh)))
+        yield
+
+
+@contextmanager
+def _selected_uvs(
+    context: bpy.types.Context, meshes: Sequence[bpy.types.Mesh], chosen: dict[bpy.types.Mesh, np.ndarray]
+) -> Iterator[None]:
+    """Make the `chosen` faces the whole UV selection; then restore what was there."""
+    meshes = [mesh for mesh in meshes if mesh.uv_layers.active]
+    saved = [compatibility.read_uv_selection(*mesh_io.active_uv_layer(mesh)) for mesh in meshes]
+    try:
+        with _sync_selection(context, False):
+            for mesh in meshes:
+                bm, layer = mesh_io.active_uv_layer(mesh)
+                flags = chosen[mesh].tolist() if mesh in chosen else [False] * len(bm.faces)
+                compatibility.select_uv_of_faces(bm, layer, flags)
+            yield
+    finally:
+        for mesh, selection in zip(meshes, saved):
+            compatibility.write_uv_selection(*mesh_io.active_uv_layer(mesh), selection)
+
+
+@contextmanager
+def _sync_selection(context: bpy.types.Context, use: bool) -> Iterator[None]:
+    tool_settings = context.scene.tool_settings
+    before = tool_settings.use_uv_select_sync
+    tool_settings.use_uv_select_sync = use
+    try:
+        yield
+    finally:
+        tool_settings.use_uv_select_sync = before
