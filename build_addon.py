@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Set up, demonstrate, test and package Spectral Unwrap.
 
 Runs with a bare Python 3.9 or newer on Debian and Ubuntu; everything built goes under build/.
 """
 
+from __future__ import annotations
+
 import argparse
 import sys
 from pathlib import Path
-from typing import List, Optional
 
 from tools import demo, environment, packaging
 from tools.steps import StepError
 
 
-def parse(arguments: Optional[List[str]] = None) -> argparse.Namespace:
+def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     """Read the command line; arguments that `test` does not know are pytest's."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)

@@ -1,4 +1,7 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that the commands need: system packages, the Python environment and the native module."""
+
+from __future__ import annotations
 
 import json
 import os
@@ -6,8 +9,8 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence
 
 from tools import steps
 from tools.steps import BUILD, ROOT, StepError
@@ -17,7 +20,7 @@ PYTHON = VENV / "bin" / "python"
 WHEELS = BUILD / "wheels"
 
 # Debian 12 and Ubuntu 22.04 names. The serial OpenBLAS: CHOLMOD's fronts are small, and threads slow it down.
-APT: Dict[str, List[str]] = {
+APT: dict[str, list[str]] = {
     "build": ["g++", "libcgal-dev", "libeigen3-dev", "libopenblas-serial-dev", "libspectra-dev", "libsuitesparse-dev"],
     # What bpy's wheel links to and does not bring along.
     "bpy": ["libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1"],
@@ -32,10 +35,11 @@ APT: Dict[str, List[str]] = {
 # Debian's own interpreter comes without these; another one (pyenv) brings them along.
 APT_SYSTEM_PYTHON = ["python3-dev", "python3-venv"]
 
-PIP: Dict[str, List[str]] = {
+PIP: dict[str, list[str]] = {
     # bpy asks for NumPy 1; for Pythons that have none there is no bpy either.
     "build": [
-        "cmake>=3.22", "ninja", "numpy<2; python_version<'3.13'", "numpy; python_version>='3.13'", "pybind11>=2.12", "scikit-build-core>=0.10",
+        "cmake>=3.22", "ninja", "numpy<2; python_version<'3.13'", "numpy; python_version>='3.13'", "pybind11>=2.12",
+        "scikit-build-core>=0.10",
     ],
     "bpy": ["bpy"],
     "demo": ["matplotlib", "scipy"],
@@ -90,12 +94,13 @@ def install_system_packages(groups: Sequence[str]) -> None:
     )
 
 
-def as_root() -> Optional[List[str]]:
+def as_root() -> list[str] | None:
     """Return the words that make a command run as root, None where that is not possible."""
     if os.geteuid() == 0:
         return []
-    if shutil.which("sudo") and subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False).returncode == 0:
-        return ["sudo", "-n"]
+    sudo = ["sudo", "-n"]
+    if shutil.which("sudo") and subprocess.run([*sudo, "true"], capture_output=True, check=False).returncode == 0:
+        return sudo
     return None
 
 
@@ -137,7 +142,7 @@ def install_python_packages(group: str) -> None:
     steps.mark_done(f"pip-{group}", state)
 
 
-def blender_command() -> List[str]:
+def blender_command() -> list[str]:
     """Return the words that run a Python script in Blender: bpy in build/venv, or the system's Blender."""
     if is_importable("bpy"):
         return [str(PYTHON)]

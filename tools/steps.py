@@ -1,4 +1,7 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Steps of a build: one line of progress each, output in a log, a stamp once done."""
+
+from __future__ import annotations
 
 import contextlib
 import fcntl
@@ -6,8 +9,8 @@ import hashlib
 import os
 import subprocess
 import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Iterable, Iterator, Mapping, Optional, Sequence
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
@@ -33,7 +36,7 @@ def progress(title: str) -> Iterator[None]:
     print(f"{time.monotonic() - start:.1f} s", flush=True)
 
 
-def run(title: str, command: Sequence[object], *, log: str, environ: Optional[Mapping[str, str]] = None) -> None:
+def run(title: str, command: Sequence[object], *, log: str, environ: Mapping[str, str] | None = None) -> None:
     """Run a command as a step with its output in build/logs/<log>.log, appended; raise StepError when it fails."""
     LOGS.mkdir(parents=True, exist_ok=True)
     path = LOGS / f"{log}.log"

@@ -1,4 +1,82 @@
-def check_mesh(m):
-    return m
-def run(m):
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The demonstration: unwrap a mesh in a real Blender, compare with Blender's own unwrappers, draw the results."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+from tools import steps
+from tools.environment import PYTHON, VENV, blender_command
+from tools.steps import BUILD, ROOT, StepError
+
+OUTPUT = BUILD / "demo"
+HERE = Path(__file__).resolve().parent
+SUFFIXES = (".obj", ".ply", ".stl", ".blend")
+# Where Blender looks for the add-on, under the name that it has when installed.
+ADDONS = BUILD / "demo-addons"
+RESULTS = ("mesh.obj", "mesh.blend", "uv_layout.png", "checker.png", "report.json")
+
+
+def check_mesh(mesh: Path | None) -> Path | None:
+    """Return the absolute path of the mesh; raise StepError when there is no such file or it cannot be read."""
+    if mesh is None:
+        return None
+    if not mesh.is_file():
+        raise StepError(f"{mesh}: no such file.")
+    if mesh.suffix.lower() not in SUFFIXES:
+        raise StepError(f"{mesh}: expected one of {', '.join(SUFFIXES)}.")
+    return mesh.resolve()
+
+
+def run(mesh: Path | None) -> int:
+    """Unwrap the mesh (Suzanne when None), write everything to build/demo/ and print the table."""
+    shutil.rmtree(OUTPUT, ignore_errors=True)
+    OUTPUT.mkdir(parents=True)
+    link_addon()
+    job = OUTPUT / "job.json"
+    site_packages = next(VENV.glob("lib/python*/site-packages"))
+    job.write_text(
+        json.dumps(
+            {
+                "mesh": str(mesh) if mesh else None,
+                "output": str(OUTPUT),
+                "addons": str(ADDONS),
+                "site_packages": str(site_packages),
+            }
+        )
+    )
+    blender = blender_command()
+    steps.run("unwrapping in Blender, three methods", [*blender, HERE / "blender_unwrap.py", "--", job], log="demo")
+    steps.run("measuring and drawing the UV layout", [PYTHON, HERE / "measure.py", job], log="demo")
+    steps.run("rendering the checker texture", [*blender, HERE / "blender_render.py", "--", job], log="demo")
+    print()
+    print(table(json.loads((OUTPUT / "report.json").read_text())))
+    print()
+    for name in RESULTS:
+        print(f"{(OUTPUT / name).relative_to(ROOT)}  {(OUTPUT / name).stat().st_size / 1e6:.1f} MB")
     return 0
+
+
+def link_addon() -> None:
+    """Make addon/ importable as the package spectral_unwrap, without a copy that could be stale."""
+    ADDONS.mkdir(parents=True, exist_ok=True)
+    link = ADDONS / "spectral_unwrap"
+    link.unlink(missing_ok=True)
+    link.symlink_to(ROOT / "addon", target_is_directory=True)
+
+
+def table(report: dict) -> str:
+    """Return the comparison as lines of text."""
+    mesh = report["mesh"]
+    lines = [
+        f"{mesh['name']}: {mesh['vertices']} vertices, {mesh['triangles']} triangles, {mesh['islands']} islands; "
+        f"Blender {report['versions']['blender']}",
+        f"{'method':<22}{'mean QC':>10}{'max QC':>10}{'flips':>8}{'seconds':>9}",
+    ]
+    lines += [
+        f"{row['method']:<22}{row['mean_qc']:>10.5f}{row['max_qc']:>10.3f}{row['flips']:>8}{row['seconds']:>9.2f}"
+        for row in report["methods"]
+    ]
+    return "\n".join(lines)
