@@ -69,6 +69,11 @@ def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> N
             face.uv_select = flag
 
 
+def can_pack_by_mesh_selection(tool_settings: bpy.types.ToolSettings) -> bool:
+    """Return whether sync selection can be on without a change of the UV selection, which turning it on is in 5.0."""
+    return tool_settings.use_uv_select_sync or not _UV_SELECTION_ON_MESH
+
+
 @contextmanager
 def mesh_selection_only(bm: BMesh) -> Iterator[None]:
     """Within, sync selection looks at the mesh selection and not at the finer UV selection that 5.0 keeps beside it."""

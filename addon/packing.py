@@ -29,7 +29,8 @@ def pack(
     # The packer takes every selected UV of every object in edit mode. With failed islands or unselected UVs among the
     # selected faces, the UV selection must say what to pack; that alone takes as long as all the rest in Python.
     everything = all(mesh.total_face_sel == np.count_nonzero(chosen.get(mesh, ())) for mesh in meshes)
-    with _selected_faces(context, meshes) if everything else _selected_uvs(context, meshes, chosen):
+    by_faces = everything and compatibility.can_pack_by_mesh_selection(context.scene.tool_settings)
+    with _selected_faces(context, meshes) if by_faces else _selected_uvs(context, meshes, chosen):
         result = compatibility.pack_islands(margin)
     if "FINISHED" not in result:
         raise PackingError("Blender's Pack Islands did not run; unwrap with Keep in Place and pack the islands by hand")

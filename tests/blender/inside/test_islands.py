@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What becomes of the selected faces: developable, cut, n-gon and real islands."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def test_cylinder_with_a_seam_unrolls_without_distortion():
+    cylinder = scenes.cylinder()
+    scenes.edit(cylinder)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    stretches = scenes.stretches(cylinder)
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
+    qc, _ = scenes.quasi_conformal(cylinder)
+    assert qc.max() < 1.0 + 1e-4
+
+
+def test_flat_grid_comes_back_as_itself():
+    grid = scenes.grid(5, 3)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    stretches = scenes.stretches(grid)
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-5)
+
+
+def test_border_of_the_selection_is_a_chart_border():
+    # Seen whole, the cylinder without a seam has no developable map; its selected half has.
+    cylinder = scenes.cylinder(segments=24, rows=6, closed_seam=False)
+    scenes.edit(cylinder)
+    half = [face for face in range(24 * 6) if face % 24 < 12]
+    scenes.select_faces(cylinder, half)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    stretches = scenes.stretches(cylinder, half)
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
+
+
+def test_cube_with_all_seams_becomes_six_equal_squares():
+    cube = scenes.cube(all_seams=True)
+    scenes.edit(cube)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    stretches = scenes.stretches(cube)
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
+    faces = scenes.read_uv(cube).reshape(6, 4, 2)
+    assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
+
+
+def test_seam_cuts_only_where_it_separates():
+    # A seam that ends inside the grid leaves one chart, and the corners beside its inner end meet.
+    seam = [(5, 9), (9, 13)]
+    grid = scenes.grid(3, 3, seams=seam)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    uv = scenes.read_uv(grid)
+    inner = [loop.index for face in scenes.edit_mesh(grid).faces for loop in face.loops if loop.vert.index == 5]
+    np.testing.assert_allclose(uv[inner], np.broadcast_to(uv[inner[0]], (len(inner), 2)), atol=1e-6)
+
+
+def test_existing_uv_splits_do_not_cut():
+    split, joined = scenes.grid(4, 4, name="Split"), scenes.grid(4, 4, name="Joined", uv_map=False)
+    results = []
+    for grid in (split, joined):
+        scenes.edit(grid)
+        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+        results.append(scenes.read_uv(grid))
+        bpy.ops.object.mode_set(mode="OBJECT")
+    np.testing.assert_allclose(results[0], results[1], atol=1e-6)
+
+
+def test_concave_polygon_keeps_its_shape():
+    outline = np.array([(0, 0, 0), (3, 0, 0), (3, 1, 0), (1, 1, 0), (1, 3, 0), (0, 3, 0)], dtype=float)
+    polygon = scenes.new_object(outline, [range(6)])
+    scenes.edit(polygon)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    uv = scenes.read_uv(polygon)
+    ratios = [
+        np.linalg.norm(uv[i] - uv[j]) / np.linalg.norm(outline[i] - outline[j]) for i in range(6) for j in range(i)
+    ]
+    np.testing.assert_allclose(ratios, ratios[0], rtol=1e-4)
+
+
+def test_uv_map_is_made_where_there_is_none():
+    grid = scenes.grid(2, 2, uv_map=False)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert [layer.name for layer in grid.data.uv_layers] == ["UVMap"]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uv = np.array([corner.uv for corner in grid.data.uv_layers.active.data])
+    assert uv.ptp(axis=0).min() > 0.9
+
+
+def test_only_the_active_uv_map_is_written():
+    grid = scenes.grid(2, 2)
+    grid.data.uv_layers.new(name="Second")
+    grid.data.uv_layers.active_index = 1
+    scenes.edit(grid)
+    first, second = scenes.read_uv(grid, "UVMap"), scenes.read_uv(grid, "Second")
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid, "UVMap"), first)
+    assert not np.array_equal(scenes.read_uv(grid, "Second"), second)
+
+
+@pytest.mark.parametrize("method", ["SPECTRAL", "LSCM", "FIEDLER", "AREA"])
+@pytest.mark.parametrize("weights", ["UNIFORM", "INVERSE_AREA"])
+def test_every_method_unrolls_the_cylinder(method, weights):
+    cylinder = scenes.cylinder()
+    scenes.edit(cylinder)
+    assert bpy.ops.uv.spectral_unwrap(method=method, weights=weights, boundary="VERTEX") == {"FINISHED"}
+    qc, area = scenes.quasi_conformal(cylinder)
+    # The Fiedler vector is the paper's example of a map that distorts even where it need not.
+    assert np.average(qc, weights=area) < (2.0 if method == "FIEDLER" else 1.0001)
+
+
+def test_suzanne_has_less_distortion_than_blenders_conformal():
+    bpy.ops.mesh.primitive_monkey_add()
+    suzanne = bpy.context.object
+    scenes.edit(suzanne)
+    mean = {}
+    for name, unwrap in {"spectral": bpy.ops.uv.spectral_unwrap, "conformal": bpy.ops.uv.unwrap}.items():
+        assert unwrap(method=name.upper()) == {"FINISHED"}
+        uv = scenes.read_uv(suzanne)
+        assert np.isfinite(uv).all()
+        assert uv.min() > -1e-5
+        assert uv.max() < 1.0 + 1e-5
+        qc, area = scenes.quasi_conformal(suzanne)
+        mean[name] = np.average(qc, weights=area)
+    assert mean["spectral"] <= mean["conformal"]

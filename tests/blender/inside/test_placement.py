@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the islands go: packed over all objects in edit mode, or kept in place."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def test_objects_in_edit_mode_are_packed_together_to_one_scale():
+    grids = [scenes.grid(4, 4, name="Large"), scenes.grid(2, 1, name="Small", offset=(9.0, 0.0, 0.0))]
+    scenes.edit(*grids)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    uv = [scenes.read_uv(grid) for grid in grids]
+    assert np.vstack(uv).min() > -1e-5
+    assert np.vstack(uv).max() < 1.0 + 1e-5
+    assert not scenes.overlap(*uv)
+    stretches = np.concatenate([scenes.stretches(grid) for grid in grids])
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
+
+
+def test_closed_island_is_not_packed_over(reports):
+    # The failed island keeps its place; only the solved one moves, into the whole tile.
+    both = scenes.grid_and_cube()
+    scenes.edit(both)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    low, high = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, range(6))])
+    assert (high - low).max() > 0.99
+
+
+def test_shared_mesh_is_unwrapped_once(reports):
+    grid = scenes.grid(3, 3)
+    twin = bpy.data.objects.new("Twin", grid.data)
+    bpy.context.collection.objects.link(twin)
+    scenes.edit(grid, twin)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert "Unwrapped 1 island:" in reports()[0][1]
+
+
+def test_margin_separates_islands():
+    gaps = []
+    for margin in (0.0, 0.1):
+        cube = scenes.cube(all_seams=True)
+        scenes.edit(cube)
+        assert bpy.ops.uv.spectral_unwrap(margin=margin) == {"FINISHED"}
+        gaps.append(1.0 / scenes.stretches(cube).mean())
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert gaps[1] > 1.05 * gaps[0]
+
+
+def test_keep_in_place_fits_every_island_into_its_former_bounds():
+    both = scenes.new_object(*_two_strips())
+    scenes.edit(both)
+    # The first strip stood upright, the second lay flat, each smaller than the packer would make it.
+    uv = np.empty((16, 2))
+    uv[:8] = scenes.corner_positions(both)[:8, 1::-1] * 0.05 + (0.3, 0.1)
+    uv[8:] = scenes.corner_positions(both)[8:, :2] * 0.02 + (0.7, 0.8)
+    scenes.write_uv(both, uv)
+    before = scenes.read_uv(both)
+    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    after = scenes.read_uv(both)
+    for island in (slice(0, 8), slice(8, 16)):
+        np.testing.assert_allclose(scenes.bounds(after[island]), scenes.bounds(before[island]), atol=1e-6)
+    stretches = scenes.stretches(both, [0, 1])
+    np.testing.assert_allclose(stretches, 0.05, rtol=1e-4)
+
+
+def _two_strips():
+    vertices = [(x, y + 5 * strip, 0) for strip in range(2) for y in range(2) for x in range(3)]
+    faces = [(6 * s + x, 6 * s + x + 1, 6 * s + x + 4, 6 * s + x + 3) for s in range(2) for x in range(2)]
+    return vertices, faces
+
+
+@pytest.mark.parametrize("uv_map", [False, True])
+def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
+    cube = scenes.cube(all_seams=True, uv_map=uv_map)
+    scenes.edit(cube)
+    if uv_map:
+        scenes.write_uv(cube, np.zeros((24, 2)))
+    reports()
+    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    assert (
+        "Warning",
+        "6 islands had no UV bounds to keep and were laid out side by side in the unit square",
+    ) in reports()
+    faces = scenes.read_uv(cube).reshape(6, 4, 2)
+    assert faces.min() >= 0.0
+    assert faces.max() <= 1.0
+    assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
+
+
+@pytest.mark.parametrize("size", [1e-15, 1e15])
+def test_size_of_the_mesh_does_not_matter(size):
+    cube = scenes.cube(size=size, all_seams=True)
+    scenes.edit(cube)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    uv = scenes.read_uv(cube)
+    assert uv.min() > -1e-5
+    assert 0.9 < uv.max() < 1.0 + 1e-5
+    faces = uv.reshape(6, 4, 2)
+    assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on in Blender's lists: operator, properties, menus; and nothing left when it is disabled."""
+
+import sys
+
+import bpy  # isort: skip - makes addon_utils importable
+import addon_utils
+import pytest
+
+ADDON = "spectral_unwrap"
+MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap")
+
+
+def _entries():
+    """Return which of the menus hold a draw function of the add-on."""
+    return [
+        name
+        for name in MENUS
+        if any(draw.__module__.startswith(ADDON) for draw in getattr(getattr(bpy.types, name).draw, "_draw_funcs", []))
+    ]
+
+
+def test_operator_properties_are_described_as_blender_does():
+    operator = bpy.ops.uv.spectral_unwrap.get_rna_type()
+    assert operator.name == "Spectral Unwrap"
+    assert not operator.description.endswith(".")
+    properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
+    assert set(properties) == {"method", "weights", "boundary", "placement", "margin"}
+    described = [
+        *properties.values(),
+        *(item for prop in properties.values() for item in getattr(prop, "enum_items", ())),
+    ]
+    for item in described:
+        assert item.description
+        assert not item.description.endswith(".")
+
+
+def test_defaults():
+    operator = bpy.ops.uv.spectral_unwrap.get_rna_type()
+    defaults = {prop.identifier: prop.default for prop in operator.properties if prop.identifier != "rna_type"}
+    assert defaults.pop("margin") == pytest.approx(0.001)
+    assert defaults == {"method": "SPECTRAL", "weights": "UNIFORM", "boundary": "LENGTH", "placement": "PACK"}
+
+
+def test_menus_and_operator_come_and_go_with_the_add_on():
+    for _ in range(2):
+        assert _entries() == list(MENUS)
+        assert hasattr(bpy.types, "UV_OT_spectral_unwrap")
+        addon_utils.disable(ADDON)
+        assert _entries() == []
+        assert not hasattr(bpy.types, "UV_OT_spectral_unwrap")
+        addon_utils.enable(ADDON)
+
+
+def test_module_is_found_in_the_layout_of_this_installation():
+    native = sys.modules[f"{ADDON}.core.native"].spectral_conformal()
+    # The system's Blender has the layout of the older zip, bpy that of an extension (tests/blender/blenders.py).
+    bundled = bpy.app.version < (4, 2, 0)
+    assert native.__name__ == (f"{ADDON}.spectral_conformal" if bundled else "spectral_conformal")

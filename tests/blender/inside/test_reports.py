@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the operator tells the user."""
+
+import re
+
+import bpy
+import scenes
+
+
+def test_solved_islands_are_counted_and_measured(reports):
+    cube = scenes.cube(all_seams=True)
+    scenes.edit(cube)
+    reports()
+    bpy.ops.uv.spectral_unwrap()
+    ((level, text),) = reports()
+    assert level == "Info"
+    assert re.fullmatch(r"Unwrapped 6 islands: mean QC 1\.0000, maximum QC 1\.0000, 0 flipped faces, \d+\.\d\d s", text)
+
+
+def test_failed_islands_are_counted_with_reason_and_remedy(reports):
+    both = scenes.grid_and_cube()
+    scenes.edit(both)
+    reports()
+    bpy.ops.uv.spectral_unwrap()
+    (level, text), (second_level, second_text) = reports()
+    assert (level, second_level) == ("Info", "Warning")
+    assert text.startswith("Unwrapped 1 island: ")
+    assert second_text.startswith("1 of 2 islands failed and kept their UVs: ")
+    assert "closed" in second_text.lower()
+    assert "seam" in second_text
+
+
+def test_only_failures_report_no_success(reports):
+    cube = scenes.cube()
+    scenes.edit(cube)
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    ((level, text),) = reports()
+    assert level == "Warning"
+    assert text.startswith("1 of 1 island failed")
+
+
+def test_nothing_selected(reports):
+    grid = scenes.grid(1, 1)
+    scenes.edit(grid, select=False)
+    reports()
+    bpy.ops.uv.spectral_unwrap()
+    assert reports() == [("Warning", "No faces selected; select the faces to unwrap")]
+
+
+def test_non_finite_coordinates_are_named(reports):
+    grid = scenes.grid(2, 2)
+    scenes.edit(grid)
+    scenes.edit_mesh(grid).verts[4].co.x = float("inf")
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    ((level, text),) = reports()
+    assert level == "Warning"
+    assert "finite" in text

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an unwrap must leave exactly as it was."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def test_unselected_faces_keep_their_uvs():
+    grid = scenes.grid(4, 4)
+    scenes.edit(grid)
+    scenes.select_faces(grid, range(8))
+    before = scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    others = ~scenes.corners_of(grid, range(8))
+    np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
+    assert not np.isclose(scenes.read_uv(grid)[~others], before[~others]).all(axis=1).any()
+
+
+def test_hidden_faces_keep_their_uvs():
+    grid = scenes.grid(4, 4)
+    scenes.edit(grid)
+    scenes.select_faces(grid, range(8))
+    bpy.ops.mesh.hide()
+    bpy.ops.mesh.select_all(action="SELECT")
+    before = scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    hidden = scenes.corners_of(grid, range(8))
+    np.testing.assert_array_equal(scenes.read_uv(grid)[hidden], before[hidden])
+
+
+@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+def test_closed_island_keeps_its_uvs_while_others_are_solved(placement):
+    both = scenes.grid_and_cube()
+    scenes.edit(both)
+    before = scenes.read_uv(both)
+    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    closed = scenes.corners_of(both, range(6, 12))
+    np.testing.assert_array_equal(scenes.read_uv(both)[closed], before[closed])
+    stretches = scenes.stretches(both, range(6))
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-5)
+
+
+def test_closed_mesh_alone_is_cancelled_and_unchanged():
+    cube = scenes.cube()
+    scenes.edit(cube)
+    before, state = scenes.read_uv(cube), scenes.state(cube)
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    np.testing.assert_array_equal(scenes.read_uv(cube), before)
+    assert scenes.state(cube) == state
+
+
+def test_closed_mesh_without_a_uv_map_gets_none():
+    cube = scenes.cube(uv_map=False)
+    scenes.edit(cube)
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    assert len(cube.data.uv_layers) == 0
+
+
+def test_nothing_selected_is_cancelled_and_unchanged():
+    grid = scenes.grid(2, 2)
+    scenes.edit(grid, select=False)
+    before, state = scenes.read_uv(grid), scenes.state(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    assert scenes.state(grid) == state
+
+
+def test_non_finite_coordinate_changes_nothing_of_its_island():
+    grid, other = scenes.grid(3, 3), scenes.grid(2, 2, name="Other")
+    scenes.edit(grid, other)
+    scenes.edit_mesh(grid).verts[5].co.z = float("nan")
+    before = scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    stretches = scenes.stretches(other)
+    np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-5)
+
+
+@pytest.mark.parametrize("use_sync", [False, True])
+@pytest.mark.parametrize("all_solved", [False, True])
+@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+def test_everything_but_the_uvs_survives(use_sync, all_solved, placement):
+    both = scenes.grid_and_cube()
+    other = scenes.grid(2, 2, name="Without selection", offset=(0.0, 5.0, 0.0))
+    both.data.uv_layers.new(name="Second").active = False
+    both.vertex_groups.new(name="Group").add([0, 3, 7], 0.25, "REPLACE")
+    both.shape_key_add(name="Basis")
+    both.shape_key_add(name="Key").data[2].co.z = 4.0
+    both.active_shape_key_index = 1
+    bpy.context.scene.tool_settings.use_uv_select_sync = use_sync
+    scenes.edit(both, other)
+    scenes.select_faces(other, [])
+    scenes.select_faces(both, range(6 if all_solved else 12))
+    bm = scenes.edit_mesh(both)
+    bm.faces.active = bm.faces[3]
+    bm.edges[4].seam = True
+    bm.edges[5].smooth = False
+    bm.faces[11].hide_set(True)
+    bm.select_history.clear()
+    bm.select_history.add(bm.faces[2])
+    bm.select_history.add(bm.faces[4])
+    flags = np.random.default_rng(1).random((2, 48)) < 0.5
+    scenes.set_uv_flags(both, flags[0])
+    scenes.set_uv_flags(other, flags[1])
+    states, other_uv = [scenes.state(both), scenes.state(other)], scenes.read_uv(other)
+    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    for edited, before in zip((both, other), states):
+        after = scenes.state(edited)
+        assert {name: after[name] for name in after if after[name] != before[name]} == {}
+    np.testing.assert_array_equal(scenes.read_uv(other), other_uv)
+
+
+def test_shape_keys_survive_topology_edits_in_the_same_edit_session():
+    # Reading the edit mesh into a temporary one must not renumber the original's shape key vertices.
+    keys = []
+    for unwrap in (False, True):
+        grid = scenes.grid(3, 3)
+        grid.shape_key_add(name="Basis")
+        for index, point in enumerate(grid.shape_key_add(name="Key").data):
+            point.co.z = float(index)
+        grid.active_shape_key_index = 0
+        scenes.edit(grid)
+        scenes.select_faces(grid, [0, 4])
+        bpy.ops.mesh.delete(type="FACE")
+        bpy.ops.mesh.select_all(action="SELECT")
+        if unwrap:
+            assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+        for vertex in scenes.edit_mesh(grid).verts:
+            vertex.co.x += 0.5 * vertex.index
+        bpy.ops.object.mode_set(mode="OBJECT")
+        keys.append([[tuple(point.co) for point in key.data] for key in grid.data.shape_keys.key_blocks])
+    assert keys[0] == keys[1]
+
+
+def test_operator_needs_edit_mode():
+    grid = scenes.grid(2, 2)
+    bpy.context.view_layer.objects.active = grid
+    assert not bpy.ops.uv.spectral_unwrap.poll()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap.poll()
