@@ -26,7 +26,7 @@ APT: dict[str, list[str]] = {
     "bpy": ["libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1"],
     "blender": ["blender", "python3-numpy"],
     "demo": [],
-    "package": ["binutils"],
+    "package": [],
     "test": [
         "blender", "clang-format", "clang-tidy", "doctest-dev", "imagemagick", "libgl1-mesa-dri", "python3-numpy",
         "x11-utils", "xdotool", "xvfb",
