@@ -1,0 +1,30 @@
+#pragma once
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+enum class BoundaryMeasure {
+  length,  ///< half the length of the two adjacent boundary edges: independent of how finely the boundary is sampled
+  vertex   ///< 1 for each boundary vertex, as in the paper (Eq. 5)
+};
+
+/// The diagonal form B of Eq. 5 with the constants projected out (Eq. 7):
+///   B^ = M - (M 1)(M 1)^T / (1^T M 1),
+/// with M = diag(mass) on `vertices` and 0 elsewhere. Only the diagonal is stored.
+struct BoundaryForm {
+  std::vector<int> vertices;   ///< distinct
+  Eigen::VectorXd mass;        ///< (vertices.size(),), positive
+  double total() const { return mass.sum(); }  ///< 1^T M 1
+  /// z^H B^ z, summed about the barycentre so that a constant adds no rounding.
+  double value(const ComplexVector& z) const;
+};
+
+/// The form of a boundary loop. Vertices whose two boundary edges have no length get no mass.
+BoundaryForm boundary_form(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
+                           BoundaryMeasure measure);
+
+/// The identity on all vertices, which makes the eigenvector the Fiedler vector of L (Eq. 4).
+BoundaryForm identity_form(int n_vertices);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+
+#include "spectral_conformal/triangle_shape.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+enum class Weights {
+  uniform,      ///< every triangle counts with weight 1
+  inverse_area  ///< energy and area of a triangle are divided by its area in 3D (section 4.1)
+};
+
+/// The discrete conformal energy of a patch, E_C = E_D - A (section 2.2), with z = u + i v and one complex unknown per
+/// vertex: z^H L z / 2 = E_C(z). L is Hermitian positive semidefinite with L 1 = 0. For a triangle of weight w and each
+/// of its half-edges i->j with opposite angle t
+///   L_ii += w cot t / 2,  L_jj += w cot t / 2,  L_ij -= w cot t / 2,  L_ji -= w cot t / 2    (Dirichlet, Eq. 3)
+///   L_ij += i w / 2,      L_ji -= i w / 2                                                    (minus the area form)
+/// The inverse-area weights are relative to the mean area (w = mean / |T|), so that L keeps the same magnitude.
+class ConformalEnergy {
+ public:
+  /// positions (V, 3) near unit scale; triangles counter-clockwise; coverage per triangle.
+  /// Nearly degenerate triangles are clamped as lay_out does and counted in clamped_triangles().
+  ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
+                  std::vector<double> coverage, Weights weights);
+
+  const HermitianMatrix& matrix() const { return matrix_; }
+  int n_vertices() const { return static_cast<int>(matrix_.rows()); }
+  int clamped_triangles() const { return clamped_triangles_; }
+  /// True area of the surface, coverage included, in squared units of the positions.
+  double area() const { return area_; }
+  /// The factor by which inverse-area weights were multiplied (the mean triangle area); 1 for uniform weights.
+  double weight_unit() const { return weight_unit_; }
+
+  /// z^H L z = 2 E_C, as a sum of one square per triangle: accurate relative to itself even where it nearly vanishes.
+  double value(const ComplexVector& z) const;
+  /// z^H A z = 2 A(z), twice the weighted signed area of the map.
+  double area_form(const ComplexVector& z) const;
+  /// L z, accumulated from the differences along the edges of each triangle, so that constants vanish exactly.
+  void apply(const ComplexVector& z, ComplexVector& result) const;
+
+  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  const std::vector<TriangleShape>& shapes() const { return shapes_; }
+  const std::vector<double>& coverage() const { return coverage_; }
+
+ private:
+  double weight(std::size_t triangle) const;
+  void assemble(int n_vertices);
+
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<double> coverage_;
+  std::vector<TriangleShape> shapes_;
+  Weights weights_;
+  double weight_unit_ = 1;
+  double area_ = 0;
+  int clamped_triangles_ = 0;
+  HermitianMatrix matrix_;
+};
+
+}  // namespace spectral_conformal

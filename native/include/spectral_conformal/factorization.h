@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+enum class FactorizationBackend {
+  automatic,  ///< CHOLMOD where the module was built with it, otherwise Eigen
+  cholmod,    ///< SuiteSparse CHOLMOD, supernodal L L^H
+  eigen       ///< Eigen's SimplicialLDLT
+};
+
+/// The factorisation of one Hermitian positive definite matrix and the solves with it. Owns all its memory; different
+/// objects can be used in different threads at once.
+class Factorization {
+ public:
+  virtual ~Factorization() = default;
+
+  /// Chooses the fill-reducing order and the structure of the factor. Throws std::bad_alloc, and SolveFailure when the
+  /// factor is too large for the index type.
+  virtual void analyze(const HermitianMatrix& matrix) = 0;
+  /// Factorises a matrix of the analysed structure. Returns false when it is not positive definite in double precision.
+  virtual bool factorize(const HermitianMatrix& matrix) = 0;
+  /// Solves with the last factor: x = A^-1 b. b and x may be the same vector.
+  virtual void solve(const ComplexVector& b, ComplexVector& x) = 0;
+  /// Nonzeros of the factor, as stored.
+  virtual double factor_nonzeros() const = 0;
+};
+
+/// Throws std::invalid_argument for CHOLMOD when the module was built without it.
+std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend);
+
+/// The library behind `automatic` and its version, such as "CHOLMOD 3.0.14".
+std::string factorization_library();
+/// The file of the BLAS that the factorisation's calls are bound to and what it says of itself, or "" without CHOLMOD.
+std::string blas_library();
+
+}  // namespace spectral_conformal

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "spectral_conformal/boundary_form.h"
+#include "spectral_conformal/charts.h"
+#include "spectral_conformal/conformal_energy.h"
+#include "spectral_conformal/factorization.h"
+#include "spectral_conformal/lscm.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+enum class Method {
+  spectral,  ///< smallest nonzero eigenvalue of L z = lambda B z (Eq. 5): the paper's method
+  lscm,      ///< pinned LSCM / DCP (section 2.2)
+  fiedler,   ///< B = identity: the Fiedler vector of L (Eq. 4)
+  area       ///< B = A (section 3.3)
+};
+
+struct ParameterizeOptions {
+  Method method = Method::spectral;
+  Weights weights = Weights::uniform;
+  BoundaryMeasure boundary = BoundaryMeasure::length;
+  double tolerance = 1e-9;  ///< see EigenproblemOptions
+  FactorizationBackend backend = FactorizationBackend::automatic;
+};
+
+struct Parameterization {
+  ComplexVector z;              ///< (V,) u + i v
+  double eigenvalue = 0;        ///< lambda of L z = lambda B z in the units of the input; E_C / A-like quotients alike
+  double residual = 0;          ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2)
+  int iterations = 0;           ///< solves with the factor
+  int turning_number = 0;       ///< of the outer boundary loop
+  std::string message;          ///< remedies that were needed; empty when none was
+  std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
+};
+
+/// Why a chart cannot be parameterised (closed, one-sided, handles, non-finite coordinate, no area), naming the
+/// condition and what to do, or "" when it can. Holes are allowed.
+std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions);
+
+/// The one chart of a mesh that has to be a single disk-like patch. Throws InvalidMesh that says what it is instead:
+/// no faces, degenerate faces, several components, edges with three or more faces, bow-tie vertices, or what
+/// why_not_a_disk says. Vertices that no face uses are allowed; they are not in the chart.
+Chart single_patch(const PolygonMesh& mesh);
+
+/// One patch with its energy and boundary form; keeps the factor of L + s M between solves.
+class Solver {
+ public:
+  /// chart: one disk-like patch; positions (V, 3) of its vertices. Throws InvalidMesh when why_not_a_disk says so.
+  Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, Weights weights, BoundaryMeasure boundary,
+         FactorizationBackend backend);
+
+  /// Factors L + s M, raising s a hundredfold while rounding breaks the factorisation (bounded).
+  /// Throws SolveFailure. Called by solve where needed.
+  void factorize(const Progress& progress = {});
+
+  /// pins: for Method::lscm only; empty for the two farthest boundary vertices. With given pins the map is returned as
+  /// solved, otherwise placed (see placement.h) with its area equal to the area in 3D.
+  /// Throws SolveFailure when no attempt passes the checks: residual, and for the spectral method a turning number
+  /// of one and a positive area.
+  Parameterization solve(Method method, const Pins& pins, double tolerance, const Progress& progress = {});
+
+  const ConformalEnergy& energy() const { return *energy_; }
+  const BoundaryLoop& outer_boundary() const { return outer_; }
+
+ private:
+  struct ShiftedFactor {
+    std::unique_ptr<Factorization> factorization;
+    double shift = 0;
+  };
+  ShiftedFactor factor_shifted(const BoundaryForm& form, double relative_shift, const Progress& progress);
+  Parameterization solve_spectral(Method method, double tolerance, const Progress& progress);
+  Parameterization solve_pinned(const Pins& pins, const Progress& progress);
+  double lambda_unit(Method method) const;
+
+  Positions positions_;  ///< centred, largest extent 1
+  double scale_ = 1;     ///< input units per unit of positions_
+  std::unique_ptr<ConformalEnergy> energy_;
+  BoundaryLoop outer_;
+  BoundaryMeasure boundary_;
+  BoundaryForm form_;
+  FactorizationBackend backend_;
+  ShiftedFactor factor_;
+  std::vector<std::pair<std::string, double>> set_up_timings_;
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The shape of a triangle in its own plane: corners 0, x1 > 0 and x2 + i y2 with y2 > 0, counter-clockwise.
+struct TriangleShape {
+  double x1 = 1;
+  double x2 = 0;
+  double y2 = 1;
+  double area() const { return 0.5 * x1 * y2; }
+  /// Whether the shape was clamped, see lay_out.
+  bool clamped = false;
+
+  /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2.
+  Complex holomorphic_part(Complex d1, Complex d2) const {
+    return Complex(0, 1) * (d1 * Complex(x2, -y2) - d2 * x1);
+  }
+  /// 4 |T| times the derivative f_zbar of the same map. Its conformal energy is E_C = 2 |T| |f_zbar|^2.
+  Complex antiholomorphic_part(Complex d1, Complex d2) const {
+    return Complex(0, -1) * (d1 * Complex(x2, y2) - d2 * x1);
+  }
+
+  /// The least height over the longest side, relative to that side.
+  static constexpr double minimum_height = 1e-10;
+};
+
+/// Lays a triangle out in its plane. One whose height over its longest side is below minimum_height of that side gets
+/// that height, so that its cotangents stay finite; one without extent becomes equilateral. Either is marked clamped.
+TriangleShape lay_out(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
+
+/// Area of a triangle in 3D.
+double triangle_area(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <complex>
+#include <vector>
+
+namespace spectral_conformal {
+
+using Complex = std::complex<double>;
+/// One complex number u + i v per vertex.
+using ComplexVector = Eigen::VectorXcd;
+/// (V, 3), one position per row.
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// The lower triangle of a Hermitian matrix, columns sorted, every diagonal entry stored (first in its column).
+using HermitianMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
+/// Vertices in the order of the walk; the surface lies to the left, the last vertex is joined to the first.
+using BoundaryLoop = std::vector<int>;
+
+}  // namespace spectral_conformal

@@ -1,0 +1,37 @@
+"""Spectral conformal parameterization of triangle and polygon meshes.
+
+After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Parameterization", SGP 2008. Needs NumPy only.
+
+    solution = spectral_conformal.parameterize(vertices, triangles)    # one patch: solution.uv is (V, 2)
+    result = spectral_conformal.unwrap(vertices, face_offsets, corner_vertices, seam_edges=seams)   # a polygon mesh
+"""
+
+from ._api import (
+    Chart,
+    Distortion,
+    Parameterization,
+    Progress,
+    Solver,
+    Unwrap,
+    build_info,
+    distortion,
+    parameterize,
+    unwrap,
+)
+from ._native import Cancelled, InvalidMeshError, SolveError
+
+__all__ = [
+    "Cancelled",
+    "Chart",
+    "Distortion",
+    "InvalidMeshError",
+    "Parameterization",
+    "Progress",
+    "SolveError",
+    "Solver",
+    "Unwrap",
+    "build_info",
+    "distortion",
+    "parameterize",
+    "unwrap",
+]

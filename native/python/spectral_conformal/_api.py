@@ -1,0 +1,361 @@
+"""The public functions: they check and convert their arguments, call the native module and wrap what it returns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+
+Method = Literal["spectral", "lscm", "fiedler", "area"]
+Weights = Literal["uniform", "inverse_area"]
+Boundary = Literal["length", "vertex"]
+Factorization = Literal["auto", "cholmod", "eigen"]
+Pins = Mapping[int, "tuple[float, float]"]
+Progress = Callable[[float, str], Optional[bool]]
+"""Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
+
+DEFAULT_TOLERANCE = 1e-9
+_INDEX_LIMIT = np.iinfo(np.int32).max
+
+
+@dataclass(frozen=True)
+class Parameterization:
+    """A map of one patch to the plane."""
+
+    uv: npt.NDArray[np.float64]
+    """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
+    eigenvalue: float
+    """lambda of L z = lambda B z (Eq. 5) for the given vertices. For "lscm" the quotient z*Lz / z*Bz; for "area" B = A."""
+    residual: float
+    """|L z - lambda B z| / (largest diagonal entry of L x |z|); for "lscm" over the free vertices; for "area" the last
+    relative change of the inverse iteration."""
+    iterations: int
+    """Solves with the factor."""
+    turning_number: int
+    """Of the outer boundary loop: 1 for a map that does not wind round itself."""
+    message: str
+    """Remedies that were needed; empty when there was none."""
+    timings: dict[str, float]
+    """Seconds per phase, by name."""
+
+
+@dataclass(frozen=True)
+class Distortion:
+    """Distortion of a map from 3D to the plane, per triangle and summed up."""
+
+    qc: npt.NDArray[np.float64]
+    """(F,) quasi-conformal distortion: larger over smaller singular value of the Jacobian, infinite for a collapsed
+    image, 1 for triangles without area in 3D."""
+    mean_qc: float
+    """Weighted by the area in 3D (section 5 of the paper)."""
+    p95_qc: float
+    """95th percentile over the triangles."""
+    p99_qc: float
+    """99th percentile over the triangles."""
+    max_qc: float
+    log2_scale: npt.NDArray[np.float64]
+    """(F,) log2 of the root of image area / area."""
+    log2_scale_deviation: float
+    """Standard deviation of log2_scale, weighted by the area in 3D."""
+    flipped: npt.NDArray[np.bool_]
+    """(F,) image wound against the majority (by area) of its connected patch, after orienting the patch."""
+    turning_number: int
+    """Of the outer boundary loop of the largest patch; 0 for a closed one."""
+    overlapping: npt.NDArray[np.bool_]
+    """(F,) whether the image covers part of another triangle's."""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """What became of one chart of `unwrap`."""
+
+    faces: npt.NDArray[np.int32]
+    """Faces of the mesh, ascending."""
+    status: Literal["solved", "failed"]
+    message: str
+    """Why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
+    eigenvalue: float
+    residual: float
+    iterations: int
+    turning_number: int
+    mean_qc: float
+    """As in `Distortion`, over the chart's triangles; a convex quad counts with both of its splits, at half weight."""
+    max_qc: float
+    flipped: int
+    """Faces with a flipped triangle."""
+    n_vertices: int
+    """Vertices of the chart; a mesh vertex on a seam counts once for every copy."""
+    area: float
+    """In 3D."""
+
+
+@dataclass(frozen=True)
+class Unwrap:
+    """A polygon mesh unwrapped chart by chart. Charts are not packed: each is centred at the origin."""
+
+    uv: npt.NDArray[np.float64]
+    """(C, 2) per face corner, 0 where not solved."""
+    solved_corners: npt.NDArray[np.bool_]
+    """(C,)"""
+    chart_of_face: npt.NDArray[np.int32]
+    """(faces,) index into charts, -1 for faces that are not selected."""
+    charts: list[Chart]
+
+
+class Solver:
+    """One patch, factored once, solved as often as wanted."""
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        *,
+        weights: Weights = "uniform",
+        boundary: Boundary = "length",
+        factorization: Factorization = "auto",
+        progress: Progress | None = None,
+    ) -> None:
+        """Assemble and factor the conformal energy of one patch.
+
+        Arguments and errors are those of `parameterize`.
+        """
+        self._n_vertices, self._native = _assemble(vertices, triangles, weights, boundary, factorization)
+        self._native.factorize(progress)
+
+    def solve(
+        self,
+        *,
+        method: Method = "spectral",
+        pins: Pins | None = None,
+        tolerance: float = DEFAULT_TOLERANCE,
+        progress: Progress | None = None,
+    ) -> Parameterization:
+        """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`."""
+        return _solve(self._native, self._n_vertices, method, pins, tolerance, progress)
+
+
+def parameterize(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    method: Method = "spectral",
+    weights: Weights = "uniform",
+    boundary: Boundary = "length",
+    pins: Pins | None = None,
+    tolerance: float = DEFAULT_TOLERANCE,
+    progress: Progress | None = None,
+    factorization: Factorization = "auto",
+) -> Parameterization:
+    """Map one disk-like patch (holes allowed) conformally to the plane.
+
+    Args:
+        vertices: (V, 3) positions, any unit. Vertices that no triangle uses are allowed.
+        triangles: (F, 3) vertex indices. Faces wound against the majority are turned.
+        method: "spectral" (Eq. 5), "lscm" (pinned LSCM / DCP, section 2.2), "fiedler" (Eq. 4) or "area" (B = A).
+        weights: of each triangle's energy, "uniform" or "inverse_area" (section 4.1).
+        boundary: mass B of a vertex of the outer loop, "length" (half of its two boundary edges) or "vertex" (1, as in
+            the paper).
+        pins: vertex -> (u, v), for "lscm": two or more are held exactly and the map is returned as solved; with one the
+            map is solved free and moved onto it; without any, the two farthest boundary vertices are held.
+        tolerance: relative residual at which the eigenvalue iteration stops, between 1e-14 and 1e-3.
+        progress: see `Progress`.
+        factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen.
+
+    Returns:
+        The map: positively oriented, the mean of its vertices at the origin, its area equal to the area in 3D.
+
+    Raises:
+        InvalidMeshError: (a ValueError) the mesh is not one disk-like patch; the message says what it is.
+        ValueError: an array or option is not of the kind described here.
+        SolveError: no attempt passed the numerical checks.
+        Cancelled: `progress` returned False.
+    """
+    n_vertices, solver = _assemble(vertices, triangles, weights, boundary, factorization)
+    return _solve(solver, n_vertices, method, pins, tolerance, progress)
+
+
+def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> Distortion:
+    """Measure a map.
+
+    Args:
+        vertices: (V, 3) positions.
+        triangles: (F, 3) vertex indices.
+        uv: (V, 2) image of each vertex, finite.
+
+    Raises:
+        ValueError: an array is not of the kind described here.
+    """
+    vertices = _vertices(vertices)
+    triangles = _indices(triangles, "triangles", 3, len(vertices))
+    uv = _floats(uv, "uv", 2)
+    if len(uv) != len(vertices):
+        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
+    if not np.isfinite(uv).all():
+        raise ValueError("uv has values that are not finite.")
+    return Distortion(**_native.distortion(vertices, triangles, uv))
+
+
+def unwrap(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    seam_edges: npt.ArrayLike | None = None,
+    selected_faces: npt.ArrayLike | None = None,
+    method: Method = "spectral",
+    weights: Weights = "uniform",
+    boundary: Boundary = "length",
+    pins: Pins | None = None,
+    tolerance: float = DEFAULT_TOLERANCE,
+    progress: Progress | None = None,
+    factorization: Factorization = "auto",
+) -> Unwrap:
+    """Cut a polygon mesh into charts and map each to the plane. A chart that cannot be solved does not stop the others.
+
+    Charts are cut at seams, at the border of the selection, at edges with three or more faces and at bow-tie vertices.
+
+    Args:
+        vertices: (V, 3) positions, any unit.
+        face_offsets: (faces + 1,) the corners of face f are face_offsets[f] to face_offsets[f + 1], as in Blender.
+        corner_vertices: (C,) vertex of each corner.
+        seam_edges: (S, 2) vertex pairs in any order; pairs that are no edge are without effect.
+        selected_faces: (faces,) bool, all faces when left out.
+        pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`.
+        method: this and the other options as in `parameterize`.
+        weights: see `parameterize`.
+        boundary: see `parameterize`.
+        tolerance: see `parameterize`.
+        progress: see `Progress`.
+        factorization: see `parameterize`.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh.
+        Cancelled: `progress` returned False.
+    """
+    vertices = _vertices(vertices)
+    offsets = _index_vector(face_offsets, "face_offsets")
+    corners = _indices(corner_vertices, "corner_vertices", None, len(vertices))
+    if len(offsets) == 0:
+        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+    if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
+        raise ValueError(
+            f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing."
+        )
+    seams = None if seam_edges is None else _indices(seam_edges, "seam_edges", 2, len(vertices))
+    selected = None
+    if selected_faces is not None:
+        selected = np.asarray(selected_faces)
+        if selected.dtype != np.bool_ or selected.shape != (len(offsets) - 1,):
+            raise ValueError(
+                f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
+                f"{selected.shape}."
+            )
+    result = _native.unwrap(
+        vertices,
+        offsets,
+        corners,
+        seams,
+        selected,
+        method,
+        weights,
+        boundary,
+        _pins(pins, method, len(vertices)),
+        _tolerance(tolerance),
+        factorization,
+        progress,
+    )
+    result["charts"] = [Chart(**chart) for chart in result["charts"]]
+    return Unwrap(**result)
+
+
+def build_info() -> dict[str, str]:
+    """Return the factorisation library ("factorization") and the BLAS behind it ("blas": file and configuration)."""
+    return _native.build_info()
+
+
+def _assemble(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, weights: str, boundary: str, factorization: str
+) -> tuple[int, Any]:
+    vertices = _vertices(vertices)
+    triangles = _indices(triangles, "triangles", 3, len(vertices))
+    return len(vertices), _native.Solver(vertices, triangles, weights, boundary, factorization)
+
+
+def _solve(
+    solver: Any,  # noqa: ANN401 - the native class has no stub
+    n_vertices: int,
+    method: str,
+    pins: Pins | None,
+    tolerance: float,
+    progress: Progress | None,
+) -> Parameterization:
+    return Parameterization(**solver.solve(method, _pins(pins, method, n_vertices), _tolerance(tolerance), progress))
+
+
+def _floats(values: npt.ArrayLike, name: str, columns: int) -> npt.NDArray[np.float64]:
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
+    if len(array) > _INDEX_LIMIT:
+        raise ValueError(f"{name} has {len(array)} rows; at most {_INDEX_LIMIT} can be handled.")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def _vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    return _floats(vertices, "vertices", 3)
+
+
+def _index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
+    array = np.asarray(values)
+    if array.size == 0:
+        array = array.astype(np.int32)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name} must hold integers, not {array.dtype}.")
+    if array.ndim != 1:
+        raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
+    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT or len(array) > _INDEX_LIMIT):
+        raise ValueError(f"{name} must lie between 0 and {_INDEX_LIMIT}.")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def _indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
+    array = np.asarray(values)
+    if columns is not None:
+        if array.size == 0:
+            array = np.zeros((0, columns), np.int32)
+        if array.ndim != 2 or array.shape[1] != columns:
+            raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
+    shape = array.shape
+    flat = _index_vector(array.ravel() if columns is not None else array, name)
+    if flat.size and flat.max() >= n_vertices:
+        raise ValueError(f"{name} refers to vertex {flat.max()}, but there are {n_vertices} vertices.")
+    return flat.reshape(shape) if columns is not None else flat
+
+
+def _pins(pins: Pins | None, method: str, n_vertices: int) -> list[tuple[int, float, float]]:
+    if not pins:
+        return []
+    if method != "lscm":
+        raise ValueError(f"pins need the method 'lscm'; '{method}' solves without any.")
+    result = []
+    for vertex, position in pins.items():
+        u, v = (float(x) for x in position)
+        if not 0 <= int(vertex) < n_vertices:
+            raise ValueError(f"Vertex {vertex} is pinned, but there are {n_vertices} vertices.")
+        if not (np.isfinite(u) and np.isfinite(v)):
+            raise ValueError(f"The pin of vertex {vertex} is not finite: ({u}, {v}).")
+        result.append((int(vertex), u, v))
+    return result
+
+
+def _tolerance(tolerance: float) -> float:
+    if not 1e-14 <= tolerance <= 1e-3:
+        raise ValueError(f"tolerance must lie between 1e-14 and 1e-3, not {tolerance}.")
+    return float(tolerance)

@@ -1,0 +1,45 @@
+#include "spectral_conformal/boundary_form.h"
+
+#include <numeric>
+
+namespace spectral_conformal {
+
+double BoundaryForm::value(const ComplexVector& z) const {
+  Complex barycentre = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) barycentre += mass[i] * z[vertices[i]];
+  barycentre /= total();
+  double result = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - barycentre);
+  return result;
+}
+
+BoundaryForm boundary_form(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
+                           BoundaryMeasure measure) {
+  BoundaryForm form;
+  std::vector<double> mass;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    double m = 1;
+    if (measure == BoundaryMeasure::length) {
+      const auto previous = positions.row(loop[(i + loop.size() - 1) % loop.size()]);
+      const auto here = positions.row(loop[i]);
+      const auto next = positions.row(loop[(i + 1) % loop.size()]);
+      m = 0.5 * ((here - previous).norm() + (next - here).norm());
+    }
+    if (m > 0) {
+      form.vertices.push_back(loop[i]);
+      mass.push_back(m);
+    }
+  }
+  form.mass = Eigen::Map<const Eigen::VectorXd>(mass.data(), static_cast<Eigen::Index>(mass.size()));
+  return form;
+}
+
+BoundaryForm identity_form(int n_vertices) {
+  BoundaryForm form;
+  form.vertices.resize(static_cast<std::size_t>(n_vertices));
+  std::iota(form.vertices.begin(), form.vertices.end(), 0);
+  form.mass = Eigen::VectorXd::Ones(n_vertices);
+  return form;
+}
+
+}  // namespace spectral_conformal

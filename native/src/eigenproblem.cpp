@@ -1,0 +1,277 @@
+#include "spectral_conformal/eigenproblem.h"
+
+#include <Eigen/Eigenvalues>
+#include <Spectra/SymEigsSolver.h>
+#include <Spectra/SymGEigsSolver.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+namespace spectral_conformal {
+namespace {
+
+constexpr int dense_limit = 24;
+constexpr double pi = 3.14159265358979323846;
+
+/// Deterministic numbers in (-1, 1) (SplitMix64, Steele et al. 2014): the same on every platform.
+class PseudoRandom {
+ public:
+  explicit PseudoRandom(std::uint64_t seed) : state_(seed) {}
+  double next() {
+    std::uint64_t x = (state_ += 0x9e3779b97f4a7c15ULL);
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    x ^= x >> 31;
+    return static_cast<double>(x >> 11) * 0x1.0p-52 - 1.0;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// The operator T of solve_eigenproblem on the vertices that carry mass.
+class ReducedOperator {
+ public:
+  using Scalar = double;  // for Spectra, which sees the real view
+
+  ReducedOperator(Factorization& factorization, Eigen::Index n_vertices, const BoundaryForm& form,
+                  const Progress& progress)
+      : factorization_(factorization), form_(form), progress_(progress), full_(n_vertices) {
+    root_mass_ = form.mass.cwiseSqrt();
+    constant_ = root_mass_ / root_mass_.norm();
+  }
+
+  Eigen::Index complex_size() const { return form_.mass.size(); }
+  Eigen::Index rows() const { return 2 * complex_size(); }
+  Eigen::Index cols() const { return rows(); }
+  int solves() const { return solves_; }
+
+  void project(Eigen::Ref<ComplexVector> y) const {
+    const Complex along = constant_.cast<Complex>().dot(y);
+    y -= along * constant_.cast<Complex>();
+  }
+
+  /// z = (L + s M)^-1 S M^1/2 y.
+  void extend(const Eigen::Ref<const ComplexVector>& y, ComplexVector& z) const {
+    report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
+    full_.setZero();
+    for (Eigen::Index i = 0; i < y.size(); ++i) full_[form_.vertices[i]] = root_mass_[i] * y[i];
+    factorization_.solve(full_, z);
+    ++solves_;
+  }
+
+  /// M^1/2 S^T z, projected.
+  void restrict_to_mass(const ComplexVector& z, Eigen::Ref<ComplexVector> y) const {
+    for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = root_mass_[i] * z[form_.vertices[i]];
+    project(y);
+  }
+
+  void apply(const Eigen::Ref<const ComplexVector>& y, Eigen::Ref<ComplexVector> result) const {
+    projected_ = y;
+    project(projected_);
+    extend(projected_, extended_);
+    restrict_to_mass(extended_, result);
+  }
+
+  void perform_op(const double* x, double* y) const {
+    const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), complex_size());
+    Eigen::Map<ComplexVector> out(reinterpret_cast<Complex*>(y), complex_size());
+    apply(in, out);
+  }
+
+ private:
+  Factorization& factorization_;
+  const BoundaryForm& form_;
+  const Progress& progress_;
+  Eigen::VectorXd root_mass_;
+  Eigen::VectorXd constant_;
+  // Work space; Spectra takes the operator by const reference.
+  mutable ComplexVector full_;
+  mutable ComplexVector projected_;
+  mutable ComplexVector extended_;
+  mutable int solves_ = 0;
+};
+
+/// A circle run through in proportion to the mass passed, blurred by noise so that no symmetry of the patch can make it
+/// orthogonal to the eigenvector.
+ComplexVector start_vector(const BoundaryForm& form, unsigned start) {
+  PseudoRandom random(start + 1);
+  ComplexVector y(form.mass.size());
+  const double noise = start == 0 ? 0.05 : 1.0;
+  double passed = 0;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const double angle = 2 * pi * passed / form.total();
+    const double real = random.next();
+    const double imaginary = random.next();
+    y[i] = (start == 0 ? std::polar(1.0, angle) : Complex(0)) + noise * Complex(real, imaginary);
+    y[i] *= std::sqrt(form.mass[i]);
+    passed += form.mass[i];
+  }
+  return y;
+}
+
+/// All of T, column by column.
+ComplexVector dense_eigenvector(const ReducedOperator& op) {
+  const Eigen::Index n = op.complex_size();
+  Eigen::MatrixXcd dense(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const ComplexVector unit = ComplexVector::Unit(n, j);
+    ComplexVector column(n);
+    op.apply(unit, column);
+    dense.col(j) = column;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (dense + dense.adjoint()));
+  return solver.eigenvectors().col(n - 1);
+}
+
+/// The operators of Spectra's regular inverse mode, A z = nu (L + s M) z, on the real view.
+class AreaOperator {
+ public:
+  using Scalar = double;
+  explicit AreaOperator(const HermitianMatrix& matrix) : matrix_(matrix) {}
+  Eigen::Index rows() const { return 2 * matrix_.rows(); }
+  Eigen::Index cols() const { return rows(); }
+  /// A z, A being minus the imaginary part of L: A_ij = -i Im L_ij.
+  void apply(const ComplexVector& z, ComplexVector& result) const {
+    result.setZero(z.size());
+    for (int column = 0; column < matrix_.outerSize(); ++column) {
+      for (HermitianMatrix::InnerIterator it(matrix_, column); it; ++it) {
+        const Complex entry(0, -it.value().imag());
+        if (it.row() == column || entry == 0.0) continue;
+        result[it.row()] += entry * z[column];
+        result[column] += std::conj(entry) * z[it.row()];
+      }
+    }
+  }
+  void perform_op(const double* x, double* y) const {
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out;
+    apply(in, out);
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+  }
+
+ private:
+  const HermitianMatrix& matrix_;
+};
+
+class ShiftedOperator {
+ public:
+  using Scalar = double;
+  ShiftedOperator(Factorization& factorization, const HermitianMatrix& matrix, const BoundaryForm& form, double shift,
+                  const Progress& progress)
+      : factorization_(factorization), matrix_(matrix), form_(form), shift_(shift), progress_(progress) {}
+  Eigen::Index rows() const { return 2 * matrix_.rows(); }
+  Eigen::Index cols() const { return rows(); }
+  int solves() const { return solves_; }
+  void solve(const double* x, double* y) const {
+    report(progress_, 1.0 - 1.0 / (1.0 + 0.05 * solves_), "eigenproblem");
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out;
+    factorization_.solve(in, out);
+    // The constant carries no area; the solve amplifies what rounding puts into it.
+    out.array() -= out.mean();
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+    ++solves_;
+  }
+  void perform_op(const double* x, double* y) const {
+    const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out = matrix_.selfadjointView<Eigen::Lower>() * in;
+    for (std::size_t i = 0; i < form_.vertices.size(); ++i) {
+      out[form_.vertices[i]] += shift_ * form_.mass[i] * in[form_.vertices[i]];
+    }
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+  }
+
+ private:
+  Factorization& factorization_;
+  const HermitianMatrix& matrix_;
+  const BoundaryForm& form_;
+  double shift_;
+  const Progress& progress_;
+  mutable int solves_ = 0;  // Spectra takes the operator by const reference
+};
+
+}  // namespace
+
+Eigenpair solve_eigenproblem(Factorization& factorization, Eigen::Index n_vertices, const BoundaryForm& form,
+                             const EigenproblemOptions& options, const Progress& progress) {
+  ReducedOperator op(factorization, n_vertices, form, progress);
+  const Eigen::Index n = op.complex_size();
+  Eigenpair result;
+  ComplexVector y;
+  if (n <= dense_limit) {
+    y = dense_eigenvector(op);
+  } else {
+    ComplexVector start = start_vector(form, options.start);
+    op.project(start);
+    const int dimension = std::min<int>(options.krylov_dimension, static_cast<int>(2 * n));
+    Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, dimension);
+    solver.init(reinterpret_cast<const double*>(start.data()));
+    solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
+    if (solver.info() != Spectra::CompInfo::Successful) {
+      result.solves = op.solves();
+      return result;
+    }
+    const Eigen::VectorXd real = solver.eigenvectors(1);
+    y = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  }
+  // One more application gives the values at the other vertices, and with them the residual.
+  op.project(y);
+  y.normalize();
+  op.extend(y, result.vector);
+  ComplexVector image(n);
+  op.restrict_to_mass(result.vector, image);
+  result.mu = y.dot(image).real();
+  result.residual = (image - result.mu * y).norm() / result.mu;
+  result.vector /= result.mu;
+  result.solves = op.solves();
+  result.converged = result.mu > 0 && std::isfinite(result.residual);
+  return result;
+}
+
+Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
+                                  double shift, const EigenproblemOptions& options, const Progress& progress) {
+  const Eigen::Index n = energy.n_vertices();
+  AreaOperator area(energy.matrix());
+  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
+  const ComplexVector on_boundary = start_vector(form, options.start);
+  ComplexVector start = ComplexVector::Zero(n);
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
+  Eigenpair result;
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
+  Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
+                                                                                                   dimension);
+  ComplexVector smooth(n);
+  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
+  solver.init(reinterpret_cast<const double*>(smooth.data()));
+  solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
+  result.solves = shifted.solves();
+  if (solver.info() != Spectra::CompInfo::Successful) return result;
+  const Eigen::VectorXd real = solver.eigenvectors(1);
+  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  result.mu = solver.eigenvalues()[0];
+  // (L + s M) z' = lambda A z + s M z has the unshifted eigenvectors as fixed points.
+  constexpr int corrections = 3;
+  ComplexVector rhs;
+  for (int k = 0; k < corrections; ++k) {
+    const double lambda = energy.value(result.vector) / energy.area_form(result.vector);
+    area.apply(result.vector, rhs);
+    rhs *= lambda;
+    for (std::size_t i = 0; i < form.vertices.size(); ++i) {
+      rhs[form.vertices[i]] += shift * form.mass[i] * result.vector[form.vertices[i]];
+    }
+    ComplexVector next;
+    factorization.solve(rhs, next);
+    next.array() -= next.mean();
+    ++result.solves;
+    const double change = (next / next.norm() - result.vector / result.vector.norm()).norm();
+    result.vector = next;
+    result.residual = change;
+    if (change < options.tolerance) break;
+  }
+  result.converged = result.vector.allFinite() && energy.area_form(result.vector) > 0;
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,335 @@
+#include "spectral_conformal/parameterize.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "spectral_conformal/boundary_loops.h"
+#include "spectral_conformal/eigenproblem.h"
+#include "spectral_conformal/placement.h"
+#include "spectral_conformal/turning_number.h"
+
+namespace spectral_conformal {
+namespace {
+
+using Timings = std::vector<std::pair<std::string, double>>;
+
+/// Adds the seconds that pass until the next call to the phase of the given name.
+class Stopwatch {
+ public:
+  explicit Stopwatch(Timings& timings) : timings_(timings), last_(Clock::now()) {}
+  void lap(const char* phase) {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    const auto known = std::find_if(timings_.begin(), timings_.end(), [&](const auto& t) { return t.first == phase; });
+    if (known != timings_.end()) {
+      known->second += seconds;
+    } else {
+      timings_.emplace_back(phase, seconds);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Timings& timings_;
+  Clock::time_point last_;
+};
+
+/// What each attempt at the eigenproblem changes; the first one nearly always passes.
+struct Attempt {
+  double relative_shift;  ///< of L's mean diagonal entry, at a boundary vertex of mean mass
+  unsigned start;
+  int krylov_dimension;
+  double tolerance_factor;
+  const char* remedy;  ///< said when this attempt passes
+};
+constexpr Attempt attempts[] = {
+    {1e-12, 0, 8, 1.0, ""},
+    {1e-10, 1, 24, 0.1, "The first solve failed its checks; solved again with a larger shift and another start. "},
+    {1e-8, 2, 48, 0.1, "Two solves failed their checks; solved again with a much larger shift and another start. "},
+};
+
+/// The eigenvector must satisfy its reduced equation at least this well, whatever tolerance was asked for.
+constexpr double residual_limit = 1e-5;
+
+double largest_diagonal(const HermitianMatrix& matrix) {
+  double largest = 0;
+  for (int v = 0; v < matrix.cols(); ++v) {
+    largest = std::max(largest, matrix.valuePtr()[matrix.outerIndexPtr()[v]].real());
+  }
+  return largest;
+}
+
+/// r = L z - lambda B^ z.
+void eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, const ComplexVector& z, double lambda,
+                    ComplexVector& r) {
+  energy.apply(z, r);
+  Complex barycentre = 0;
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) barycentre += form.mass[i] * z[form.vertices[i]];
+  barycentre /= form.total();
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
+    r[form.vertices[i]] -= lambda * form.mass[i] * (z[form.vertices[i]] - barycentre);
+  }
+}
+
+}  // namespace
+
+std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    if (!positions.row(v).allFinite()) {
+      return "Vertex " + std::to_string(chart.vertices[v]) +
+             " has a coordinate that is not finite; give it a valid position or delete it.";
+    }
+  }
+  if (!chart.orientable) return "The patch is one-sided, like a Moebius strip; cut it with a seam.";
+  if (chart.boundary_loops.empty()) {
+    return "The patch is closed" +
+           (chart.genus() > 0 ? ", with " + std::to_string(chart.genus()) + " handle(s)" : std::string()) +
+           ": it has no boundary to unfold from; mark seams that cut it open.";
+  }
+  if (chart.genus() > 0) {
+    return "The patch has " + std::to_string(chart.genus()) +
+           " handle(s) and cannot lie flat without overlap; mark seams that cut the handles open.";
+  }
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = positions.colwise().maxCoeff();
+  const double extent = (high - low).maxCoeff();
+  if (!(extent > std::numeric_limits<double>::min() * 1e16) || !std::isfinite(extent)) {
+    return "The patch has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
+           "delete or rescale it.";
+  }
+  double area = 0;
+  for (const auto& [a, b, c] : chart.triangles) {
+    const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
+    area += triangle_area(corner(a), corner(b), corner(c));
+  }
+  // Rounding alone gives collinear points an area of this size relative to the extent.
+  if (!(area > 1e-14)) return "The patch has no area: its vertices lie on one line; delete it or move them apart.";
+  return "";
+}
+
+Chart single_patch(const PolygonMesh& mesh) {
+  ChartDecomposition decomposition = build_charts(mesh);
+  if (!decomposition.degenerate_faces.empty()) {
+    throw InvalidMesh("Face " + std::to_string(decomposition.degenerate_faces.front()) +
+                      " has fewer than three different vertices; remove it.");
+  }
+  if (decomposition.charts.empty()) throw InvalidMesh("The mesh has no faces; there is nothing to parameterise.");
+  if (decomposition.non_manifold_edges > 0) {
+    throw InvalidMesh(std::to_string(decomposition.non_manifold_edges) +
+                      " edge(s) have three or more faces; split the mesh there, or use unwrap, which does.");
+  }
+  if (decomposition.charts.size() > 1) {
+    throw InvalidMesh("The mesh has " + std::to_string(decomposition.charts.size()) +
+                      " components that no edge connects; give one at a time, or use unwrap, which takes them all.");
+  }
+  if (decomposition.split_vertices > 0) {
+    throw InvalidMesh(std::to_string(decomposition.split_vertices) +
+                      " vertices join parts of the boundary (bow ties); split them, or use unwrap, which does.");
+  }
+  return std::move(decomposition.charts.front());
+}
+
+Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, Weights weights,
+               BoundaryMeasure boundary, FactorizationBackend backend)
+    : boundary_(boundary), backend_(backend) {
+  Stopwatch watch(set_up_timings_);
+  const std::string problem = why_not_a_disk(chart, positions);
+  if (!problem.empty()) throw InvalidMesh(problem);
+  // Centred and scaled to extent 1, any coordinates give the same numbers.
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = positions.colwise().maxCoeff();
+  scale_ = (high - low).maxCoeff();
+  positions_ = (positions.rowwise() - (low + 0.5 * (high - low))) / scale_;
+  energy_ = std::make_unique<ConformalEnergy>(positions_, chart.triangles, chart.coverage, weights);
+  outer_ = chart.boundary_loops[outer_loop(chart.boundary_loops, positions_)];
+  form_ = boundary_form(outer_, positions_, boundary_);
+  if (form_.vertices.size() < 2) {
+    throw InvalidMesh("The patch's longest boundary loop has no length; clean up its coincident vertices.");
+  }
+  watch.lap("assembly");
+}
+
+Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double relative_shift,
+                                             const Progress& progress) {
+  ShiftedFactor result;
+  HermitianMatrix shifted = energy_->matrix();
+  double mean_diagonal = 0;
+  for (int v = 0; v < shifted.cols(); ++v) {
+    mean_diagonal += shifted.valuePtr()[shifted.outerIndexPtr()[v]].real() / static_cast<double>(shifted.cols());
+  }
+  const double mean_mass = form.total() / static_cast<double>(form.vertices.size());
+  result.factorization = make_factorization(backend_);
+  report(progress, 0.0, "ordering");
+  result.factorization->analyze(shifted);
+  constexpr int max_raises = 4;
+  double added = 0;
+  for (int raise = 0; raise <= max_raises; ++raise) {
+    report(progress, 0.2, "factorization");
+    result.shift = relative_shift * std::pow(100.0, raise) * mean_diagonal / mean_mass;
+    for (std::size_t i = 0; i < form.vertices.size(); ++i) {
+      const int v = form.vertices[i];
+      shifted.valuePtr()[shifted.outerIndexPtr()[v]] =
+          energy_->matrix().valuePtr()[energy_->matrix().outerIndexPtr()[v]] + result.shift * form.mass[i];
+    }
+    if (result.factorization->factorize(shifted)) return result;
+    added = result.shift;
+  }
+  throw SolveFailure(
+      "The conformal energy could not be factorised, even with a shift of " + std::to_string(added) +
+      " of the boundary form: the patch has too many degenerate triangles. Merge vertices by distance or dissolve "
+      "degenerate faces.");
+}
+
+void Solver::factorize(const Progress& progress) {
+  if (factor_.factorization) return;
+  Stopwatch watch(set_up_timings_);
+  factor_ = factor_shifted(form_, attempts[0].relative_shift, progress);
+  watch.lap("factorization");
+}
+
+Parameterization Solver::solve(Method method, const Pins& pins, double tolerance, const Progress& progress) {
+  if (method == Method::lscm) return solve_pinned(pins, progress);
+  if (!pins.empty()) throw std::invalid_argument("Only the method 'lscm' takes pins.");
+  return solve_spectral(method, tolerance, progress);
+}
+
+double Solver::lambda_unit(Method method) const {
+  if (method == Method::area) return 1;
+  // positions_ = positions / scale_. Lengths, and with them M, are divided by scale_; L has weight_unit / |T|.
+  const double energy_unit = energy_->weight_unit() == 1 ? 1 : energy_->weight_unit() * scale_ * scale_;
+  const double mass_unit = method != Method::fiedler && boundary_ == BoundaryMeasure::length ? 1 / scale_ : 1;
+  return mass_unit / energy_unit;
+}
+
+Parameterization Solver::solve_spectral(Method method, double tolerance, const Progress& progress) {
+  const bool own_form = method == Method::fiedler;
+  const BoundaryForm identity = own_form ? identity_form(energy_->n_vertices()) : BoundaryForm{};
+  const BoundaryForm& form = own_form ? identity : form_;
+  Timings timings;
+  std::string why;
+  for (const Attempt& attempt : attempts) {
+    Stopwatch watch(timings);
+    ShiftedFactor own_factor;
+    const bool first = &attempt == &attempts[0];
+    if (first && !own_form) {
+      const bool factored = factor_.factorization != nullptr;
+      factorize(part(progress, 0.0, 0.6));
+      if (factored) report(progress, 0.6, "eigenproblem");
+    } else {
+      own_factor = factor_shifted(form, attempt.relative_shift, part(progress, 0.0, 0.6));
+    }
+    ShiftedFactor& factor = own_factor.factorization ? own_factor : factor_;
+    watch.lap(own_factor.factorization ? "factorization" : "waiting");
+    EigenproblemOptions options;
+    options.tolerance = tolerance * attempt.tolerance_factor;
+    options.start = attempt.start;
+    options.krylov_dimension = attempt.krylov_dimension;
+    const Progress eigen_progress = part(progress, 0.6, 0.95);
+    Eigenpair pair =
+        method == Method::area
+            ? solve_area_eigenproblem(*factor.factorization, *energy_, form, factor.shift, options, eigen_progress)
+            : solve_eigenproblem(*factor.factorization, energy_->n_vertices(), form, options, eigen_progress);
+    if (!pair.converged || !(pair.residual < residual_limit)) {
+      why = "The eigenvalue iteration did not converge";
+      continue;
+    }
+    Parameterization result;
+    result.z = std::move(pair.vector);
+    result.iterations = pair.solves;
+    const double scale_of_residual = largest_diagonal(energy_->matrix());
+    double lambda = 0;
+    if (method == Method::area) {
+      lambda = energy_->value(result.z) / energy_->area_form(result.z);
+      result.residual = pair.residual;
+    } else {
+      // Inverse iteration on the residual: removes what rounding in the factor left.
+      ComplexVector r;
+      ComplexVector correction;
+      constexpr int corrections = 1;
+      for (int k = 0;; ++k) {
+        lambda = energy_->value(result.z) / form.value(result.z);
+        eigen_residual(*energy_, form, result.z, lambda, r);
+        result.residual = r.norm() / (scale_of_residual * result.z.norm());
+        if (k == corrections) break;
+        factor.factorization->solve(r, correction);
+        ++result.iterations;
+        result.z -= correction;
+        result.z.array() -= result.z.mean();
+      }
+    }
+    result.eigenvalue = lambda * lambda_unit(method);
+    watch.lap("eigenproblem");
+    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
+    if (!result.z.allFinite() || !std::isfinite(lambda)) {
+      why = "The result is not finite";
+      continue;
+    }
+    if (!place(result.z, *energy_, outer_, positions_, energy_->area() * scale_ * scale_)) {
+      why = "The map has no positive area";
+      continue;
+    }
+    if (method == Method::spectral && result.turning_number != 1) {
+      why = "The boundary of the map winds round " + std::to_string(result.turning_number) + " times instead of once";
+      continue;
+    }
+    watch.lap("placement");
+    result.message = attempt.remedy;
+    result.timings = set_up_timings_;
+    for (const auto& timing : timings) {
+      if (timing.first != "waiting") result.timings.push_back(timing);
+    }
+    return result;
+  }
+  throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) +
+                     " attempts with different shifts and starts. Add seams that make the patch flatter, or clean up "
+                     "degenerate faces.");
+}
+
+Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress) {
+  Parameterization result;
+  result.timings = set_up_timings_;
+  Stopwatch watch(result.timings);
+  const bool hold = pins.size() >= 2;
+  Pins held;
+  Complex origin = 0;
+  if (hold) {
+    // Lengths of the plane are measured in a unit of their own, so that pins of any magnitude solve alike.
+    for (const auto& pin : pins) origin += pin.second / static_cast<double>(pins.size());
+    double extent = 0;
+    for (const auto& pin : pins) extent = std::max(extent, std::abs(pin.second - origin));
+    if (!(extent > 0) || !std::isfinite(extent)) {
+      throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
+    }
+    held = pins;
+  } else {
+    const auto pair = farthest_boundary_vertices(outer_, positions_, energy_->matrix());
+    held[pair[0]] = 0.0;
+    held[pair[1]] = (positions_.row(pair[1]) - positions_.row(pair[0])).norm() > 0
+                        ? (positions_.row(pair[1]) - positions_.row(pair[0])).norm()
+                        : 1.0;
+  }
+  PinnedSolution solution = solve_lscm(*energy_, held, backend_, progress);
+  result.z = std::move(solution.vector);
+  result.residual = solution.residual;
+  result.iterations = 1;
+  watch.lap("solve");
+  if (!result.z.allFinite()) throw SolveFailure("The pinned map is not finite; clean up degenerate faces.");
+  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
+  result.eigenvalue = energy_->value(result.z) / form_.value(result.z) * lambda_unit(Method::lscm);
+  if (!hold) {
+    if (!place(result.z, *energy_, outer_, positions_, energy_->area() * scale_ * scale_)) {
+      throw SolveFailure("The pinned map has no positive area. Use the spectral method, or pin other vertices.");
+    }
+    if (pins.size() == 1) {
+      const auto& [vertex, position] = *pins.begin();
+      result.z.array() += position - result.z[vertex];
+      result.z[vertex] = position;
+    }
+  }
+  watch.lap("placement");
+  return result;
+}
+
+}  // namespace spectral_conformal

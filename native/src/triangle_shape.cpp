@@ -1,0 +1,57 @@
+#include "spectral_conformal/triangle_shape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace spectral_conformal {
+
+double triangle_area(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) {
+  return 0.5 * (p1 - p0).cross(p2 - p0).norm();
+}
+
+namespace {
+
+/// The corner opposite to the longest side is lifted off that side.
+TriangleShape lay_out_clamped(const std::array<Eigen::Vector3d, 3>& p) {
+  const double lengths[3] = {(p[2] - p[1]).norm(), (p[0] - p[2]).norm(), (p[1] - p[0]).norm()};
+  const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
+  const double length = lengths[apex];
+  TriangleShape shape;
+  shape.clamped = true;
+  if (!(length > 0)) {
+    shape.x2 = 0.5;
+    shape.y2 = std::sqrt(0.75);
+    return shape;
+  }
+  const Eigen::Vector3d& base = p[(apex + 1) % 3];
+  const double foot = (p[apex] - base).dot(p[(apex + 2) % 3] - base) / length;
+  std::array<Complex, 3> z;
+  z[apex] = Complex(foot, TriangleShape::minimum_height * length);
+  z[(apex + 1) % 3] = 0.0;
+  z[(apex + 2) % 3] = length;
+  const Complex side = z[1] - z[0];
+  const Complex third = (z[2] - z[0]) * std::conj(side);
+  shape.x1 = std::abs(side);
+  shape.x2 = third.real() / shape.x1;
+  shape.y2 = TriangleShape::minimum_height * length * length / shape.x1;
+  return shape;
+}
+
+}  // namespace
+
+TriangleShape lay_out(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) {
+  const Eigen::Vector3d e1 = p1 - p0;
+  const Eigen::Vector3d e2 = p2 - p0;
+  const double double_area = e1.cross(e2).norm();
+  const double longest_squared = std::max({e1.squaredNorm(), e2.squaredNorm(), (p2 - p1).squaredNorm()});
+  if (!(double_area > TriangleShape::minimum_height * longest_squared)) return lay_out_clamped({p0, p1, p2});
+  TriangleShape shape;
+  shape.x1 = e1.norm();
+  shape.x2 = e1.dot(e2) / shape.x1;
+  shape.y2 = double_area / shape.x1;
+  return shape;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,125 @@
+#include "spectral_conformal/unwrap.h"
+
+#include <algorithm>
+
+#include "spectral_conformal/distortion.h"
+
+namespace spectral_conformal {
+namespace {
+
+std::string count(int n, const char* what) { return std::to_string(n) + " " + what; }
+
+/// What was done to the chart's faces before it could be solved; "" for a clean chart.
+std::string repairs(const Chart& chart, int clamped) {
+  std::string text;
+  if (chart.reversed_faces > 0) text += count(chart.reversed_faces, "face(s) wound the other way were turned. ");
+  if (!chart.duplicates.empty()) {
+    text += count(static_cast<int>(chart.duplicates.size()), "duplicate face(s) took the place of their twins. ");
+  }
+  if (chart.self_intersecting_polygons > 0) {
+    text += count(chart.self_intersecting_polygons, "self-intersecting polygon(s) were split as a fan. ");
+  }
+  if (clamped > 0) text += count(clamped, "degenerate triangle(s) were given a minimal height. ");
+  return text;
+}
+
+/// The pins of the mesh on the copies that a chart has of their vertices.
+Pins pins_of(const Chart& chart, const Pins& pins) {
+  Pins result;
+  if (pins.empty()) return result;
+  for (int v = 0; v < chart.n_vertices(); ++v) {
+    const auto pin = pins.find(chart.vertices[v]);
+    if (pin != pins.end()) result[v] = pin->second;
+  }
+  return result;
+}
+
+/// Solves one chart and fills in its report; the map goes to `z`.
+void solve_chart(const PolygonMesh& mesh, const Chart& chart, const ParameterizeOptions& options, const Pins& pins,
+                 const Progress& progress, UnwrappedChart& report, ComplexVector& z) {
+  const Positions positions = chart.positions(mesh);
+  try {
+    Solver solver(chart, positions, options.weights, options.boundary, options.backend);
+    Parameterization solution = solver.solve(options.method, pins_of(chart, pins), options.tolerance, progress);
+    z = std::move(solution.z);
+    report.solved = true;
+    report.message = solution.message + repairs(chart, solver.energy().clamped_triangles());
+    if (!report.message.empty()) report.message.pop_back();
+    report.eigenvalue = solution.eigenvalue;
+    report.residual = solution.residual;
+    report.iterations = solution.iterations;
+    report.turning_number = solution.turning_number;
+  } catch (const InvalidMesh& problem) {
+    report.message = problem.what();
+  } catch (const SolveFailure& problem) {
+    report.message = problem.what();
+  }
+  if (!report.solved) return;
+  const Distortion distortion = measure_distortion(positions, chart.triangles, chart.coverage, z);
+  report.mean_qc = distortion.mean_qc;
+  report.max_qc = distortion.max_qc;
+  int last = -1;
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    if (!distortion.flipped[t] || chart.triangle_face[t] == last) continue;
+    last = chart.triangle_face[t];
+    ++report.flipped;
+  }
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const auto& [a, b, c] = chart.triangles[t];
+    report.area += chart.coverage[t] * triangle_area(positions.row(a), positions.row(b), positions.row(c));
+  }
+}
+
+}  // namespace
+
+Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const Pins& pins, const Progress& progress) {
+  report(progress, 0.0, "charts");
+  ChartDecomposition decomposition = build_charts(mesh);
+  const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
+  Unwrap result;
+  result.uv.setZero(n_corners, 2);
+  result.solved_corners.assign(static_cast<std::size_t>(n_corners), false);
+  result.charts.reserve(decomposition.charts.size() + 1);
+  double total_faces = 1e-9;
+  for (const Chart& chart : decomposition.charts) total_faces += static_cast<double>(chart.faces.size());
+
+  double done = 0;
+  for (Chart& chart : decomposition.charts) {
+    UnwrappedChart unwrapped;
+    unwrapped.n_vertices = chart.n_vertices();
+    const double share = static_cast<double>(chart.faces.size()) / total_faces;
+    ComplexVector z;
+    solve_chart(mesh, chart, options, pins, part(progress, 0.05 + 0.95 * done, 0.05 + 0.95 * (done + share)), unwrapped,
+                z);
+    done += share;
+    unwrapped.faces = std::move(chart.faces);
+    unwrapped.faces.insert(unwrapped.faces.end(), chart.duplicates.begin(), chart.duplicates.end());
+    std::sort(unwrapped.faces.begin(), unwrapped.faces.end());
+    if (unwrapped.solved) {
+      for (const int face : unwrapped.faces) {
+        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+          const Complex uv = z[decomposition.chart_vertex_of_corner[c]];
+          result.uv.row(c) << uv.real(), uv.imag();
+          result.solved_corners[c] = true;
+        }
+      }
+    }
+    chart = Chart{};  // gives its memory back before the next solve
+    result.charts.push_back(std::move(unwrapped));
+  }
+  result.chart_of_face = std::move(decomposition.chart_of_face);
+  if (!decomposition.degenerate_faces.empty()) {
+    for (const int face : decomposition.degenerate_faces) {
+      result.chart_of_face[face] = static_cast<int>(result.charts.size());
+    }
+    UnwrappedChart unusable;
+    unusable.faces = std::move(decomposition.degenerate_faces);
+    unusable.message =
+        "Faces with fewer than three different vertices, or with the same vertex twice in a row, cannot be unwrapped; "
+        "delete them or merge their vertices.";
+    result.charts.push_back(std::move(unusable));
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal
