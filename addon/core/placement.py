@@ -91,14 +91,14 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
     if len(charts.corners) == 0:
         return result, placed
     former_low, former_high = charts.bounds(former)
-    # Halved before adding: coordinates near the largest float must not overflow.
-    centre = former_low / 2.0 + former_high / 2.0
-    room = former_high - former_low
-    fits = np.isfinite(room).all(axis=1) & (room > 0.0).all(axis=1)
+    centre = (former_low + former_high) / 2.0
+    with np.errstate(invalid="ignore"):
+        room = np.nan_to_num(former_high - former_low, nan=0.0, posinf=0.0)
+    fits = (room > 0.0).all(axis=1)
 
     low, high = charts.bounds(result)
     size = high - low
-    points = result[charts.corners] - (low / 2.0 + high / 2.0)[charts.rank]
+    points = result[charts.corners] - ((low + high) / 2.0)[charts.rank]
     turn = fits & (_largest_scale(size[:, ::-1], room) > _largest_scale(size, room))
     turned = turn[charts.rank]
     points[turned] = np.column_stack([-points[turned, 1], points[turned, 0]])
@@ -114,5 +114,4 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
 
 def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
     """Return the largest factors by which boxes of `size` (K, 2) still fit into `room` (K, 2)."""
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return np.nanmin(np.where(size > 0.0, room / size, np.inf), axis=1)
+    return np.divide(room, size, out=np.full_like(size, np.inf), where=size > 0.0).min(axis=1)

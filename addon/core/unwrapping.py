@@ -67,7 +67,7 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
             boundary=options.boundary,
             progress=progress,
         )
-    except module.InvalidMeshError as error:
+    except ValueError as error:
         corners = len(mesh.corner_vertices)
         return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), str(error))
     chart_of_corner = result.chart_of_face[mesh.face_of_corner()]

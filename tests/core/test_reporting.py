@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sentences that the user reads."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from spectral_unwrap.core import reporting
+from spectral_unwrap.core.unwrapping import Solution
+
+
+def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0):
+    return SimpleNamespace(status="solved", message="", area=area, mean_qc=mean_qc, max_qc=max_qc, flipped=flipped)
+
+
+def failed(message):
+    nan = float("nan")
+    return SimpleNamespace(status="failed", message=message, area=nan, mean_qc=nan, max_qc=nan, flipped=0)
+
+
+def summary(*charts, error=""):
+    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), charts, error)
+    return reporting.summarize([solution], ["Object"])
+
+
+def test_mean_is_weighted_by_area_and_maximum_is_over_all():
+    result = summary(solved(3.0, 1.0, 1.5, 2), failed("closed"), solved(1.0, 2.0, 4.0, 1))
+    assert (result.solved, result.failed) == (2, 1)
+    assert result.mean_qc == pytest.approx(1.25)
+    assert (result.max_qc, result.flipped) == (4.0, 3)
+
+
+@pytest.mark.parametrize("area", [1e-300, 1e300])
+def test_mean_does_not_overflow(area):
+    assert summary(solved(area, 1.5), solved(area, 1.5)).mean_qc == pytest.approx(1.5)
+
+
+def test_information():
+    one = reporting.information(summary(solved(1.0, 1.01, 1.5, 1)), 0.257)
+    assert one == "Unwrapped 1 island: mean QC 1.0100, maximum QC 1.5000, 1 flipped face, 0.26 s"
+    two = reporting.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0)
+    assert two == "Unwrapped 2 islands: mean QC 1.0000, maximum QC 1.23e+04, 0 flipped faces, 12.00 s"
+
+
+def test_no_failures_no_warning():
+    assert reporting.failures(summary(solved())) == ""
+    assert reporting.without_bounds(0) == ""
+
+
+def test_equal_reasons_are_grouped():
+    one = reporting.failures(summary(solved(), failed("closed; mark seams"), failed("closed; mark seams")))
+    assert one == "2 of 3 islands failed and kept their UVs: closed; mark seams"
+    two = reporting.failures(summary(failed("flat"), failed("closed"), failed("closed")))
+    assert two == "3 of 3 islands failed and kept their UVs: 2: closed; 1: flat"
+
+
+def test_refused_meshes_are_named():
+    assert reporting.failures(summary(error="no vertices")) == "Not unwrapped: Object: no vertices"
