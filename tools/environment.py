@@ -28,8 +28,16 @@ APT: dict[str, list[str]] = {
     "demo": [],
     "package": [],
     "test": [
-        "blender", "clang-format", "clang-tidy", "doctest-dev", "imagemagick", "libgl1-mesa-dri", "python3-numpy",
-        "x11-utils", "xdotool", "xvfb",
+        "blender",
+        "clang-format",
+        "clang-tidy",
+        "doctest-dev",
+        "imagemagick",
+        "libgl1-mesa-dri",
+        "python3-numpy",
+        "x11-utils",
+        "xdotool",
+        "xvfb",
     ],
 }
 # Debian's own interpreter comes without these; another one (pyenv) brings them along.
@@ -38,7 +46,11 @@ APT_SYSTEM_PYTHON = ["python3-dev", "python3-venv"]
 PIP: dict[str, list[str]] = {
     # bpy asks for NumPy 1; for Pythons that have none there is no bpy either.
     "build": [
-        "cmake>=3.22", "ninja", "numpy<2; python_version<'3.13'", "numpy; python_version>='3.13'", "pybind11>=2.12",
+        "cmake>=3.22",
+        "ninja",
+        "numpy<2; python_version<'3.13'",
+        "numpy; python_version>='3.13'",
+        "pybind11>=2.12",
         "scikit-build-core>=0.10",
     ],
     "bpy": ["bpy"],
@@ -71,7 +83,9 @@ def install_system_packages(groups: Sequence[str]) -> None:
         print(f"- not a Debian system: make sure that it has what these packages hold: {' '.join(wanted)}")
         return
     query = subprocess.run(
-        ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Status}\n"], stdout=subprocess.PIPE, text=True,
+        ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Status}\n"],
+        stdout=subprocess.PIPE,
+        text=True,
         check=True,
     )
     installed = {line.split()[0] for line in query.stdout.splitlines() if line.endswith(" installed")}

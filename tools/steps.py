@@ -47,8 +47,13 @@ def run(title: str, command: Sequence[object], *, log: str, environ: Mapping[str
         output.flush()
         try:
             code = subprocess.run(
-                words, cwd=ROOT, env={**os.environ, **(environ or {})}, stdin=subprocess.DEVNULL, stdout=output,
-                stderr=subprocess.STDOUT, check=False,
+                words,
+                cwd=ROOT,
+                env={**os.environ, **(environ or {})},
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                check=False,
             ).returncode
         except FileNotFoundError as error:
             raise StepError(f"{title}: {error.filename} is not installed.") from error

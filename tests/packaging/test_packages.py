@@ -94,9 +94,7 @@ def foreign_libraries(seen, tmp_path):
     names = re.compile(r"cholmod|openblas|lapack|blas|metis|colamd|gfortran|suitesparse")
     ours = [path for path in seen["libraries"] if names.search(Path(path).name) and "spectral_conformal" in path]
     assert any("cholmod" in path for path in ours), "the native module was not loaded from the package"
-    return [
-        path for path in seen["libraries"] if names.search(Path(path).name) and not path.startswith(str(tmp_path))
-    ]
+    return [path for path in seen["libraries"] if names.search(Path(path).name) and not path.startswith(str(tmp_path))]
 
 
 def test_zips_are_reproducible(packages):

@@ -129,7 +129,7 @@ def add_camera() -> None:
     camera = bpy.data.cameras.new("Camera")
     camera.lens = 85
     item = bpy.data.objects.new("Camera", camera)
-    item.matrix_world = looking_at_origin(Vector((0, -5.3, 0.75)))
+    item.matrix_world = looking_at_origin(Vector((0, -5.05, 0.72)))
     bpy.context.scene.collection.objects.link(item)
     bpy.context.scene.camera = item
 

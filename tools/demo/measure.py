@@ -7,6 +7,7 @@ import json
 import os
 import platform
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import matplotlib
@@ -34,19 +35,23 @@ def main() -> None:
     for method, seconds in facts["seconds"].items():
         corner_uv = arrays[method].astype(float)
         islands, qc, flipped = measure(vertices, triangles, corner_uv)
+        solved = np.isfinite(qc) & (area > 0)
+        if not solved.any():
+            sys.exit(f"{method} has left all UVs at zero")
         rows.append(
             {
                 "method": method,
-                "mean_qc": float(np.average(qc, weights=area)),
-                "p99_qc": float(np.percentile(qc, 99)),
-                "max_qc": float(qc.max()),
+                "mean_qc": float(np.average(qc[solved], weights=area[solved])),
+                "p99_qc": float(np.percentile(qc[solved], 99)),
+                "max_qc": float(qc[solved].max()),
                 "flips": int(flipped.sum()),
+                "triangles_left_out": int((~solved).sum()),
                 "islands": int(islands.max()) + 1,
                 "seconds": seconds,
             }
         )
         if method == SPECTRAL:
-            draw_layout(corner_uv, qc, rows[-1], output / "uv_layout.png")
+            draw_layout(corner_uv[solved], qc[solved], rows[-1], output / "uv_layout.png")
     report = {
         "mesh": {
             "name": facts["mesh"],
@@ -58,7 +63,7 @@ def main() -> None:
         "methods": rows,
         "versions": {
             "blender": facts["blender"],
-            "spectral_conformal": spectral_conformal.__version__,
+            "spectral_conformal": version("spectral_conformal"),
             "build": spectral_conformal.build_info(),
             "numpy": np.__version__,
             "scipy": scipy.__version__,
@@ -74,7 +79,8 @@ def measure(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return island, QC and whether flipped, each (F,), of UVs given per triangle corner (F,3,2).
 
-    Islands are triangles that share a vertex with the same UV; each counts its flips against its own majority.
+    Islands are triangles that share a vertex with the same UV; each counts its flips against its own majority. The
+    triangles of an island without area in the map have no QC: NaN.
     """
     keys = np.column_stack([triangles.reshape(-1), corner_uv.reshape(-1, 2)])
     points, corners = np.unique(keys, axis=0, return_inverse=True)
@@ -82,13 +88,16 @@ def measure(
     pairs = np.concatenate([welded[:, [0, 1]], welded[:, [1, 2]]])
     graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(points), len(points)))
     islands = connected_components(graph, directed=False)[1][welded[:, 0]]
-    qc, flipped = np.empty(len(triangles)), np.zeros(len(triangles), bool)
+    qc, flipped = np.full(len(triangles), np.nan), np.zeros(len(triangles), bool)
     for island in range(islands.max() + 1):
         chosen = np.flatnonzero(islands == island)
         used, local = np.unique(welded[chosen], return_inverse=True)
         uv = points[used, 1:]
         local = local.reshape(-1, 3)
-        if signed_areas(uv[local]).sum() < 0:
+        area = signed_areas(uv[local]).sum()
+        if area == 0:
+            continue
+        if area < 0:
             uv = uv * (-1, 1)
         result = spectral_conformal.distortion(vertices[points[used, 0].astype(int)], local, uv)
         qc[chosen], flipped[chosen] = result.qc, result.flipped
