@@ -35,11 +35,11 @@ class ReducedOperator {
  public:
   using Scalar = double;  // for Spectra, which sees the real view
 
-  ReducedOperator(Factorization& factorization, Eigen::Index n_vertices, const BoundaryForm& form,
-                  const Progress& progress)
-      : factorization_(factorization), form_(form), progress_(progress), full_(n_vertices) {
-    root_mass_ = form.mass.cwiseSqrt();
+  ReducedOperator(Factorization& factorization, const BoundaryForm& form, const Progress& progress)
+      : factorization_(factorization), form_(form), progress_(progress) {
+    root_mass_ = form.mass.cwiseSqrt().cast<Complex>();
     constant_ = root_mass_ / root_mass_.norm();
+    factorization_.select(form.vertices);
   }
 
   Eigen::Index complex_size() const { return form_.mass.size(); }
@@ -48,30 +48,33 @@ class ReducedOperator {
   int solves() const { return solves_; }
 
   void project(Eigen::Ref<ComplexVector> y) const {
-    const Complex along = constant_.cast<Complex>().dot(y);
-    y -= along * constant_.cast<Complex>();
+    const Complex along = constant_.dot(y);
+    y -= along * constant_;
   }
 
   /// z = (L + s M)^-1 S M^1/2 y.
-  void extend(const Eigen::Ref<const ComplexVector>& y, ComplexVector& z) const {
-    report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-    full_.setZero();
-    for (Eigen::Index i = 0; i < y.size(); ++i) full_[form_.vertices[i]] = root_mass_[i] * y[i];
-    factorization_.solve(full_, z);
+  void extend(const ComplexVector& y, ComplexVector& z) const {
+    weighted_ = root_mass_.cwiseProduct(y);
+    factorization_.solve_from_selected(weighted_, z);
     ++solves_;
+  }
+
+  /// T y.
+  void apply(const Eigen::Ref<const ComplexVector>& y, Eigen::Ref<ComplexVector> result) const {
+    report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
+    weighted_ = y;
+    project(weighted_);
+    weighted_ = root_mass_.cwiseProduct(weighted_).eval();
+    factorization_.solve_selected(weighted_, solved_);
+    ++solves_;
+    result = root_mass_.cwiseProduct(solved_);
+    project(result);
   }
 
   /// M^1/2 S^T z, projected.
   void restrict_to_mass(const ComplexVector& z, Eigen::Ref<ComplexVector> y) const {
     for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = root_mass_[i] * z[form_.vertices[i]];
     project(y);
-  }
-
-  void apply(const Eigen::Ref<const ComplexVector>& y, Eigen::Ref<ComplexVector> result) const {
-    projected_ = y;
-    project(projected_);
-    extend(projected_, extended_);
-    restrict_to_mass(extended_, result);
   }
 
   void perform_op(const double* x, double* y) const {
@@ -84,12 +87,11 @@ class ReducedOperator {
   Factorization& factorization_;
   const BoundaryForm& form_;
   const Progress& progress_;
-  Eigen::VectorXd root_mass_;
-  Eigen::VectorXd constant_;
+  ComplexVector root_mass_;
+  ComplexVector constant_;
   // Work space; Spectra takes the operator by const reference.
-  mutable ComplexVector full_;
-  mutable ComplexVector projected_;
-  mutable ComplexVector extended_;
+  mutable ComplexVector weighted_;
+  mutable ComplexVector solved_;
   mutable int solves_ = 0;
 };
 
@@ -194,9 +196,9 @@ class ShiftedOperator {
 
 }  // namespace
 
-Eigenpair solve_eigenproblem(Factorization& factorization, Eigen::Index n_vertices, const BoundaryForm& form,
-                             const EigenproblemOptions& options, const Progress& progress) {
-  ReducedOperator op(factorization, n_vertices, form, progress);
+Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
+                             const Progress& progress) {
+  ReducedOperator op(factorization, form, progress);
   const Eigen::Index n = op.complex_size();
   Eigenpair result;
   ComplexVector y;

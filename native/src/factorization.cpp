@@ -1,6 +1,7 @@
 #include "spectral_conformal/factorization.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <mutex>
 #include <new>
 #include <stdexcept>
@@ -12,8 +13,13 @@
 #if defined(__unix__) || defined(__APPLE__)
 #include <dlfcn.h>
 #endif
-// The LAPACK routine whose address tells which library serves CHOLMOD; Fortran linkage.
-extern "C" void zpotrf_(const char*, const int*, void*, const int*, int*);
+// BLAS and LAPACK, Fortran linkage. The address of zpotrf_ tells which library serves CHOLMOD.
+extern "C" {
+void zpotrf_(const char*, const int*, void*, const int*, int*);
+void ztrsv_(const char*, const char*, const char*, const int*, const void*, const int*, void*, const int*);
+void zgemv_(const char*, const int*, const int*, const void*, const void*, const int*, const void*, const int*,
+            const void*, void*, const int*);
+}
 #endif
 
 namespace spectral_conformal {
@@ -31,6 +37,21 @@ class EigenFactorization final : public Factorization {
 
   void solve(const ComplexVector& b, ComplexVector& x) override { x = ldlt_.solve(b); }
 
+  void select(std::vector<int> vertices) override { selected_ = std::move(vertices); }
+
+  void solve_selected(const ComplexVector& b, ComplexVector& x) override {
+    ComplexVector full;
+    solve_from_selected(b, full);
+    x.resize(b.size());
+    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = full[selected_[i]];
+  }
+
+  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
+    ComplexVector full = ComplexVector::Zero(ldlt_.rows());
+    for (Eigen::Index i = 0; i < b.size(); ++i) full[selected_[i]] = b[i];
+    x = ldlt_.solve(full);
+  }
+
   double factor_nonzeros() const override {
     const HermitianMatrix& factor = ldlt_.matrixL().nestedExpression();
     return static_cast<double>(factor.nonZeros());
@@ -38,6 +59,7 @@ class EigenFactorization final : public Factorization {
 
  private:
   Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> ldlt_;
+  std::vector<int> selected_;
 };
 
 #ifdef SPECTRAL_CONFORMAL_HAVE_CHOLMOD
@@ -123,9 +145,6 @@ class CholmodFactorization final : public Factorization {
   }
   ~CholmodFactorization() override {
     cholmod_free_factor(&factor_, &common_);
-    cholmod_free_dense(&solution_, &common_);
-    cholmod_free_dense(&work_1_, &common_);
-    cholmod_free_dense(&work_2_, &common_);
     cholmod_finish(&common_);
   }
   CholmodFactorization(const CholmodFactorization&) = delete;
@@ -139,6 +158,16 @@ class CholmodFactorization final : public Factorization {
     cholmod_sparse view = view_of(matrix);
     factor_ = cholmod_analyze(&view, &common_);
     check();
+    supernode_of_.resize(factor_->n);
+    all_.resize(factor_->nsuper);
+    int most_rows = 0;
+    for (int k = 0; k < static_cast<int>(factor_->nsuper); ++k) {
+      all_[k] = k;
+      most_rows = std::max(most_rows, rows(k));
+      for (int column = first_column(k); column < first_column(k + 1); ++column) supernode_of_[column] = k;
+    }
+    work_.setZero(static_cast<Eigen::Index>(factor_->n));
+    below_.resize(most_rows);
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
@@ -152,22 +181,110 @@ class CholmodFactorization final : public Factorization {
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
     const SingleThreadedBlas single(blas_);
-    cholmod_dense rhs{};
-    rhs.nrow = static_cast<std::size_t>(b.size());
-    rhs.ncol = 1;
-    rhs.nzmax = rhs.nrow;
-    rhs.d = rhs.nrow;
-    rhs.x = const_cast<Complex*>(b.data());  // CHOLMOD's interface has no const; it only reads
-    rhs.xtype = CHOLMOD_COMPLEX;
-    rhs.dtype = CHOLMOD_DOUBLE;
-    cholmod_solve2(CHOLMOD_A, factor_, &rhs, nullptr, &solution_, nullptr, &work_1_, &work_2_, &common_);
-    check();
-    x = Eigen::Map<const ComplexVector>(static_cast<const Complex*>(solution_->x), b.size());
+    const int* order = permutation();
+    for (std::size_t i = 0; i < factor_->n; ++i) work_[static_cast<Eigen::Index>(i)] = b[order[i]];
+    forward(all_);
+    backward(all_);
+    permute_back(x);
+  }
+
+  void select(std::vector<int> vertices) override {
+    std::vector<int> place(factor_->n);
+    for (std::size_t i = 0; i < factor_->n; ++i) place[permutation()[i]] = static_cast<int>(i);
+    selected_.clear();
+    for (const int vertex : vertices) selected_.push_back(place[vertex]);
+    // Everything above the selected vertices in the elimination tree of supernodes.
+    std::vector<char> reached(factor_->nsuper, 0);
+    for (const int column : selected_) {
+      for (int k = supernode_of_[column]; k >= 0 && !reached[k]; k = parent(k)) reached[k] = 1;
+    }
+    reached_.clear();
+    for (std::size_t k = 0; k < factor_->nsuper; ++k) {
+      if (reached[k]) reached_.push_back(static_cast<int>(k));
+    }
+  }
+
+  void solve_selected(const ComplexVector& b, ComplexVector& x) override {
+    const SingleThreadedBlas single(blas_);
+    for (const int k : reached_) work_.segment(first_column(k), columns(k)).setZero();
+    for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
+    forward(reached_);
+    backward(reached_);
+    x.resize(b.size());
+    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = work_[selected_[i]];
+  }
+
+  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
+    const SingleThreadedBlas single(blas_);
+    work_.setZero();
+    for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
+    forward(reached_);
+    backward(all_);
+    permute_back(x);
   }
 
   double factor_nonzeros() const override { return static_cast<double>(factor_->xsize); }
 
  private:
+  // Supernode k: a dense column-major block of rows(k) x columns(k), lower triangular at the top; the rows below it are
+  // named by row_indices(k). CHOLMOD's User Guide, section "The cholmod_factor object".
+  const int* permutation() const { return static_cast<const int*>(factor_->Perm); }
+  int first_column(int k) const { return static_cast<const int*>(factor_->super)[k]; }
+  int columns(int k) const { return first_column(k + 1) - first_column(k); }
+  int rows(int k) const {
+    const int* start = static_cast<const int*>(factor_->pi);
+    return start[k + 1] - start[k];
+  }
+  const int* row_indices(int k) const {
+    return static_cast<const int*>(factor_->s) + static_cast<const int*>(factor_->pi)[k];
+  }
+  const Complex* block(int k) const {
+    return static_cast<const Complex*>(factor_->x) + static_cast<const int*>(factor_->px)[k];
+  }
+  int parent(int k) const { return rows(k) == columns(k) ? -1 : supernode_of_[row_indices(k)[columns(k)]]; }
+
+  /// work <- L^-1 work over the given supernodes, ascending.
+  void forward(const std::vector<int>& supernodes) {
+    constexpr int one = 1;
+    const Complex unit(1);
+    const Complex zero(0);
+    for (const int k : supernodes) {
+      const int width = columns(k);
+      const int height = rows(k);
+      const int below = height - width;
+      Complex* const own = work_.data() + first_column(k);
+      ztrsv_("L", "N", "N", &width, block(k), &height, own, &one);
+      if (below == 0) continue;
+      zgemv_("N", &below, &width, &unit, block(k) + width, &height, own, &one, &zero, below_.data(), &one);
+      const int* const target = row_indices(k) + width;
+      for (int i = 0; i < below; ++i) work_[target[i]] -= below_[i];
+    }
+  }
+
+  /// work <- L^-H work over the given supernodes, descending; closed under parents.
+  void backward(const std::vector<int>& supernodes) {
+    constexpr int one = 1;
+    const Complex minus(-1);
+    const Complex unit(1);
+    for (auto k = supernodes.rbegin(); k != supernodes.rend(); ++k) {
+      const int width = columns(*k);
+      const int height = rows(*k);
+      const int below = height - width;
+      Complex* const own = work_.data() + first_column(*k);
+      if (below > 0) {
+        const int* const source = row_indices(*k) + width;
+        for (int i = 0; i < below; ++i) below_[i] = work_[source[i]];
+        zgemv_("C", &below, &width, &minus, block(*k) + width, &height, below_.data(), &one, &unit, own, &one);
+      }
+      ztrsv_("L", "C", "N", &width, block(*k), &height, own, &one);
+    }
+  }
+
+  void permute_back(ComplexVector& x) const {
+    x.resize(work_.size());
+    for (Eigen::Index i = 0; i < work_.size(); ++i) x[permutation()[i]] = work_[i];
+  }
+
   static cholmod_sparse view_of(const HermitianMatrix& matrix) {
     cholmod_sparse view{};
     view.nrow = static_cast<std::size_t>(matrix.rows());
@@ -198,9 +315,12 @@ class CholmodFactorization final : public Factorization {
   Blas blas_;
   cholmod_common common_{};
   cholmod_factor* factor_ = nullptr;
-  cholmod_dense* solution_ = nullptr;
-  cholmod_dense* work_1_ = nullptr;
-  cholmod_dense* work_2_ = nullptr;
+  std::vector<int> supernode_of_;  ///< of each column
+  std::vector<int> all_;           ///< supernodes
+  std::vector<int> selected_;      ///< columns
+  std::vector<int> reached_;       ///< supernodes from the selected columns to the root, ascending
+  ComplexVector work_;             ///< in the factor's order
+  ComplexVector below_;            ///< rows below one supernode's triangle
 };
 
 #endif

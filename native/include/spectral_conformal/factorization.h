@@ -26,6 +26,13 @@ class Factorization {
   virtual bool factorize(const HermitianMatrix& matrix) = 0;
   /// Solves with the last factor: x = A^-1 b. b and x may be the same vector.
   virtual void solve(const ComplexVector& b, ComplexVector& x) = 0;
+  /// Chooses the vertices of the two solves below: distinct, of the analysed matrix.
+  virtual void select(std::vector<int> vertices) = 0;
+  /// x = S^T A^-1 S b for the selected vertices, S embedding them: both (n selected,). Passes only through the part of
+  /// the factor that they reach.
+  virtual void solve_selected(const ComplexVector& b, ComplexVector& x) = 0;
+  /// x = A^-1 S b, (n,), from b on the selected vertices.
+  virtual void solve_from_selected(const ComplexVector& b, ComplexVector& x) = 0;
   /// Nonzeros of the factor, as stored.
   virtual double factor_nonzeros() const = 0;
 };

@@ -24,7 +24,7 @@ struct ParameterizeOptions {
   Method method = Method::spectral;
   Weights weights = Weights::uniform;
   BoundaryMeasure boundary = BoundaryMeasure::length;
-  double tolerance = 1e-9;  ///< see EigenproblemOptions
+  double tolerance = 1e-8;  ///< see EigenproblemOptions
   FactorizationBackend backend = FactorizationBackend::automatic;
 };
 

@@ -19,7 +19,7 @@ Pins = Mapping[int, "tuple[float, float]"]
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 
-DEFAULT_TOLERANCE = 1e-9
+DEFAULT_TOLERANCE = 1e-8
 _INDEX_LIMIT = np.iinfo(np.int32).max
 
 
