@@ -59,6 +59,9 @@ PIP: dict[str, list[str]] = {
     "test": ["libigl", "pytest", "ruff", "scipy"],
 }
 NO_BPY = "no bpy for this Python"
+# The Python inside the system's Blender looks for its library beside the first python3 on the path (pyenv puts its own
+# there) and must find the system's.
+SYSTEM_PYTHON_FIRST = f"PATH=/usr/bin:{os.environ.get('PATH', '')}"
 NATIVE_INPUTS = ["CMakeLists.txt", "pyproject.toml", "native"]
 # A translation unit with CGAL, Eigen and pybind11 takes up to this much memory to compile.
 COMPILER_MEMORY = 2 * 1024**3
@@ -120,7 +123,7 @@ def as_root() -> list[str] | None:
 
 def make_venv() -> None:
     """Make build/venv with the Python that runs this, anew when it is broken or of another version."""
-    state = f"{sys.version} {sys.base_prefix}"
+    state = f"{sys.version_info[0]}.{sys.version_info[1]} {sys.base_prefix}"
     if steps.is_done("venv", state) and is_importable("pip"):
         return
     shutil.rmtree(VENV, ignore_errors=True)
@@ -160,7 +163,16 @@ def blender_command() -> list[str]:
     """Return the words that run a Python script in Blender: bpy in build/venv, or the system's Blender."""
     if is_importable("bpy"):
         return [str(PYTHON)]
-    return ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python"]
+    return [
+        "env",
+        SYSTEM_PYTHON_FIRST,
+        "blender",
+        "--background",
+        "--factory-startup",
+        "--python-exit-code",
+        "1",
+        "--python",
+    ]
 
 
 def build_native_module() -> None:
@@ -213,4 +225,5 @@ def report_blas() -> None:
 def run_pytest(arguments: Sequence[str]) -> int:
     """Run pytest in build/venv on the project and return its exit code."""
     sys.stdout.flush()
-    return subprocess.run([PYTHON, "-m", "pytest", *arguments], cwd=ROOT, check=False).returncode
+    command = ["env", SYSTEM_PYTHON_FIRST, PYTHON, "-m", "pytest", *arguments]
+    return subprocess.run(command, cwd=ROOT, check=False).returncode

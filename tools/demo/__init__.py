@@ -14,8 +14,8 @@ from tools.steps import BUILD, ROOT, StepError
 OUTPUT = BUILD / "demo"
 HERE = Path(__file__).resolve().parent
 SUFFIXES = (".obj", ".ply", ".stl", ".blend")
-# Where Blender looks for the add-on, under the name that it has when installed.
-ADDONS = BUILD / "demo-addons"
+# What the steps hand on to each other, and the add-on under the name that it has when installed.
+WORK = BUILD / "demo-work"
 RESULTS = ("mesh.obj", "mesh.blend", "uv_layout.png", "checker.png", "report.json")
 
 
@@ -32,17 +32,20 @@ def check_mesh(mesh: Path | None) -> Path | None:
 
 def run(mesh: Path | None) -> int:
     """Unwrap the mesh (Suzanne when None), write everything to build/demo/ and print the table."""
-    shutil.rmtree(OUTPUT, ignore_errors=True)
-    OUTPUT.mkdir(parents=True)
-    link_addon()
-    job = OUTPUT / "job.json"
+    for folder in (OUTPUT, WORK):
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+    # A link: no copy that could be stale.
+    (WORK / "addons").mkdir()
+    (WORK / "addons" / "spectral_unwrap").symlink_to(ROOT / "addon", target_is_directory=True)
+    job = WORK / "job.json"
     site_packages = next(VENV.glob("lib/python*/site-packages"))
     job.write_text(
         json.dumps(
             {
                 "mesh": str(mesh) if mesh else None,
                 "output": str(OUTPUT),
-                "addons": str(ADDONS),
+                "work": str(WORK),
                 "site_packages": str(site_packages),
             }
         )
@@ -57,14 +60,6 @@ def run(mesh: Path | None) -> int:
     for name in RESULTS:
         print(f"{(OUTPUT / name).relative_to(ROOT)}  {(OUTPUT / name).stat().st_size / 1e6:.1f} MB")
     return 0
-
-
-def link_addon() -> None:
-    """Make addon/ importable as the package spectral_unwrap, without a copy that could be stale."""
-    ADDONS.mkdir(parents=True, exist_ok=True)
-    link = ADDONS / "spectral_unwrap"
-    link.unlink(missing_ok=True)
-    link.symlink_to(ROOT / "addon", target_is_directory=True)
 
 
 def table(report: dict) -> str:

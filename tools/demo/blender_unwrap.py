@@ -37,24 +37,24 @@ IMPORTERS = {
 def main() -> None:
     """Do the job that the last argument names."""
     job = json.loads(Path(sys.argv[-1]).read_text())
-    output = Path(job["output"])
+    work = Path(job["work"])
     bpy.ops.wm.read_factory_settings(use_empty=True)
     mesh_file = Path(job["mesh"]) if job["mesh"] else None
     target = load(mesh_file) if mesh_file else suzanne.add_suzanne()
     require_boundary(target.data)
-    enable_addon(job)
+    enable_addon(work / "addons", job["site_packages"])
     seconds, uvs = {}, {}
     for name, operator in METHODS.items():
         seconds[name] = unwrap(target, name, operator)
         uvs[name] = corner_uvs(target.data, name)
     target.data.uv_layers.active = target.data.uv_layers[SPECTRAL]
     target.data.uv_layers[SPECTRAL].active_render = True
-    save(target, output)
+    save(target, Path(job["output"]))
     vertices, triangles, corners = geometry(target.data)
-    np.savez(output / "uvs.npz", vertices=vertices, triangles=triangles, **{k: v[corners] for k, v in uvs.items()})
+    np.savez(work / "uvs.npz", vertices=vertices, triangles=triangles, **{k: v[corners] for k, v in uvs.items()})
     facts = {"mesh": target.name, "vertices": len(vertices), "faces": len(target.data.polygons), "seconds": seconds,
              "blender": bpy.app.version_string}  # fmt: skip
-    (output / "blender.json").write_text(json.dumps(facts))
+    (work / "blender.json").write_text(json.dumps(facts))
 
 
 def load(path: Path) -> bpy.types.Object:
@@ -110,11 +110,11 @@ def require_boundary(mesh: bpy.types.Mesh) -> None:
     edit.free()
 
 
-def enable_addon(job: dict) -> None:
-    """Enable the add-on from the source tree."""
-    sys.path.insert(0, job["addons"])
-    # Last: Blender's own modules come first. The system's Blender does not know the environment's packages.
-    sys.path.append(job["site_packages"])
+def enable_addon(addons: Path, site_packages: str) -> None:
+    """Enable the add-on from its folder; the system's Blender takes the native module from build/venv."""
+    sys.path.insert(0, str(addons))
+    # Last: Blender's own modules come first.
+    sys.path.append(site_packages)
     if addon_utils.enable("spectral_unwrap") is None:
         sys.exit("The add-on could not be enabled; the reason is above")
 

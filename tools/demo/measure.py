@@ -25,10 +25,11 @@ SPECTRAL = "Spectral Unwrap"
 
 
 def main() -> None:
-    """Measure what blender_unwrap.py has left in the output folder."""
-    output = Path(json.loads(Path(sys.argv[-1]).read_text())["output"])
-    facts = json.loads((output / "blender.json").read_text())
-    arrays = np.load(output / "uvs.npz")
+    """Measure what blender_unwrap.py has left."""
+    job = json.loads(Path(sys.argv[-1]).read_text())
+    output, work = Path(job["output"]), Path(job["work"])
+    facts = json.loads((work / "blender.json").read_text())
+    arrays = np.load(work / "uvs.npz")
     vertices, triangles = arrays["vertices"].astype(float), arrays["triangles"]
     area = triangle_areas(vertices[triangles])
     rows = []
