@@ -61,7 +61,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         if outcome is None:
-            self.report({"WARNING"}, "No faces selected; select the faces to unwrap")
+            self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
             return {"CANCELLED"}
         if outcome.summary.solved:
             self.report({"INFO"}, reporting.information(outcome.summary, time.perf_counter() - start))

@@ -45,7 +45,7 @@ def test_nothing_selected(reports):
     scenes.edit(grid, select=False)
     reports()
     bpy.ops.uv.spectral_unwrap()
-    assert reports() == [("Warning", "No faces selected; select the faces to unwrap")]
+    assert reports() == [("Warning", "Nothing selected; select the faces to unwrap, in the UV editor their UVs")]
 
 
 def test_non_finite_coordinates_are_named(reports):
