@@ -69,8 +69,7 @@ def repair_wheel() -> Path:
 
 def addon_files() -> dict[str, bytes]:
     """Return the add-on's source files by path in the package."""
-    paths = [path for path in ADDON.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
-    files = {path.relative_to(ADDON).as_posix(): path.read_bytes() for path in paths}
+    files = {path.relative_to(ADDON).as_posix(): path.read_bytes() for path in steps.source_files(ADDON)}
     files["LICENSE"] = (ROOT / "LICENSE").read_bytes()
     return files
 

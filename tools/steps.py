@@ -7,6 +7,7 @@ import contextlib
 import fcntl
 import hashlib
 import os
+import re
 import subprocess
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -75,12 +76,19 @@ def digest(parts: Iterable[object]) -> str:
     for part in parts:
         paths = [part] if isinstance(part, Path) else []
         if paths and part.is_dir():
-            paths = sorted(p for p in part.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
+            paths = source_files(part)
         for path in paths:
             result.update(f"{path.relative_to(ROOT).as_posix()}\0".encode() + path.read_bytes())
         if not paths:
             result.update(f"{part}\0".encode())
     return result.hexdigest()
+
+
+def source_files(folder: Path) -> list[Path]:
+    """Return the files in a folder, sorted, without what Python and other tools keep there for themselves."""
+    hidden = re.compile(r"\.|__pycache__$")
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return sorted(path for path in files if not any(map(hidden.match, path.relative_to(folder).parts)))
 
 
 def is_done(name: str, state: str) -> bool:
@@ -93,12 +101,6 @@ def mark_done(name: str, state: str) -> None:
     """Record that the step was completed for this state of its inputs."""
     STAMPS.mkdir(parents=True, exist_ok=True)
     (STAMPS / name).write_text(state)
-
-
-def forget(*names: str) -> None:
-    """Make steps run again."""
-    for name in names:
-        (STAMPS / name).unlink(missing_ok=True)
 
 
 @contextlib.contextmanager

@@ -106,7 +106,7 @@ def test_legacy_zip_is_one_folder_without_a_manifest(packages):
     names = zipfile.ZipFile(packages[0]).namelist()
     assert {name.split("/")[0] for name in names} == {"spectral_unwrap"}
     assert "spectral_unwrap/__init__.py" in names
-    assert not [name for name in names if "manifest" in name or "__pycache__" in name]
+    assert not [name for name in names if "manifest" in name or "__pycache__" in name or "/." in name]
 
 
 def test_legacy_zip_in_the_systems_blender(packages, profile, tmp_path):

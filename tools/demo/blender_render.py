@@ -31,8 +31,11 @@ def main() -> None:
     for item in list(bpy.context.scene.objects):
         if item != target:
             bpy.data.objects.remove(item)
-    corners = np.array(target.bound_box)
-    size = float((corners.max(axis=0) - corners.min(axis=0)).max())
+    # Importers keep the turn from Y-up to Z-up in the object.
+    target.data.transform(target.matrix_world)
+    corners = np.array([vertex.co for vertex in target.data.vertices])
+    # The picture is wide: the height of a model counts for more.
+    size = float(((corners.max(axis=0) - corners.min(axis=0)) * (1, 1, 1.35)).max())
     centre = Vector((corners.max(axis=0) + corners.min(axis=0)) / 2)
     # The mesh itself at unit size about the origin: lights and camera need no scale.
     target.data.transform(Matrix.Scale(1 / size, 4) @ Matrix.Translation(-centre))

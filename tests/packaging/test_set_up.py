@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The set-up behind build_addon.py: what it asks for, and that a failed or changed step runs again."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+from tools import environment, steps
+
+
+@pytest.fixture
+def build_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(steps, "ROOT", tmp_path)
+    monkeypatch.setattr(steps, "LOGS", tmp_path / "logs")
+    monkeypatch.setattr(steps, "STAMPS", tmp_path / "stamps")
+    return tmp_path
+
+
+def test_one_line_names_missing_packages_where_nothing_can_be_installed(monkeypatch):
+    monkeypatch.setitem(environment.APT, "build", ["g++", "no-such-package"])
+    monkeypatch.setattr(environment, "as_root", lambda: None)
+    with pytest.raises(steps.StepError, match=r"sudo apt-get install --no-install-recommends .*no-such-package"):
+        environment.install_system_packages(["build"])
+
+
+def test_failed_step_shows_the_end_of_its_output_and_names_the_log(build_folder, capsys):
+    program = "print('first'); print('the reason'); raise SystemExit(3)"
+    with pytest.raises(steps.StepError, match=r"(?s)the reason.*exit code 3.*sample\.log"):
+        steps.run("a step", [sys.executable, "-c", program], log="sample")
+    assert capsys.readouterr().out == "- a step ... failed\n"
+
+
+def test_missing_program_is_named(build_folder):
+    with pytest.raises(steps.StepError, match="no-such-program is not installed"):
+        steps.run("a step", ["no-such-program"], log="sample")
+
+
+def test_step_is_done_for_one_state_of_its_inputs(build_folder):
+    source = build_folder / "source.txt"
+    source.write_text("one")
+    before = steps.digest([source])
+    assert not steps.is_done("sample", before)
+    steps.mark_done("sample", before)
+    assert steps.is_done("sample", steps.digest([source]))
+    source.write_text("two")
+    assert not steps.is_done("sample", steps.digest([source]))
+
+
+def test_digest_of_a_folder_sees_renamed_files(build_folder):
+    folder = build_folder / "sources"
+    folder.mkdir()
+    (folder / "a").write_text("same")
+    before = steps.digest([folder])
+    (folder / "a").rename(folder / "b")
+    assert steps.digest([folder]) != before
+
+
+def test_source_files_leave_caches_out(build_folder):
+    for name in ("core/kept.py", "core/__pycache__/kept.pyc", ".ruff_cache/x", "core/.hidden"):
+        (build_folder / name).parent.mkdir(exist_ok=True, parents=True)
+        (build_folder / name).touch()
+    assert steps.source_files(build_folder) == [build_folder / "core" / "kept.py"]
