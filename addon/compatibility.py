@@ -97,7 +97,8 @@ def has_selected_uv(face: BMFace, layer: BMLayerItem) -> bool:
 
 def pack_islands(margin: float) -> set[str]:
     """Run Blender's packer over the selected UVs and return its status; `margin` as in `bpy.ops.uv.pack_islands`."""
-    arguments = {"margin": margin}
+    # Rotating, the packer looks at pixels of the active image, and skews islands where that is not square.
+    arguments = {"margin": margin, "rotate": False}
     if "shape_method" in bpy.ops.uv.pack_islands.get_rna_type().properties:
         # As Blender's own Unwrap packs. The default from 4.0, exact shapes, takes seconds for a cube's six faces.
         arguments["shape_method"] = "AABB"

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the compiled module `spectral_conformal`; the only place that imports it."""
 
+from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
+
+_TOP_LEVEL = "spectral_conformal"
+_BUNDLED = f"{__package__.rpartition('.')[0]}.{_TOP_LEVEL}"
 
 
 class NativeModuleError(ImportError):
@@ -14,22 +19,12 @@ def spectral_conformal() -> ModuleType:
     The zip for Blender 3.4 to 4.1 carries it inside the add-on; an extension's wheel, or pip, installs it at top level.
 
     Raises:
-        NativeModuleError: neither can be imported.
+        NativeModuleError: it is not installed, or made for another platform or Python.
     """
-    reasons = []
     try:
-        from .. import spectral_conformal as module
-
-        return module
+        return import_module(_BUNDLED if find_spec(_BUNDLED) else _TOP_LEVEL)
     except ImportError as error:
-        reasons.append(f"inside the add-on: {error}")
-    try:
-        import spectral_conformal as module
-
-        return module
-    except ImportError as error:
-        reasons.append(f"as a top-level module: {error}")
-    raise NativeModuleError(
-        "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made for "
-        f"this platform and this version of Blender ({'; '.join(reasons)})"
-    )
+        raise NativeModuleError(
+            "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made "
+            f"for this platform and this version of Blender ({error})"
+        ) from error

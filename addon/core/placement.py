@@ -40,13 +40,16 @@ def _group(chart: np.ndarray) -> _Charts:
 def side_by_side(uv: np.ndarray, chart: np.ndarray) -> np.ndarray:
     """Lay the charts out on shelves inside the unit square, at a common scale, their bounding boxes apart.
 
-    Returns a copy of `uv`, (C, 2) float64. This is no packing: it gives Blender's packer islands of the right relative
-    size that do not touch.
+    Charts taller than wide are turned by a quarter. This is no packing: it gives Blender's packer islands of the right
+    relative size that do not touch and lie one way. Returns a copy of `uv`, (C, 2) float64.
     """
     result = np.array(uv, dtype=np.float64)
     charts = _group(chart)
     if len(charts.corners) == 0:
         return result
+    low, high = charts.bounds(result)
+    tall = (high - low)[:, 1] > (high - low)[:, 0]
+    result[charts.corners] = _turned(result[charts.corners], tall[charts.rank])
     low, high = charts.bounds(result)
     # Any magnitude is possible; dividing first keeps squares and sums in range.
     unit = (high - low).max()
@@ -100,8 +103,7 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
     size = high - low
     points = result[charts.corners] - ((low + high) / 2.0)[charts.rank]
     turn = fits & (_largest_scale(size[:, ::-1], room) > _largest_scale(size, room))
-    turned = turn[charts.rank]
-    points[turned] = np.column_stack([-points[turned, 1], points[turned, 0]])
+    points = _turned(points, turn[charts.rank])
     size[turn] = size[turn, ::-1]
 
     scale = _largest_scale(size, room)
@@ -115,3 +117,8 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
 def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
     """Return the largest factors by which boxes of `size` (K, 2) still fit into `room` (K, 2)."""
     return np.divide(room, size, out=np.full_like(size, np.inf), where=size > 0.0).min(axis=1)
+
+
+def _turned(points: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """Turn those of the `points` (N, 2) by a quarter about the origin, anticlockwise, where `turn` (N,) says so."""
+    return np.where(turn[:, None], points[:, ::-1] * (-1.0, 1.0), points)

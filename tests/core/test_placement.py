@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from spectral_unwrap.core.placement import into_former_bounds, side_by_side
 
+RECTANGLE = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)])
+
 
 def random_charts(sizes, seed=0):
     """Charts of 5 points each, chart k of about `sizes[k]`; return uv (C, 2) and chart (C,), corners shuffled."""
@@ -17,6 +19,11 @@ def random_charts(sizes, seed=0):
 
 def box(points):
     return points.min(axis=0), points.max(axis=0)
+
+
+def signed_area(polygon):
+    x, y = polygon.T
+    return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2.0
 
 
 def distances(points):
@@ -40,6 +47,15 @@ def test_side_by_side_keeps_shapes_and_relative_sizes_without_overlap(sizes):
             assert (np.minimum(high_i, high_j) < np.maximum(low_i, low_j)).any()
 
 
+def test_side_by_side_lays_charts_down_without_mirroring():
+    upright = RECTANGLE[[0, 3, 2, 1]][:, ::-1]
+    placed = side_by_side(np.vstack([upright, RECTANGLE * 2.0]), np.repeat([0, 1], 4))
+    for rectangle in placed.reshape(2, 4, 2):
+        width, height = np.ptp(rectangle, axis=0)
+        assert width == pytest.approx(2.0 * height)
+        assert signed_area(rectangle) > 0.0
+
+
 def test_side_by_side_leaves_corners_without_a_chart():
     uv, chart = random_charts([1.0, 2.0])
     chart[[0, 3]] = -1
@@ -51,9 +67,6 @@ def test_charts_without_extent_are_placed_apart():
     placed = side_by_side(np.zeros((3, 2)), np.arange(3))
     assert np.isfinite(placed).all()
     assert len(np.unique(placed, axis=0)) == 3
-
-
-RECTANGLE = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)])
 
 
 @pytest.mark.parametrize("magnitude", [1e-12, 1.0, 1e12])
@@ -71,8 +84,7 @@ def test_chart_is_turned_when_it_fits_larger_that_way():
     uv, _ = into_former_bounds(RECTANGLE, former, np.zeros(4, dtype=int))
     np.testing.assert_allclose(box(uv), [(0.0, 0.0), (1.0, 2.0)], atol=1e-15)
     # Turned, not mirrored: the winding stays.
-    edge, next_edge = uv[1] - uv[0], uv[2] - uv[1]
-    assert edge[0] * next_edge[1] - edge[1] * next_edge[0] > 0.0
+    assert signed_area(uv) > 0.0
 
 
 @pytest.mark.parametrize(

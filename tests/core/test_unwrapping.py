@@ -112,7 +112,20 @@ def test_kept_in_place_chart_by_chart():
     np.testing.assert_allclose(np.ptp(new, axis=1).max(axis=1), room)
 
 
+@pytest.fixture
+def broken_bundle(tmp_path, monkeypatch):
+    """Put a spectral_conformal that does not load beside the add-on's other parts."""
+    (tmp_path / "spectral_conformal.py").write_text("import _compiled_for_another_platform")
+    package = sys.modules["spectral_unwrap"]
+    monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+
+
 def test_missing_module_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "spectral_conformal", None)
     with pytest.raises(native.NativeModuleError, match="install the package of Spectral Unwrap made for this platform"):
+        native.spectral_conformal()
+
+
+def test_broken_bundled_module_is_not_passed_over(broken_bundle):
+    with pytest.raises(native.NativeModuleError, match="_compiled_for_another_platform"):
         native.spectral_conformal()

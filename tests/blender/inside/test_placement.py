@@ -89,6 +89,23 @@ def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
     assert not any(scenes.overlap(faces[i], faces[j]) for i in range(6) for j in range(i))
 
 
+def test_image_that_is_not_square_does_not_skew_the_islands():
+    # Blender's packer works in pixels of the active face's image.
+    cylinder = scenes.cylinder()
+    material = bpy.data.materials.new("Material")
+    if material.node_tree is None:
+        material.use_nodes = True
+    texture = material.node_tree.nodes.new("ShaderNodeTexImage")
+    texture.image = bpy.data.images.new("Image", 1024, 256)
+    material.node_tree.nodes.active = texture
+    cylinder.data.materials.append(material)
+    scenes.edit(cylinder)
+    bm = scenes.edit_mesh(cylinder)
+    bm.faces.active = bm.faces[0]
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert scenes.quasi_conformal(cylinder)[0].max() < 1.0 + 1e-4
+
+
 @pytest.mark.parametrize("size", [1e-15, 1e15])
 def test_size_of_the_mesh_does_not_matter(size):
     cube = scenes.cube(size=size, all_seams=True)
