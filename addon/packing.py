@@ -30,7 +30,9 @@ def pack(
     # selected faces, the UV selection must say what to pack; that alone takes as long as all the rest in Python.
     everything = all(mesh.total_face_sel == np.count_nonzero(chosen.get(mesh, ())) for mesh in meshes)
     by_faces = everything and compatibility.can_pack_by_mesh_selection(context.scene.tool_settings)
-    with _selected_faces(context, meshes) if by_faces else _selected_uvs(context, meshes, chosen):
+    selection = _selected_faces(context, meshes) if by_faces else _selected_uvs(context, meshes, chosen)
+    # The packer refuses to run from an image editor that shows no UVs; without an area it runs anywhere.
+    with selection, context.temp_override(area=None, region=None):
         result = compatibility.pack_islands(margin)
     if "FINISHED" not in result:
         raise PackingError("Blender's Pack Islands did not run; unwrap with Keep in Place and pack the islands by hand")

@@ -154,9 +154,12 @@ def steps():
     )
     screenshot("unwrapped_from_uv_editor")
 
+    with override("IMAGE_EDITOR"):
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True, placement="PACK") == {"FINISHED"}
+    np.testing.assert_allclose(uv(), packed, atol=1e-6)
+    unwrapped = uv()
     xdotool("key", "alt+a")
     yield
-    unwrapped = uv()
     yield from choose_from_menu()
     np.testing.assert_array_equal(uv(), unwrapped)
     screenshot("nothing_selected")
