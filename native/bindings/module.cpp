@@ -73,8 +73,8 @@ sc::Method method_named(const std::string& name) {
 }
 
 sc::Weights weights_named(const std::string& name) {
-  return named<sc::Weights>(
-      name, {{"uniform", sc::Weights::uniform}, {"inverse_area", sc::Weights::inverse_area}}, "weights");
+  return named<sc::Weights>(name, {{"uniform", sc::Weights::uniform}, {"inverse_area", sc::Weights::inverse_area}},
+                            "weights");
 }
 
 sc::BoundaryMeasure boundary_named(const std::string& name) {

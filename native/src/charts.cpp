@@ -234,8 +234,8 @@ class CornerSets {
 
 struct Components {
   std::vector<int> chart_of_face;
-  std::vector<char> reversed;      ///< per face: wound against its chart's majority
-  std::vector<char> orientable;    ///< per chart
+  std::vector<char> reversed;    ///< per face: wound against its chart's majority
+  std::vector<char> orientable;  ///< per chart
   std::vector<std::vector<int>> faces;
 };
 

@@ -1,8 +1,9 @@
 #include "spectral_conformal/eigenproblem.h"
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/SymEigsSolver.h>
 #include <Spectra/SymGEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -243,7 +244,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   Eigenpair result;
   const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
   Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
-                                                                                                   dimension);
+                                                                                                    dimension);
   ComplexVector smooth(n);
   shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
   solver.init(reinterpret_cast<const double*>(smooth.data()));

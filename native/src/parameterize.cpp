@@ -38,7 +38,7 @@ class Stopwatch {
 
 /// What each attempt at the eigenproblem changes; the first one nearly always passes.
 struct Attempt {
-  double relative_shift;  ///< of L's mean diagonal entry, at a boundary vertex of mean mass
+  double relative_shift;  ///< s as a part of the median of L_ii / M_ii over the vertices with mass
   unsigned start;
   int krylov_dimension;
   double tolerance_factor;
@@ -46,12 +46,13 @@ struct Attempt {
 };
 constexpr Attempt attempts[] = {
     {1e-12, 0, 6, 1.0, ""},
-    {1e-10, 1, 24, 0.1, "The first solve failed its checks; solved again with a larger shift and another start. "},
-    {1e-8, 2, 48, 0.1, "Two solves failed their checks; solved again with a much larger shift and another start. "},
+    {1e-10, 1, 24, 0.1, "The first solve failed its checks and was repeated with a larger shift and another start. "},
 };
 
 /// The eigenvector must satisfy its reduced equation at least this well, whatever tolerance was asked for.
 constexpr double residual_limit = 1e-5;
+/// The corrections that follow must end below this change, relative to the map.
+constexpr double resolved = 1e-7;
 
 double largest_diagonal(const HermitianMatrix& matrix) {
   double largest = 0;
@@ -155,11 +156,15 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
                                              const Progress& progress) {
   ShiftedFactor result;
   HermitianMatrix shifted = energy_->matrix();
-  double mean_diagonal = 0;
-  for (int v = 0; v < shifted.cols(); ++v) {
-    mean_diagonal += shifted.valuePtr()[shifted.outerIndexPtr()[v]].real() / static_cast<double>(shifted.cols());
+  // The median withstands the huge entries of tiny triangles, next to which a shift would drown the small eigenvalues.
+  std::vector<double> ratios;
+  ratios.reserve(form.vertices.size());
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
+    ratios.push_back(shifted.valuePtr()[shifted.outerIndexPtr()[form.vertices[i]]].real() / form.mass[i]);
   }
-  const double mean_mass = form.total() / static_cast<double>(form.vertices.size());
+  const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), median, ratios.end());
+  const double unit = *median;
   result.factorization = make_factorization(backend_);
   report(progress, 0.0, "ordering");
   result.factorization->analyze(shifted);
@@ -167,7 +172,7 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
   double added = 0;
   for (int raise = 0; raise <= max_raises; ++raise) {
     report(progress, 0.2, "factorization");
-    result.shift = relative_shift * std::pow(100.0, raise) * mean_diagonal / mean_mass;
+    result.shift = relative_shift * std::pow(100.0, raise) * unit;
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {
       const int v = form.vertices[i];
       shifted.valuePtr()[shifted.outerIndexPtr()[v]] =
@@ -192,8 +197,46 @@ void Solver::factorize(const Progress& progress) {
 Parameterization Solver::solve(Method method, const Pins& pins, double tolerance, const Progress& progress) {
   if (method == Method::lscm) return solve_pinned(pins, progress);
   if (!pins.empty()) throw std::invalid_argument("Only the method 'lscm' takes pins.");
-  return solve_spectral(method, tolerance, progress);
+  try {
+    return solve_eigenvector(method, tolerance, progress);
+  } catch (const SolveFailure& failure) {
+    if (method != Method::spectral) throw;
+    const bool by_length = boundary_ == BoundaryMeasure::length;
+    const bool uniform = energy_->weights() == Weights::uniform;
+    const Weights other_weights = uniform ? Weights::inverse_area : Weights::uniform;
+    const BoundaryMeasure other_boundary = by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length;
+    const std::string said = std::string(failure.what()) + " Solved with ";
+    struct Remedy {
+      Weights weights;
+      BoundaryMeasure boundary;
+      std::string name;
+    };
+    const Remedy remedies[] = {
+        {energy_->weights(), other_boundary, by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
+        {other_weights, boundary_, uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
+    for (const Remedy& remedy : remedies) {
+      try {
+        Solver other(*this, remedy.weights, remedy.boundary);
+        Parameterization result = other.solve_eigenvector(method, tolerance, progress);
+        result.message = said + remedy.name + " instead. " + result.message;
+        return result;
+      } catch (const SolveFailure&) {
+        continue;  // the first failure is the one to tell
+      }
+    }
+    throw;
+  }
 }
+
+Solver::Solver(const Solver& like, Weights weights, BoundaryMeasure boundary)
+    : positions_(like.positions_),
+      scale_(like.scale_),
+      energy_(std::make_unique<ConformalEnergy>(like.positions_, like.energy_->triangles(), like.energy_->coverage(),
+                                                weights)),
+      outer_(like.outer_),
+      boundary_(boundary),
+      form_(boundary_form(outer_, positions_, boundary)),
+      backend_(like.backend_) {}
 
 double Solver::lambda_unit(Method method) const {
   if (method == Method::area) return 1;
@@ -203,7 +246,7 @@ double Solver::lambda_unit(Method method) const {
   return mass_unit / energy_unit;
 }
 
-Parameterization Solver::solve_spectral(Method method, double tolerance, const Progress& progress) {
+Parameterization Solver::solve_eigenvector(Method method, double tolerance, const Progress& progress) {
   const bool own_form = method == Method::fiedler;
   const BoundaryForm identity = own_form ? identity_form(energy_->n_vertices()) : BoundaryForm{};
   const BoundaryForm& form = own_form ? identity : form_;
@@ -227,10 +270,9 @@ Parameterization Solver::solve_spectral(Method method, double tolerance, const P
     options.start = attempt.start;
     options.krylov_dimension = attempt.krylov_dimension;
     const Progress eigen_progress = part(progress, 0.6, 0.95);
-    Eigenpair pair =
-        method == Method::area
-            ? solve_area_eigenproblem(*factor.factorization, *energy_, form, factor.shift, options, eigen_progress)
-            : solve_eigenproblem(*factor.factorization, form, options, eigen_progress);
+    Eigenpair pair = method == Method::area ? solve_area_eigenproblem(*factor.factorization, *energy_, form,
+                                                                      factor.shift, options, eigen_progress)
+                                            : solve_eigenproblem(*factor.factorization, form, options, eigen_progress);
     if (!pair.converged || !(pair.residual < residual_limit)) {
       why = "The eigenvalue iteration did not converge";
       continue;
@@ -244,19 +286,29 @@ Parameterization Solver::solve_spectral(Method method, double tolerance, const P
       lambda = energy_->value(result.z) / energy_->area_form(result.z);
       result.residual = pair.residual;
     } else {
-      // Inverse iteration on the residual: removes what rounding in the factor left.
+      // Inverse iteration on the residual, which is evaluated more accurately than the factor: takes out what rounding
+      // in the factor left. The first change tells how much that was.
       ComplexVector r;
-      ComplexVector correction;
-      constexpr int corrections = 1;
-      for (int k = 0;; ++k) {
+      ComplexVector change;
+      constexpr int max_corrections = 12;
+      constexpr double negligible = 1e-10;
+      double relative_change = 0;
+      for (int k = 0; k < max_corrections; ++k) {
         lambda = energy_->value(result.z) / form.value(result.z);
         eigen_residual(*energy_, form, result.z, lambda, r);
-        result.residual = r.norm() / (scale_of_residual * result.z.norm());
-        if (k == corrections) break;
-        factor.factorization->solve(r, correction);
+        factor.factorization->solve(r, change);
+        change.array() -= change.mean();
         ++result.iterations;
-        result.z -= correction;
-        result.z.array() -= result.z.mean();
+        result.z -= change;
+        relative_change = change.norm() / result.z.norm();
+        if (!(relative_change > negligible)) break;
+      }
+      lambda = energy_->value(result.z) / form.value(result.z);
+      eigen_residual(*energy_, form, result.z, lambda, r);
+      result.residual = r.norm() / (scale_of_residual * result.z.norm());
+      if (!(relative_change < resolved)) {
+        why = "The triangles differ so much in size or shape that double precision does not resolve the map";
+        continue;
       }
     }
     result.eigenvalue = lambda * lambda_unit(method);
@@ -270,7 +322,7 @@ Parameterization Solver::solve_spectral(Method method, double tolerance, const P
       why = "The map has no positive area";
       continue;
     }
-    if (false && result.turning_number != 1) {
+    if (result.turning_number != 1) {
       why = "The boundary of the map winds round " + std::to_string(result.turning_number) + " times instead of once";
       continue;
     }
@@ -283,7 +335,7 @@ Parameterization Solver::solve_spectral(Method method, double tolerance, const P
     return result;
   }
   throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) +
-                     " attempts with different shifts and starts. Add seams that make the patch flatter, or clean up "
+                     " attempts with different shifts and starts: add seams that make the patch flatter, or clean up "
                      "degenerate faces.");
 }
 

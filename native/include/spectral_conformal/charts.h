@@ -12,29 +12,29 @@ namespace spectral_conformal {
 
 /// A polygon mesh in the caller's arrays. Nothing is owned.
 struct PolygonMesh {
-  const double* positions = nullptr;      ///< (n_vertices, 3)
+  const double* positions = nullptr;  ///< (n_vertices, 3)
   int n_vertices = 0;
-  const int* face_offsets = nullptr;      ///< (n_faces + 1,): corners of face f are [face_offsets[f], face_offsets[f+1])
+  const int* face_offsets = nullptr;  ///< (n_faces + 1,): corners of face f are [face_offsets[f], face_offsets[f+1])
   int n_faces = 0;
-  const int* corner_vertices = nullptr;   ///< (face_offsets[n_faces],)
-  const bool* selected_faces = nullptr;   ///< (n_faces,) or null for all
+  const int* corner_vertices = nullptr;            ///< (face_offsets[n_faces],)
+  const bool* selected_faces = nullptr;            ///< (n_faces,) or null for all
   const std::array<int, 2>* seam_edges = nullptr;  ///< (n_seam_edges,) vertex pairs in any order
   int n_seam_edges = 0;
 };
 
 /// A connected patch of faces, consistently wound, with vertices of its own.
 struct Chart {
-  std::vector<int> faces;                        ///< in the mesh, ascending
-  std::vector<int> vertices;                     ///< the mesh vertex of each chart vertex, ascending
-  std::vector<std::array<int, 3>> triangles;     ///< chart vertices, counter-clockwise
-  std::vector<double> coverage;                  ///< per triangle: 1, or 1/2 where both splits of a quad are present
-  std::vector<int> triangle_face;                ///< per triangle: index into `faces`
-  std::vector<BoundaryLoop> boundary_loops;      ///< chart vertices; unordered
+  std::vector<int> faces;                     ///< in the mesh, ascending
+  std::vector<int> vertices;                  ///< the mesh vertex of each chart vertex, ascending
+  std::vector<std::array<int, 3>> triangles;  ///< chart vertices, counter-clockwise
+  std::vector<double> coverage;               ///< per triangle: 1, or 1/2 where both splits of a quad are present
+  std::vector<int> triangle_face;             ///< per triangle: index into `faces`
+  std::vector<BoundaryLoop> boundary_loops;   ///< chart vertices; unordered
   int euler_characteristic = 0;
   bool orientable = true;
-  int self_intersecting_polygons = 0;            ///< n-gons whose projection has no simple triangulation
-  int reversed_faces = 0;                        ///< faces that were turned to agree with the majority
-  std::vector<int> duplicates;                   ///< faces left out because one of `faces` has the same vertices
+  int self_intersecting_polygons = 0;  ///< n-gons whose projection has no simple triangulation
+  int reversed_faces = 0;              ///< faces that were turned to agree with the majority
+  std::vector<int> duplicates;         ///< faces left out because one of `faces` has the same vertices
 
   int n_vertices() const { return static_cast<int>(vertices.size()); }
   /// For an orientable chart: (2 - loops - Euler characteristic) / 2.
@@ -44,12 +44,12 @@ struct Chart {
 };
 
 struct ChartDecomposition {
-  std::vector<Chart> charts;                 ///< in the order of their first face
-  std::vector<int> chart_of_face;            ///< (n_faces,), -1 where a face is in no chart
-  std::vector<int> chart_vertex_of_corner;   ///< (n_corners,), index into the chart's vertices, -1 outside charts
-  std::vector<int> degenerate_faces;         ///< selected faces with fewer than three different vertices
-  int non_manifold_edges = 0;                ///< edges of three or more selected faces, where charts were split
-  int split_vertices = 0;                    ///< mesh vertices with several copies within one chart
+  std::vector<Chart> charts;                ///< in the order of their first face
+  std::vector<int> chart_of_face;           ///< (n_faces,), -1 where a face is in no chart
+  std::vector<int> chart_vertex_of_corner;  ///< (n_corners,), index into the chart's vertices, -1 outside charts
+  std::vector<int> degenerate_faces;        ///< selected faces with fewer than three different vertices
+  int non_manifold_edges = 0;               ///< edges of three or more selected faces, where charts were split
+  int split_vertices = 0;                   ///< mesh vertices with several copies within one chart
 };
 
 /// Cuts a polygon mesh into charts: connected over edges of exactly two selected faces that are no seams. A vertex gets

@@ -27,6 +27,7 @@ class ConformalEnergy {
 
   const HermitianMatrix& matrix() const { return matrix_; }
   int n_vertices() const { return static_cast<int>(matrix_.rows()); }
+  Weights weights() const { return weights_; }
   int clamped_triangles() const { return clamped_triangles_; }
   /// True area of the surface, coverage included, in squared units of the positions.
   double area() const { return area_; }

@@ -10,16 +10,16 @@ namespace spectral_conformal {
 /// Distortion of a map of triangles from 3D to the plane. A linear map f = a p + b conj(p) of a triangle's plane has
 /// singular values |a| + |b| and ||a| - |b||.
 struct Distortion {
-  Eigen::VectorXd qc;                ///< (F,) larger over smaller singular value; infinite where the image has no area
-  Eigen::VectorXd log2_scale;        ///< (F,) log2 of the root of (image area / area); -infinite without image area
-  std::vector<bool> flipped;         ///< (F,) image wound against the majority (by area) of the triangles
-  double mean_qc = 1;                ///< weighted by the area in 3D (section 5)
-  double p95_qc = 1;                 ///< 95th percentile over the triangles, linear interpolation
+  Eigen::VectorXd qc;          ///< (F,) larger over smaller singular value; infinite where the image has no area
+  Eigen::VectorXd log2_scale;  ///< (F,) log2 of the root of (image area / area); -infinite without image area
+  std::vector<bool> flipped;   ///< (F,) image wound against the majority (by area) of the triangles
+  double mean_qc = 1;          ///< weighted by the area in 3D (section 5)
+  double p95_qc = 1;           ///< 95th percentile over the triangles, linear interpolation
   double p99_qc = 1;
   double max_qc = 1;
-  double log2_scale_deviation = 0;   ///< standard deviation of log2_scale, weighted by the area in 3D
-  int turning_number = 0;            ///< of the outer loop of the largest chart; only from measure_mesh_distortion
-  std::vector<bool> overlapping;     ///< (F,) covers another triangle; only from measure_mesh_distortion
+  double log2_scale_deviation = 0;  ///< standard deviation of log2_scale, weighted by the area in 3D
+  int turning_number = 0;           ///< of the outer loop of the largest chart; only from measure_mesh_distortion
+  std::vector<bool> overlapping;    ///< (F,) covers another triangle; only from measure_mesh_distortion
 };
 
 /// positions (V, 3), triangles consistently wound, coverage (F,) or empty for 1, z (V,).

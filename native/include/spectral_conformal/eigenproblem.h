@@ -16,10 +16,10 @@ struct EigenproblemOptions {
 };
 
 struct Eigenpair {
-  ComplexVector vector;       ///< (V,)
-  double mu = 0;              ///< largest eigenvalue of the switched problem
-  double residual = 0;        ///< |T y - mu y| / (mu |y|) of the returned pair
-  int solves = 0;             ///< solves with the factor
+  ComplexVector vector;  ///< (V,)
+  double mu = 0;         ///< largest eigenvalue of the switched problem
+  double residual = 0;   ///< |T y - mu y| / (mu |y|) of the returned pair
+  int solves = 0;        ///< solves with the factor
   bool converged = false;
 };
 

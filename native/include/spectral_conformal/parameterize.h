@@ -29,12 +29,12 @@ struct ParameterizeOptions {
 };
 
 struct Parameterization {
-  ComplexVector z;              ///< (V,) u + i v
-  double eigenvalue = 0;        ///< lambda of L z = lambda B z in the units of the input; E_C / A-like quotients alike
-  double residual = 0;          ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2)
-  int iterations = 0;           ///< solves with the factor
-  int turning_number = 0;       ///< of the outer boundary loop
-  std::string message;          ///< remedies that were needed; empty when none was
+  ComplexVector z;         ///< (V,) u + i v
+  double eigenvalue = 0;   ///< lambda of L z = lambda B z in the units of the input; E_C / A-like quotients alike
+  double residual = 0;     ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2)
+  int iterations = 0;      ///< solves with the factor
+  int turning_number = 0;  ///< of the outer boundary loop
+  std::string message;     ///< remedies that were needed; empty when none was
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
@@ -60,20 +60,24 @@ class Solver {
 
   /// pins: for Method::lscm only; empty for the two farthest boundary vertices. With given pins the map is returned as
   /// solved, otherwise placed (see placement.h) with its area equal to the area in 3D.
-  /// Throws SolveFailure when no attempt passes the checks: residual, and for the spectral method a turning number
-  /// of one and a positive area.
+  /// Every eigenvector is checked: residual, corrections that converge, positive area, and for the spectral method a
+  /// turning number of one. One that fails is solved again with a larger shift and another start, then (spectral) with
+  /// the other boundary form and with the other weights; `message` says so. Throws SolveFailure when nothing passes.
   Parameterization solve(Method method, const Pins& pins, double tolerance, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
   const BoundaryLoop& outer_boundary() const { return outer_; }
 
  private:
+  /// The same patch with another energy or boundary form.
+  Solver(const Solver& like, Weights weights, BoundaryMeasure boundary);
+
   struct ShiftedFactor {
     std::unique_ptr<Factorization> factorization;
     double shift = 0;
   };
   ShiftedFactor factor_shifted(const BoundaryForm& form, double relative_shift, const Progress& progress);
-  Parameterization solve_spectral(Method method, double tolerance, const Progress& progress);
+  Parameterization solve_eigenvector(Method method, double tolerance, const Progress& progress);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
   double lambda_unit(Method method) const;
 

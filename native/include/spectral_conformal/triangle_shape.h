@@ -16,9 +16,7 @@ struct TriangleShape {
   bool clamped = false;
 
   /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2.
-  Complex holomorphic_part(Complex d1, Complex d2) const {
-    return Complex(0, 1) * (d1 * Complex(x2, -y2) - d2 * x1);
-  }
+  Complex holomorphic_part(Complex d1, Complex d2) const { return Complex(0, 1) * (d1 * Complex(x2, -y2) - d2 * x1); }
   /// 4 |T| times the derivative f_zbar of the same map. Its conformal energy is E_C = 2 |T| |f_zbar|^2.
   Complex antiholomorphic_part(Complex d1, Complex d2) const {
     return Complex(0, -1) * (d1 * Complex(x2, y2) - d2 * x1);

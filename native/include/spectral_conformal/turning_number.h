@@ -6,11 +6,11 @@
 
 namespace spectral_conformal {
 
-/// How often the tangent of a boundary loop of a map turns round: the sum of its exterior angles over 2 pi. +1 for a map
-/// that is locally injective on a disk and keeps the orientation, -1 for its mirror image. An exterior angle is
-/// pi - (sum of the image angles of the triangles at the vertex), which stays right where they go round by more than
-/// 2 pi; where one of them is folded over it is the angle between the two boundary edges, in (-pi, pi].
-/// triangles counter-clockwise in 3D; coverage per triangle. Edges without length are passed over.
+/// How often the tangent of a boundary loop of a map turns round: the sum of its exterior angles over 2 pi. +1 for a
+/// map that is locally injective on a disk and keeps the orientation, -1 for its mirror image. An exterior angle is pi
+/// - (sum of the image angles of the triangles at the vertex), which stays right where they go round by more than 2 pi;
+/// where one of them is folded over it is the angle between the two boundary edges, in (-pi, pi]. triangles
+/// counter-clockwise in 3D; coverage per triangle. Edges without length are passed over.
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
                    const std::vector<double>& coverage, const ComplexVector& z);
 

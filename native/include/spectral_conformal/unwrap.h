@@ -8,18 +8,18 @@
 namespace spectral_conformal {
 
 struct UnwrappedChart {
-  std::vector<int> faces;      ///< in the mesh, ascending
+  std::vector<int> faces;  ///< in the mesh, ascending
   bool solved = false;
-  std::string message;         ///< why it failed and what to do, or what had to be done to solve it; may be empty
+  std::string message;  ///< why it failed and what to do, or what had to be done to solve it; may be empty
   double eigenvalue = 0;
   double residual = 0;
   int iterations = 0;
   int turning_number = 0;
   double mean_qc = 0;
   double max_qc = 0;
-  int flipped = 0;             ///< faces with a flipped triangle
+  int flipped = 0;  ///< faces with a flipped triangle
   int n_vertices = 0;
-  double area = 0;             ///< in 3D
+  double area = 0;  ///< in 3D
 };
 
 struct Unwrap {
@@ -30,8 +30,9 @@ struct Unwrap {
 };
 
 /// Cuts a polygon mesh into charts and parameterises each. What one chart cannot do never stops the others: it is
-/// reported as failed; degenerate faces together make one failed chart, the last. `pins` maps mesh vertices to positions (Method::lscm). Each chart is placed as by place().
-/// Throws InvalidMesh for arrays that do not describe a mesh, and Cancelled.
+/// reported as failed; degenerate faces together make one failed chart, the last. `pins` maps mesh vertices to
+/// positions (Method::lscm). Each chart is placed as by place(). Throws InvalidMesh for arrays that do not describe a
+/// mesh, and Cancelled.
 Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const Pins& pins, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._native import InvalidMeshError
 
 Method = Literal["spectral", "lscm", "fiedler", "area"]
 Weights = Literal["uniform", "inverse_area"]
@@ -242,6 +243,8 @@ def unwrap(
     corners = _indices(corner_vertices, "corner_vertices", None, len(vertices))
     if len(offsets) == 0:
         raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+    if len(offsets) == 1:
+        raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
     if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
         raise ValueError(
             f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing."
