@@ -52,8 +52,13 @@ def main() -> None:
     save(target, Path(job["output"]))
     vertices, triangles, corners = geometry(target.data)
     np.savez(work / "uvs.npz", vertices=vertices, triangles=triangles, **{k: v[corners] for k, v in uvs.items()})
-    facts = {"mesh": target.name, "vertices": len(vertices), "faces": len(target.data.polygons), "seconds": seconds,
-             "blender": bpy.app.version_string}  # fmt: skip
+    facts = {
+        "mesh": mesh_file.name if mesh_file else target.name,
+        "vertices": len(vertices),
+        "faces": len(target.data.polygons),
+        "seconds": seconds,
+        "blender": bpy.app.version_string,
+    }
     (work / "blender.json").write_text(json.dumps(facts))
 
 
