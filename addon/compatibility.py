@@ -95,11 +95,10 @@ def has_selected_uv(face: BMFace, layer: BMLayerItem) -> bool:
     return any(loop[layer].select for loop in face.loops)
 
 
-def pack_islands(margin: float) -> set[str]:
-    """Run Blender's packer over the selected UVs and return its status; `margin` as in `bpy.ops.uv.pack_islands`."""
-    # Rotating, the packer looks at pixels of the active image, and skews islands where that is not square.
-    arguments = {"margin": margin, "rotate": False}
-    if "shape_method" in bpy.ops.uv.pack_islands.get_rna_type().properties:
-        # As Blender's own Unwrap packs. The default from 4.0, exact shapes, takes seconds for a cube's six faces.
-        arguments["shape_method"] = "AABB"
-    return bpy.ops.uv.pack_islands("EXEC_DEFAULT", **arguments)
+def bounding_box_packing() -> dict[str, str]:
+    """Return the arguments that make `bpy.ops.uv.pack_islands` pack bounding boxes, as Blender's own Unwrap does.
+
+    That is all that 3.4 can do. The default from 4.0, exact shapes, takes seconds for a cube's six faces.
+    """
+    has_shapes = "shape_method" in bpy.ops.uv.pack_islands.get_rna_type().properties
+    return {"shape_method": "AABB"} if has_shapes else {}

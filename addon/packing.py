@@ -33,9 +33,22 @@ def pack(
     selection = _selected_faces(context, meshes) if by_faces else _selected_uvs(context, meshes, chosen)
     # The packer refuses to run from an image editor that shows no UVs; without an area it runs anywhere.
     with selection, context.temp_override(area=None, region=None):
-        result = compatibility.pack_islands(margin)
-    if "FINISHED" not in result:
-        raise PackingError("Blender's Pack Islands did not run; unwrap with Keep in Place and pack the islands by hand")
+        _run_packer(margin)
+
+
+def _run_packer(margin: float) -> None:
+    try:
+        # Rotating, the packer looks at pixels of the active image, and skews islands where that is not square.
+        status = bpy.ops.uv.pack_islands(
+            "EXEC_DEFAULT", margin=margin, rotate=False, **compatibility.bounding_box_packing()
+        )
+        reason = "it was cancelled"
+    except RuntimeError as error:
+        status, reason = set(), str(error).strip()
+    if "FINISHED" not in status:
+        raise PackingError(
+            f"Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand"
+        )
 
 
 @contextmanager

@@ -21,6 +21,7 @@ class Summary:
         max_qc: largest quasi-conformal distortion of a triangle.
         flipped: number of faces with a flipped triangle.
         failures: how many charts failed for each reason.
+        remedies: how many charts were solved after each repair or change of method.
         refused: why meshes were refused as a whole, one "name: reason" each.
     """
 
@@ -29,6 +30,7 @@ class Summary:
     max_qc: float
     flipped: int
     failures: Counter[str]
+    remedies: Counter[str]
     refused: tuple[str, ...]
 
     @property
@@ -48,6 +50,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
         flipped=sum(chart.flipped for chart in solved),
         failures=Counter(chart.message for chart in charts if chart.status != "solved"),
+        remedies=Counter(chart.message for chart in solved if chart.message),
         refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
     )
 
@@ -65,14 +68,19 @@ def failures(summary: Summary) -> str:
     parts = []
     if summary.failed:
         total = summary.solved + summary.failed
-        reasons = "; ".join(
-            message if len(summary.failures) == 1 else f"{count}: {message}"
-            for message, count in summary.failures.most_common()
+        parts.append(
+            f"{summary.failed} of {_count(total, 'island')} failed, UVs unchanged: {_grouped(summary.failures)}"
         )
-        parts.append(f"{summary.failed} of {_count(total, 'island')} failed and kept their UVs: {reasons}")
     if summary.refused:
         parts.append(f"Not unwrapped: {'; '.join(summary.refused)}")
     return ". ".join(parts)
+
+
+def remedies(summary: Summary) -> str:
+    """Return what was repaired or done differently to solve some charts; empty if nothing was."""
+    if not summary.remedies:
+        return ""
+    return f"{_count(sum(summary.remedies.values()), 'island')} needed a remedy: {_grouped(summary.remedies)}"
 
 
 def without_bounds(count: int) -> str:
@@ -80,6 +88,14 @@ def without_bounds(count: int) -> str:
     if count == 0:
         return ""
     return f"{_count(count, 'island')} had no UV bounds to keep and were laid out side by side in the unit square"
+
+
+def _grouped(messages: Counter[str]) -> str:
+    """Join the messages, each with its number if there are several."""
+    return "; ".join(
+        message.rstrip(".") if len(messages) == 1 else f"{count}: {message.rstrip('.')}"
+        for message, count in messages.most_common()
+    )
 
 
 def _count(number: int, noun: str) -> str:

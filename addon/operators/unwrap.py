@@ -63,9 +63,16 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         if outcome is None:
             self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
             return {"CANCELLED"}
-        if outcome.summary.solved:
-            self.report({"INFO"}, reporting.information(outcome.summary, time.perf_counter() - start))
-        for warning in (reporting.failures(outcome.summary), reporting.without_bounds(outcome.without_bounds)):
-            if warning:
-                self.report({"WARNING"}, warning)
-        return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}
+        summary = outcome.summary
+        seconds = time.perf_counter() - start
+        # Blender shows the last report in the status bar, all of them in the Info editor.
+        reports = (
+            ("INFO", reporting.remedies(summary)),
+            ("INFO", reporting.information(summary, seconds) if summary.solved else ""),
+            ("WARNING", reporting.without_bounds(outcome.without_bounds)),
+            ("WARNING", reporting.failures(summary)),
+        )
+        for level, text in reports:
+            if text:
+                self.report({level}, text)
+        return {"FINISHED"} if summary.solved else {"CANCELLED"}

@@ -49,9 +49,16 @@ def test_no_failures_no_warning():
 
 def test_equal_reasons_are_grouped():
     one = reporting.failures(summary(solved(), failed("closed; mark seams"), failed("closed; mark seams")))
-    assert one == "2 of 3 islands failed and kept their UVs: closed; mark seams"
+    assert one == "2 of 3 islands failed, UVs unchanged: closed; mark seams"
     two = reporting.failures(summary(failed("flat"), failed("closed"), failed("closed")))
-    assert two == "3 of 3 islands failed and kept their UVs: 2: closed; 1: flat"
+    assert two == "3 of 3 islands failed, UVs unchanged: 2: closed; 1: flat"
+
+
+def test_remedies_are_told():
+    assert reporting.remedies(summary(solved())) == ""
+    charts = [solved(), solved(), solved()]
+    charts[0].message = charts[1].message = "3 face(s) were turned."
+    assert reporting.remedies(summary(*charts)) == "2 islands needed a remedy: 3 face(s) were turned"
 
 
 def test_refused_meshes_are_named():

@@ -2,8 +2,11 @@
 """What the operator tells the user."""
 
 import re
+import sys
 
 import bpy
+import numpy as np
+import pytest
 import scenes
 
 
@@ -25,7 +28,7 @@ def test_failed_islands_are_counted_with_reason_and_remedy(reports):
     (level, text), (second_level, second_text) = reports()
     assert (level, second_level) == ("Info", "Warning")
     assert text.startswith("Unwrapped 1 island: ")
-    assert second_text.startswith("1 of 2 islands failed and kept their UVs: ")
+    assert second_text.startswith("1 of 2 islands failed, UVs unchanged: ")
     assert "closed" in second_text.lower()
     assert "seam" in second_text
 
@@ -38,6 +41,34 @@ def test_only_failures_report_no_success(reports):
     ((level, text),) = reports()
     assert level == "Warning"
     assert text.startswith("1 of 1 island failed")
+
+
+def test_remedies_are_told(reports):
+    grid = scenes.grid(2, 1)
+    scenes.edit(grid)
+    scenes.edit_mesh(grid).faces[0].normal_flip()
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    (level, text), _ = reports()
+    assert level == "Info"
+    assert text.startswith("1 island needed a remedy: 1 face(s) wound the other way")
+
+
+def test_packer_that_does_not_run_is_an_error_and_changes_nothing(monkeypatch):
+    grid, bare = scenes.grid(2, 2), scenes.grid(2, 2, name="Bare", uv_map=False)
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
+    scenes.edit(grid, bare)
+    scenes.set_uv_flags(grid, np.zeros(16, dtype=bool))
+    before, state = scenes.read_uv(grid), scenes.state(grid)
+    # With no UV selected, Blender's packer refuses.
+    compatibility = sys.modules["spectral_unwrap.compatibility"]
+    monkeypatch.setattr(compatibility, "can_pack_by_mesh_selection", lambda _: False)
+    monkeypatch.setattr(compatibility, "select_uv_of_faces", lambda bm, layer, selected: None)
+    with pytest.raises(RuntimeError, match="Pack Islands did not run: it was cancelled; choose Keep in Place"):
+        bpy.ops.uv.spectral_unwrap()
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    assert scenes.state(grid) == state
+    assert not bare.data.uv_layers
 
 
 def test_nothing_selected(reports):
