@@ -56,14 +56,13 @@ def test_remedies_are_told(reports):
 
 def test_packer_that_does_not_run_is_an_error_and_changes_nothing(monkeypatch):
     grid, bare = scenes.grid(2, 2), scenes.grid(2, 2, name="Bare", uv_map=False)
-    bpy.context.scene.tool_settings.use_uv_select_sync = False
     scenes.edit(grid, bare)
-    scenes.set_uv_flags(grid, np.zeros(16, dtype=bool))
     before, state = scenes.read_uv(grid), scenes.state(grid)
     # With no UV selected, Blender's packer refuses.
     compatibility = sys.modules["spectral_unwrap.compatibility"]
     monkeypatch.setattr(compatibility, "can_pack_by_mesh_selection", lambda _: False)
-    monkeypatch.setattr(compatibility, "select_uv_of_faces", lambda bm, layer, selected: None)
+    select = compatibility.select_uv_of_faces
+    monkeypatch.setattr(compatibility, "select_uv_of_faces", lambda bm, layer, _: select(bm, layer, [False] * 4))
     with pytest.raises(RuntimeError, match="Pack Islands did not run: it was cancelled; choose Keep in Place"):
         bpy.ops.uv.spectral_unwrap()
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
