@@ -119,12 +119,13 @@ def signed_areas(corners: np.ndarray) -> np.ndarray:
 
 def draw_layout(corner_uv: np.ndarray, qc: np.ndarray, row: dict, path: Path) -> None:
     """Draw the UV layout, every triangle in the colour of its QC."""
-    figure, axes = plt.subplots(figsize=(10, 8.2), dpi=150, layout="constrained")
+    low, high = corner_uv.min(axis=(0, 1)), corner_uv.max(axis=(0, 1))
+    proportion = float(np.clip((high - low)[0] / (high - low)[1], 0.6, 1.8))
+    figure, axes = plt.subplots(figsize=(7.4 * proportion + 2, 8.2), dpi=150, layout="constrained")
     # Nearly all triangles lie close to 1; the few above the last percentile share the last colour.
     limit = max(1.0 + 1e-6, row["p99_qc"])
     faces = PolyCollection(corner_uv, array=qc, cmap="viridis", clim=(1.0, limit), edgecolors="face", linewidths=0.15)
     axes.add_collection(faces)
-    low, high = corner_uv.min(axis=(0, 1)), corner_uv.max(axis=(0, 1))
     border = 0.02 * (high - low).max()
     axes.set(xlim=(low[0] - border, high[0] + border), ylim=(low[1] - border, high[1] + border), aspect="equal")
     axes.set(xlabel="u", ylabel="v")
