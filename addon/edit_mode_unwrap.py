@@ -50,14 +50,17 @@ def unwrap(
 
 
 def _read_selected(context: bpy.types.Context) -> list[EditMesh]:
-    """Read every mesh in edit mode once and return those with faces to unwrap."""
+    """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap."""
     by_uv_selection = (
         context.area is not None
         and context.area.type == "IMAGE_EDITOR"
         and not context.scene.tool_settings.use_uv_select_sync
     )
-    objects = [edit_object for edit_object in context.objects_in_mode_unique_data if edit_object.type == "MESH"]
-    edit_meshes = [mesh_io.read(edit_object, by_uv_selection) for edit_object in objects]
+    edit_meshes = [
+        mesh_io.read(edit_object, by_uv_selection)
+        for edit_object in context.objects_in_mode_unique_data
+        if edit_object.data.total_face_sel
+    ]
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
 
