@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include "spectral_conformal/distortion.h"
@@ -138,7 +139,9 @@ class PatchSolver {
     const auto boundary_value = boundary_named(boundary);
     const auto backend_value = backend_named(backend);
     const py::gil_scoped_release unlocked;
+    const auto start = std::chrono::steady_clock::now();
     const sc::Chart chart = sc::single_patch(mesh);
+    charts_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     vertices_ = chart.vertices;
     solver_ = std::make_unique<sc::Solver>(chart, chart.positions(mesh), weights_value, boundary_value, backend_value);
   }
@@ -169,6 +172,7 @@ class PatchSolver {
       for (std::size_t v = 0; v < vertices_.size(); ++v) z[vertices_[v]] = solution.z[static_cast<Eigen::Index>(v)];
     }
     py::dict timings;
+    timings["charts"] = charts_seconds_;
     for (const auto& [phase, seconds] : solution.timings) timings[phase.c_str()] = seconds;
     py::dict result;
     result["uv"] = real_view(z);
@@ -183,6 +187,7 @@ class PatchSolver {
 
  private:
   Eigen::Index n_vertices_;
+  double charts_seconds_ = 0;
   std::vector<int> vertices_;
   std::unique_ptr<sc::Solver> solver_;
 };
@@ -247,10 +252,11 @@ py::dict build_info() {
 }  // namespace
 
 PYBIND11_MODULE(_native, module) {
-  py::register_exception<sc::InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
-  py::register_exception<sc::SolveFailure>(module, "SolveError", PyExc_RuntimeError);
-  py::register_exception<sc::Cancelled>(module, "Cancelled", PyExc_Exception);
-  py::class_<PatchSolver>(module, "Solver")
+  // Local to this module: a bundled copy and an installed one may be loaded side by side.
+  py::register_local_exception<sc::InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
+  py::register_local_exception<sc::SolveFailure>(module, "SolveError", PyExc_RuntimeError);
+  py::register_local_exception<sc::Cancelled>(module, "Cancelled", PyExc_Exception);
+  py::class_<PatchSolver>(module, "Solver", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const std::string&, const std::string&,
                     const std::string&>())
       .def("factorize", &PatchSolver::factorize)

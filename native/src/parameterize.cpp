@@ -76,6 +76,10 @@ void eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, con
 
 }  // namespace
 
+namespace {
+std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
+}  // namespace
+
 std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
     if (!positions.row(v).allFinite()) {
@@ -85,13 +89,12 @@ std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>
   }
   if (!chart.orientable) return "The patch is one-sided, like a Moebius strip; cut it with a seam.";
   if (chart.boundary_loops.empty()) {
-    return "The patch is closed" +
-           (chart.genus() > 0 ? ", with " + std::to_string(chart.genus()) + " handle(s)" : std::string()) +
+    return "The patch is closed" + (chart.genus() > 0 ? ", with " + handles(chart.genus()) : std::string()) +
            ": it has no boundary to unfold from; mark seams that cut it open.";
   }
   if (chart.genus() > 0) {
-    return "The patch has " + std::to_string(chart.genus()) +
-           " handle(s) and cannot lie flat without overlap; mark seams that cut the handles open.";
+    return "The patch has " + handles(chart.genus()) +
+           " and cannot lie flat without overlap; mark seams that cut the handles open.";
   }
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   const Eigen::RowVector3d high = positions.colwise().maxCoeff();
@@ -118,16 +121,16 @@ Chart single_patch(const PolygonMesh& mesh) {
   }
   if (decomposition.charts.empty()) throw InvalidMesh("The mesh has no faces; there is nothing to parameterise.");
   if (decomposition.non_manifold_edges > 0) {
-    throw InvalidMesh(std::to_string(decomposition.non_manifold_edges) +
-                      " edge(s) have three or more faces; split the mesh there, or use unwrap, which does.");
+    throw InvalidMesh("Edges with three or more faces: " + std::to_string(decomposition.non_manifold_edges) +
+                      "; split the mesh there, or use unwrap, which does.");
   }
   if (decomposition.charts.size() > 1) {
     throw InvalidMesh("The mesh has " + std::to_string(decomposition.charts.size()) +
                       " components that no edge connects; give one at a time, or use unwrap, which takes them all.");
   }
   if (decomposition.split_vertices > 0) {
-    throw InvalidMesh(std::to_string(decomposition.split_vertices) +
-                      " vertices join parts of the boundary (bow ties); split them, or use unwrap, which does.");
+    throw InvalidMesh("Vertices where parts of the boundary touch (bow ties): " +
+                      std::to_string(decomposition.split_vertices) + "; split them, or use unwrap, which does.");
   }
   return std::move(decomposition.charts.front());
 }

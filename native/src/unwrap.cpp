@@ -7,20 +7,54 @@
 namespace spectral_conformal {
 namespace {
 
-std::string count(int n, const char* what) { return std::to_string(n) + " " + what; }
+std::string count(int n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
 
 /// What was done to the chart's faces before it could be solved; "" for a clean chart.
 std::string repairs(const Chart& chart, int clamped) {
   std::string text;
-  if (chart.reversed_faces > 0) text += count(chart.reversed_faces, "face(s) wound the other way were turned. ");
+  if (chart.reversed_faces > 0) {
+    text += count(chart.reversed_faces, "face", "faces") + " wound the other way: turned. ";
+  }
   if (!chart.duplicates.empty()) {
-    text += count(static_cast<int>(chart.duplicates.size()), "duplicate face(s) took the place of their twins. ");
+    text += count(static_cast<int>(chart.duplicates.size()), "duplicate face", "duplicate faces") +
+            ": placed on the first of the same vertices. ";
   }
   if (chart.self_intersecting_polygons > 0) {
-    text += count(chart.self_intersecting_polygons, "self-intersecting polygon(s) were split as a fan. ");
+    text += count(chart.self_intersecting_polygons, "self-intersecting polygon", "self-intersecting polygons") +
+            ": split as a fan. ";
   }
-  if (clamped > 0) text += count(clamped, "degenerate triangle(s) were given a minimal height. ");
+  if (clamped > 0) text += count(clamped, "degenerate triangle", "degenerate triangles") + ": given a minimal height. ";
   return text;
+}
+
+/// One triangulation of the chart to report on: where the energy has both splits of a quad, the one that is distorted
+/// less. (A symmetric map can collapse a triangle of the other.)
+struct Triangulation {
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> face;  ///< index into the chart's faces
+};
+
+Triangulation better_splits(const Chart& chart, const Eigen::VectorXd& qc) {
+  Triangulation result;
+  const auto take = [&](std::size_t t) {
+    result.triangles.push_back(chart.triangles[t]);
+    result.face.push_back(chart.triangle_face[t]);
+  };
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    if (chart.coverage[t] == 1.0) {
+      take(t);
+      continue;
+    }
+    const auto worst = [&](std::size_t first) {
+      const auto i = static_cast<Eigen::Index>(first);
+      return std::max(qc[i], qc[i + 1]);
+    };
+    const std::size_t better = worst(t) <= worst(t + 2) ? t : t + 2;
+    take(better);
+    take(better + 1);
+    t += 3;  // triangulate_polygon puts the four triangles of the two splits in a row
+  }
+  return result;
 }
 
 /// The pins of the mesh on the copies that a chart has of their vertices.
@@ -55,13 +89,15 @@ void solve_chart(const PolygonMesh& mesh, const Chart& chart, const Parameterize
     report.message = problem.what();
   }
   if (!report.solved) return;
-  const Distortion distortion = measure_distortion(positions, chart.triangles, chart.coverage, z);
+  const Triangulation reported =
+      better_splits(chart, measure_distortion(positions, chart.triangles, chart.coverage, z).qc);
+  const Distortion distortion = measure_distortion(positions, reported.triangles, {}, z);
   report.mean_qc = distortion.mean_qc;
   report.max_qc = distortion.max_qc;
   int last = -1;
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    if (!distortion.flipped[t] || chart.triangle_face[t] == last) continue;
-    last = chart.triangle_face[t];
+  for (std::size_t t = 0; t < reported.triangles.size(); ++t) {
+    if (!distortion.flipped[t] || reported.face[t] == last) continue;
+    last = reported.face[t];
     ++report.flipped;
   }
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {

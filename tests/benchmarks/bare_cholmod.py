@@ -45,10 +45,9 @@ def seconds_to_factor(matrix: scipy.sparse.spmatrix) -> tuple[float, float]:
     indptr = lower.indptr.astype(np.int32)
     indices = lower.indices.astype(np.int32)
     data = np.ascontiguousarray(lower.data, dtype=np.complex128)
-    sparse = _Sparse(
-        lower.shape[0], lower.shape[1], lower.nnz, indptr.ctypes.data, indices.ctypes.data, None, data.ctypes.data, None,
-        -1, _INT, _COMPLEX, _DOUBLE, 1, 1,
-    )  # fmt: skip
+    n = lower.shape[0]
+    pointers = (indptr.ctypes.data, indices.ctypes.data, None, data.ctypes.data, None)
+    sparse = _Sparse(n, n, lower.nnz, *pointers, -1, _INT, _COMPLEX, _DOUBLE, 1, 1)
     common = ctypes.create_string_buffer(_COMMON_BYTES)
     library.cholmod_start(common)
     start = time.perf_counter()

@@ -17,7 +17,8 @@ struct PolygonTriangulation {
 /// Triangulates a polygon by its geometry, whatever corner comes first.
 ///  - Triangle: itself.
 ///  - Quad: both diagonal splits at half weight when it is convex as seen along the cross product of its diagonals, so
-///    that a symmetric quad mesh has a symmetric energy; otherwise the one split that stays inside.
+///    that a symmetric quad mesh has a symmetric energy (four triangles, split by split); otherwise the one split that
+///    stays inside.
 ///  - More corners: the constrained Delaunay triangulation of its projection along Newell's normal (CGAL).
 /// corners (n, 3), n >= 3, in order. Degenerate polygons get a fan around the corner nearest to their centroid.
 void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result);

@@ -15,7 +15,7 @@ struct UnwrappedChart {
   double residual = 0;
   int iterations = 0;
   int turning_number = 0;
-  double mean_qc = 0;
+  double mean_qc = 0;  ///< of one triangulation: of a quad's two splits the less distorted one
   double max_qc = 0;
   int flipped = 0;  ///< faces with a flipped triangle
   int n_vertices = 0;

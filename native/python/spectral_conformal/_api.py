@@ -31,7 +31,7 @@ class Parameterization:
     uv: npt.NDArray[np.float64]
     """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
     eigenvalue: float
-    """lambda of L z = lambda B z (Eq. 5) for the given vertices. For "lscm" the quotient z*Lz / z*Bz; for "area" B = A."""
+    """lambda of L z = lambda B z (Eq. 5) for the given vertices. For "lscm" z*Lz / z*Bz; for "area" B = A."""
     residual: float
     """|L z - lambda B z| / (largest diagonal entry of L x |z|); for "lscm" over the free vertices; for "area" the last
     relative change of the inverse iteration."""
@@ -85,7 +85,7 @@ class Chart:
     iterations: int
     turning_number: int
     mean_qc: float
-    """As in `Distortion`, over the chart's triangles; a convex quad counts with both of its splits, at half weight."""
+    """As in `Distortion`, over the chart's triangles; of a convex quad's two splits the less distorted counts."""
     max_qc: float
     flipped: int
     """Faces with a flipped triangle."""
@@ -246,9 +246,7 @@ def unwrap(
     if len(offsets) == 1:
         raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
     if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
-        raise ValueError(
-            f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing."
-        )
+        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing.")
     seams = None if seam_edges is None else _indices(seam_edges, "seam_edges", 2, len(vertices))
     selected = None
     if selected_faces is not None:

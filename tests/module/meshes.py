@@ -1,0 +1,87 @@
+"""Meshes that the tests make themselves: (vertices (V, 3), triangles (F, 3)) or polygon arrays."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import Delaunay
+
+
+def without_unused(vertices, triangles):
+    used, compact = np.unique(triangles, return_inverse=True)
+    return vertices[used], compact.reshape(triangles.shape)
+
+
+def without_bow_ties(triangles):
+    """Removes the triangles at vertices where the boundary passes twice, until there are none."""
+    while True:
+        tail, head = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+        n = triangles.max() + 1
+        boundary = tail[~np.isin(tail * n + head, head * n + tail)]
+        passed = np.bincount(boundary, minlength=n)
+        if passed.max() <= 1:
+            return triangles
+        triangles = triangles[(passed[triangles] <= 1).all(1)]
+
+
+def random_disk(n, holes=0, seed=0):
+    """A planar disk, randomly sampled, counter-clockwise, with round holes on a spiral."""
+    rng = np.random.default_rng(seed)
+    n_boundary = int(2.2 * np.sqrt(n))
+    rim = np.exp(2j * np.pi * np.arange(n_boundary) / n_boundary)
+    inside = np.sqrt(rng.random(n - n_boundary)) * 0.985 * np.exp(2j * np.pi * rng.random(n - n_boundary))
+    z = np.r_[rim, inside]
+    triangles = Delaunay(np.c_[z.real, z.imag]).simplices.astype(np.int64)
+    corners = z[triangles]
+    area = ((corners[:, 1] - corners[:, 0]).conj() * (corners[:, 2] - corners[:, 0])).imag
+    triangles[area < 0] = triangles[area < 0][:, ::-1]
+    triangles = triangles[np.abs(area) > 1e-10]
+    centre = z[triangles].mean(1)
+    for k in range(holes):
+        middle = 0.85 * np.sqrt((k + 0.5) / holes) * np.exp(2.4j * k)
+        triangles = triangles[np.abs(centre - middle) > 0.35 / np.sqrt(holes)]
+        centre = z[triangles].mean(1)
+    triangles = without_bow_ties(triangles)
+    return without_unused(np.c_[z.real, z.imag, 0 * z.real], triangles)
+
+
+def bumpy_disk(n, holes=0, seed=0):
+    """The random disk lifted to a surface without symmetry."""
+    vertices, triangles = random_disk(n, holes, seed)
+    x, y = vertices[:, 0], vertices[:, 1]
+    vertices[:, 2] = 0.6 * np.exp(-6 * ((x - 0.3) ** 2 + (y - 0.1) ** 2)) + 0.15 * np.sin(4 * x + 1) * np.cos(3 * y)
+    return vertices, triangles
+
+
+def grid_quads(n, m):
+    """Corner lists (n - 1)(m - 1) x 4 of a grid of n x m vertices; vertex i m + j."""
+    i, j = np.meshgrid(np.arange(n - 1), np.arange(m - 1), indexing="ij")
+    first = (i * m + j).ravel()
+    return np.c_[first, first + m, first + m + 1, first + 1]
+
+
+def saddle_quads(n):
+    """The quad mesh of z = x^2 - y^2 on n x n vertices (paper Fig. 3), mirror symmetric in x and in y."""
+    t = np.linspace(-1, 1, n)
+    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
+    return np.c_[x, y, x**2 - y**2], grid_quads(n, n)
+
+
+def polygons(faces):
+    """(face_offsets, corner_vertices) of a list of corner lists."""
+    sizes = [len(face) for face in faces]
+    return np.r_[0, np.cumsum(sizes)].astype(np.int64), np.concatenate([np.asarray(face) for face in faces])
+
+
+def random_rotation(seed):
+    q, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    return q * np.sign(np.linalg.det(q))
+
+
+def similarity_deviation(uv, reference):
+    """Greatest distance between uv and the reference moved by the best orientation-preserving similarity, relative to
+    the extent of uv."""
+    z = uv @ [1, 1j]
+    w = reference @ [1, 1j]
+    z = z - z.mean()
+    w = w - w.mean()
+    return np.abs(z - np.vdot(w, z) / np.vdot(w, w) * w).max() / np.abs(z).max()

@@ -1,0 +1,266 @@
+import meshes
+import numpy as np
+import pytest
+import reference
+import spectral_conformal as sc
+
+
+def per_vertex(result, corners, n):
+    """uv per mesh vertex, for meshes whose vertices have one copy each."""
+    uv = np.full((n, 2), np.nan)
+    uv[corners] = result.uv
+    return uv
+
+
+def test_triangle_mesh_equals_parameterize():
+    vertices, triangles = meshes.bumpy_disk(700, 3)
+    offsets, corners = meshes.polygons(triangles)
+    result = sc.unwrap(vertices, offsets, corners)
+    expected = sc.parameterize(vertices, triangles)
+    (chart,) = result.charts
+    assert np.array_equal(result.uv, expected.uv[corners])
+    assert result.solved_corners.all()
+    assert (result.chart_of_face == 0).all()
+    assert (chart.status, chart.message, chart.turning_number, chart.flipped) == ("solved", "", 1, 0)
+    assert chart.eigenvalue == expected.eigenvalue
+    assert chart.n_vertices == len(vertices)
+    measured = sc.distortion(vertices, triangles, expected.uv)
+    assert chart.mean_qc == pytest.approx(measured.mean_qc)
+    assert chart.max_qc == pytest.approx(measured.max_qc)
+
+
+@pytest.mark.parametrize(("weights", "boundary"), [("uniform", "length"), ("inverse_area", "vertex")])
+def test_symmetric_quad_mesh_has_a_symmetric_map(weights, boundary):
+    n = 31
+    vertices, quads = meshes.saddle_quads(n)
+    offsets, corners = meshes.polygons(quads)
+    result = sc.unwrap(vertices, offsets, corners, weights=weights, boundary=boundary)
+    uv = per_vertex(result, corners, len(vertices))
+    z = (uv @ [1, 1j]).reshape(n, n)
+    for mirrored in (z[::-1], z[:, ::-1]):
+        image = mirrored.conj().ravel()
+        assert meshes.similarity_deviation(np.c_[image.real, image.imag], uv) < 1e-9
+    turned = z.T[::-1].ravel()  # the rotary reflection that swaps x and y is a rotation of the saddle's inner geometry
+    assert meshes.similarity_deviation(np.c_[turned.real, turned.imag], uv) < 1e-9
+
+
+def test_report_takes_the_better_split_of_a_quad():
+    # Vertices 0, 1, 2 lie on the mirror plane of two quads, so a symmetric map puts them on one line: a triangle of one
+    # split of each quad collapses.
+    vertices = np.array([[0, 0, 0], [0, 1, 0.5], [0, 2, 0], [1, 1, 0], [-1, 1, 0.0]])
+    offsets, corners = meshes.polygons([[0, 3, 2, 1], [0, 1, 2, 4]])
+    result = sc.unwrap(vertices, offsets, corners)
+    (chart,) = result.charts
+    uv = per_vertex(result, corners, 5)
+    collapsed = np.linalg.det(np.c_[uv[1] - uv[0], uv[2] - uv[0]])
+    assert abs(collapsed) < 1e-9
+    assert 1 < chart.mean_qc <= chart.max_qc < 10
+    assert chart.flipped == 0
+
+
+def test_corner_order_does_not_matter():
+    vertices, quads = meshes.saddle_quads(9)
+    offsets, corners = meshes.polygons(quads)
+    expected = per_vertex(sc.unwrap(vertices, offsets, corners), corners, len(vertices))
+    rolled = np.array([np.roll(q, k % 4) for k, q in enumerate(quads)])
+    offsets, corners = meshes.polygons(rolled)
+    assert np.allclose(per_vertex(sc.unwrap(vertices, offsets, corners), corners, len(vertices)), expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("first", range(5))
+def test_concave_polygons_are_triangulated_by_geometry(first):
+    # An arrow head with an inward corner, and a triangle on it: flat, so any valid triangulation gives QC 1.
+    flat = np.array([[0, 0], [2, -1.0], [0.5, 0], [2, 1], [1, 2], [3, 0]])
+    vertices = np.c_[flat, np.zeros(6)] @ meshes.random_rotation(1).T
+    arrow = np.roll([0, 1, 2, 3, 4], first)
+    offsets, corners = meshes.polygons([arrow, [1, 5, 3, 2]])
+    result = sc.unwrap(vertices, offsets, corners)
+    assert result.charts[0].status == "solved"
+    assert result.charts[0].max_qc - 1 < 1e-9
+    uv = per_vertex(result, corners, 6)
+    assert meshes.similarity_deviation(uv, flat) < 1e-10
+
+
+def box():
+    vertices = np.array([[x, y, z] for x in (0, 1.0) for y in (0, 2.0) for z in (0, 3.0)])
+    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    return vertices, faces
+
+
+def edges_of(faces):
+    return np.array(sorted({tuple(sorted((f[k], f[(k + 1) % len(f)]))) for f in faces for k in range(len(f))}))
+
+
+def test_seams_cut_a_box_into_its_faces():
+    vertices, faces = box()
+    offsets, corners = meshes.polygons(faces)
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=edges_of(faces)[:, ::-1])
+    assert len(result.charts) == 6
+    for chart in result.charts:
+        assert (chart.status, chart.n_vertices) == ("solved", 4)
+        assert chart.max_qc - 1 < 1e-12
+        (face,) = chart.faces
+        uv = result.uv[offsets[face] : offsets[face + 1]]
+        assert np.abs(uv.mean(0)).max() < 1e-12
+        sides = np.linalg.norm(np.roll(uv, -1, 0) - uv, axis=1)
+        p = vertices[faces[face]]
+        assert np.allclose(sides, np.linalg.norm(np.roll(p, -1, 0) - p, axis=1))
+
+
+def test_closed_box_fails_and_the_rest_is_solved():
+    vertices, faces = box()
+    faces = [*faces, [8, 9, 10]]
+    vertices = np.r_[vertices, [[9, 9, 9], [10, 9, 9], [9, 10, 9.0]]]
+    offsets, corners = meshes.polygons(faces)
+    result = sc.unwrap(vertices, offsets, corners)
+    assert [chart.status for chart in result.charts] == ["failed", "solved"]
+    assert "closed" in result.charts[0].message
+    assert "seams" in result.charts[0].message
+    assert not result.solved_corners[: offsets[6]].any()
+    assert result.solved_corners[offsets[6] :].all()
+    assert (result.uv[~result.solved_corners] == 0).all()
+
+
+def test_unfolded_box_is_developable():
+    vertices, faces = box()
+    keep = {(0, 1), (1, 3), (2, 3), (0, 2), (6, 7)}  # five hinges make a cross of six faces
+    seams = [edge for edge in edges_of(faces).tolist() if tuple(edge) not in keep]
+    offsets, corners = meshes.polygons(faces)
+    (chart,) = sc.unwrap(vertices, offsets, corners, seam_edges=seams).charts
+    assert chart.max_qc - 1 < 1e-10
+    assert chart.n_vertices == 14
+
+
+def test_seam_that_ends_inside_a_chart():
+    vertices, quads = meshes.saddle_quads(7)
+    offsets, corners = meshes.polygons(quads)
+    seam = [[3, 10], [10, 17], [17, 24]]  # from the boundary to the centre
+    (chart,) = sc.unwrap(vertices, offsets, corners, seam_edges=seam).charts
+    assert chart.n_vertices == 49 + 3
+    assert chart.status == "solved"
+
+
+def test_selection_bounds_charts():
+    vertices, quads = meshes.saddle_quads(9)
+    offsets, corners = meshes.polygons(quads)
+    selected = np.zeros(64, bool)
+    selected[:24] = True
+    result = sc.unwrap(vertices, offsets, corners, selected_faces=selected)
+    (chart,) = result.charts
+    assert np.array_equal(chart.faces, np.arange(24))
+    assert np.array_equal(result.chart_of_face, np.where(selected, 0, -1))
+    assert np.array_equal(result.solved_corners, np.repeat(selected, 4))
+    alone = sc.unwrap(vertices[:36], *meshes.polygons(quads[:24]))
+    assert np.allclose(result.uv[: 4 * 24], alone.uv, atol=1e-12)
+
+
+def test_nothing_selected():
+    vertices, quads = meshes.saddle_quads(3)
+    offsets, corners = meshes.polygons(quads)
+    result = sc.unwrap(vertices, offsets, corners, selected_faces=np.zeros(4, bool))
+    assert result.charts == []
+    assert not result.solved_corners.any()
+
+
+def test_edge_of_three_faces_and_bow_tie_split_charts():
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [-1, -1, 0], [-1, 0, 0.0]])
+    offsets, corners = meshes.polygons([[0, 1, 2], [1, 0, 3], [0, 1, 4], [0, 6, 5]])
+    result = sc.unwrap(vertices, offsets, corners)
+    assert [chart.status for chart in result.charts] == ["solved"] * 4
+    assert len(set(result.chart_of_face.tolist())) == 4
+
+
+def test_duplicate_and_degenerate_faces():
+    vertices, quads = meshes.saddle_quads(4)
+    faces = [*quads.tolist(), quads[4].tolist(), np.roll(quads[2], 1)[::-1].tolist(), [0, 0, 1], [3, 4, 3, 4]]
+    offsets, corners = meshes.polygons(faces)
+    result = sc.unwrap(vertices, offsets, corners)
+    solved, failed = result.charts
+    assert (solved.status, failed.status) == ("solved", "failed")
+    assert np.array_equal(failed.faces, [11, 12])
+    assert "fewer than three" in failed.message
+    assert "2 duplicate" in solved.message
+    expected = sc.unwrap(vertices, *meshes.polygons(quads))
+    assert np.allclose(result.uv[:36], expected.uv, atol=1e-12)
+    assert np.allclose(result.uv[36:44], per_vertex(expected, corners[:36], 16)[corners[36:44]], atol=1e-12)
+
+
+def test_mixed_winding_is_turned_and_said():
+    vertices, quads = meshes.saddle_quads(6)
+    expected = sc.unwrap(vertices, *meshes.polygons(quads))
+    turned = [q[::-1] if k % 5 == 0 else q for k, q in enumerate(quads.tolist())]
+    offsets, corners = meshes.polygons(turned)
+    result = sc.unwrap(vertices, offsets, corners)
+    assert "5 faces wound the other way" in result.charts[0].message
+    assert np.allclose(per_vertex(result, corners, 36), per_vertex(expected, meshes.polygons(quads)[1], 36), atol=1e-9)
+
+
+def test_non_finite_vertex_spoils_only_its_chart():
+    vertices, quads = meshes.saddle_quads(5)
+    both = np.r_[vertices, vertices + 10]
+    both[0, 1] = np.nan
+    result = sc.unwrap(both, *meshes.polygons([*quads, *(quads + 25)]))
+    assert [chart.status for chart in result.charts] == ["failed", "solved"]
+    assert "Vertex 0" in result.charts[0].message
+    assert np.isfinite(result.uv).all()
+
+
+def test_pins_hold_all_copies():
+    vertices, quads = meshes.saddle_quads(7)
+    offsets, corners = meshes.polygons(quads)
+    seam = np.c_[21 + np.arange(6), 22 + np.arange(6)]  # cuts the grid in two
+    pins = {21: (0.0, 0.0), 27: (1.0, 0.5)}
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, method="lscm", pins=pins)
+    assert len(result.charts) == 2
+    for vertex, position in pins.items():
+        assert (result.uv[corners == vertex] == position).all()
+
+
+def test_progress_rises_over_all_charts():
+    vertices, faces = box()
+    fractions = []
+    offsets, corners = meshes.polygons(faces)
+    sc.unwrap(
+        vertices, offsets, corners, seam_edges=edges_of(faces), progress=lambda done, phase: fractions.append(done)
+    )
+    assert fractions == sorted(fractions)
+    assert fractions[-1] > 0.9
+    with pytest.raises(sc.Cancelled):
+        sc.unwrap(vertices, offsets, corners, progress=lambda done, phase: False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"face_offsets": []}, "face_offsets is empty"),
+        ({"face_offsets": [0]}, "no faces"),
+        ({"face_offsets": [0, 3]}, "face_offsets must rise"),
+        ({"face_offsets": [1, 4]}, "face_offsets must rise"),
+        ({"face_offsets": [0, 5, 4]}, "face_offsets must rise|between"),
+        ({"corner_vertices": [0, 1, 2, 9]}, "refers to vertex 9"),
+        ({"seam_edges": [[0, 9]]}, "seam_edges refers to vertex 9"),
+        ({"seam_edges": [0, 1]}, "seam_edges must have the shape"),
+        ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
+        ({"selected_faces": [1]}, "booleans"),
+        ({"pins": {0: (0, 0)}}, "pins need"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, said):
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    arguments = {"face_offsets": [0, 4], "corner_vertices": [0, 1, 2, 3], **arguments}
+    with pytest.raises(ValueError, match=said):
+        sc.unwrap(vertices, **arguments)
+
+
+def test_charts_are_linear_in_the_number_of_faces():
+    # Many small charts: nothing may be done per chart that looks at the whole mesh.
+    n = 5000
+    vertices = np.random.default_rng(0).random((3 * n, 3))
+    result = sc.unwrap(vertices, np.arange(0, 3 * n + 1, 3), np.arange(3 * n))
+    assert len(result.charts) == n
+    assert all(chart.status == "solved" for chart in result.charts)
+    assert max(chart.max_qc for chart in result.charts) - 1 < 1e-6  # the thinnest of the random triangles
+    area = reference.gradients(vertices, np.arange(3 * n).reshape(n, 3))[2]
+    corners = result.uv.reshape(n, 3, 2) @ [1, 1j]
+    image = ((corners[:, 1] - corners[:, 0]).conj() * (corners[:, 2] - corners[:, 0])).imag / 2
+    assert np.allclose(image, area)
