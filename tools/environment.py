@@ -34,6 +34,7 @@ APT: dict[str, list[str]] = {
         "doctest-dev",
         "imagemagick",
         "libgl1-mesa-dri",
+        "make",
         "python3-numpy",
         "x11-utils",
         "xdotool",
@@ -225,5 +226,6 @@ def report_blas() -> None:
 def run_pytest(arguments: Sequence[str]) -> int:
     """Run pytest in build/venv on the project and return its exit code."""
     sys.stdout.flush()
-    command = ["env", SYSTEM_PYTHON_FIRST, PYTHON, "-m", "pytest", *arguments]
+    # cmake, ctest and ninja are those of the environment.
+    command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, "-m", "pytest", *arguments]
     return subprocess.run(command, cwd=ROOT, check=False).returncode
