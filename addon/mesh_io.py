@@ -2,6 +2,7 @@
 """Edit-mode meshes to arrays, and UV coordinates back."""
 
 from dataclasses import dataclass
+from itertools import compress
 
 import bmesh
 import bpy
@@ -77,16 +78,13 @@ def active_uv_layer(mesh: bpy.types.Mesh) -> tuple[BMesh, BMLayerItem]:
 
 
 def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
-    """Write `uv` (C, 2) at the `corners`, (C,) bool, into the active UV map; touch nothing else."""
+    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, into the active UV map; touch nothing else."""
     bm, layer = active_uv_layer(edit_mesh.mesh)
-    bm.faces.ensure_lookup_table()
-    offsets = edit_mesh.polygons.face_offsets
-    affected = np.logical_or.reduceat(corners, offsets[:-1])
-    loops = (loop for face in np.flatnonzero(affected).tolist() for loop in bm.faces[face].loops)
-    if not corners.all():
-        flags = corners[np.repeat(affected, np.diff(offsets))].tolist()
-        loops = (loop for loop, flag in zip(loops, flags) if flag)
+    affected = np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
+    faces = bm.faces if affected.all() else compress(bm.faces, affected.tolist())
     u, v = uv[corners].T
-    for loop, coordinates in zip(loops, zip(u.tolist(), v.tolist())):
-        loop[layer].uv = coordinates
+    coordinates = zip(u.tolist(), v.tolist())
+    for face in faces:
+        for loop in face.loops:
+            loop[layer].uv = next(coordinates)
     bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)

@@ -89,9 +89,12 @@ void solve_chart(const PolygonMesh& mesh, const Chart& chart, const Parameterize
     report.message = problem.what();
   }
   if (!report.solved) return;
-  const Triangulation reported =
-      better_splits(chart, measure_distortion(positions, chart.triangles, chart.coverage, z).qc);
-  const Distortion distortion = measure_distortion(positions, reported.triangles, {}, z);
+  Distortion distortion = measure_distortion(positions, chart.triangles, chart.coverage, z);
+  Triangulation reported{chart.triangles, chart.triangle_face};
+  if (std::any_of(chart.coverage.begin(), chart.coverage.end(), [](double share) { return share != 1.0; })) {
+    reported = better_splits(chart, distortion.qc);
+    distortion = measure_distortion(positions, reported.triangles, {}, z);
+  }
   report.mean_qc = distortion.mean_qc;
   report.max_qc = distortion.max_qc;
   int last = -1;

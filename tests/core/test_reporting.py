@@ -57,8 +57,8 @@ def test_equal_reasons_are_grouped():
 def test_remedies_are_told():
     assert reporting.remedies(summary(solved())) == ""
     charts = [solved(), solved(), solved()]
-    charts[0].message = charts[1].message = "3 face(s) were turned."
-    assert reporting.remedies(summary(*charts)) == "2 islands needed a remedy: 3 face(s) were turned"
+    charts[0].message = charts[1].message = "3 faces were turned."
+    assert reporting.remedies(summary(*charts)) == "2 islands needed a remedy: 3 faces were turned"
 
 
 def test_refused_meshes_are_named():

@@ -51,7 +51,7 @@ def test_remedies_are_told(reports):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     (level, text), _ = reports()
     assert level == "Info"
-    assert text.startswith("1 island needed a remedy: 1 face(s) wound the other way")
+    assert text.startswith("1 island needed a remedy: 1 face wound the other way")
 
 
 def test_packer_that_does_not_run_is_an_error_and_changes_nothing(monkeypatch):
