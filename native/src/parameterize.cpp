@@ -49,8 +49,9 @@ constexpr Attempt attempts[] = {
     {1e-10, 1, 24, 0.1, "The first solve failed its checks and was repeated with a larger shift and another start. "},
 };
 
-/// The eigenvector must satisfy its reduced equation at least this well, whatever tolerance was asked for.
-constexpr double residual_limit = 1e-5;
+/// The eigenvector must satisfy its reduced equation at least this well, whatever tolerance was asked for. On flat
+/// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift, which the corrections then take out.
+constexpr double residual_limit = 1e-3;
 /// The corrections that follow must end below this change, relative to the map.
 constexpr double resolved = 1e-7;
 
