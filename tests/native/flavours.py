@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Configurations of the C++ library and its tests, each in a build folder of its own."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOLS = Path(sys.executable).parent  # pip installs cmake and ninja here
+
+COMMON = {
+    "SPECTRAL_CONFORMAL_PYTHON": "OFF",
+    "SPECTRAL_CONFORMAL_TESTS": "ON",
+    "SPECTRAL_CONFORMAL_WARNINGS_AS_ERRORS": "ON",
+    "CMAKE_MAKE_PROGRAM": TOOLS / "ninja",
+}
+FLAVOURS = {
+    "release": {"CMAKE_BUILD_TYPE": "Release"},
+    "sanitized": {
+        "CMAKE_BUILD_TYPE": "Debug",
+        "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
+        "SPECTRAL_CONFORMAL_SANITIZE": "address,undefined",
+    },
+    # What is built where SuiteSparse is absent.
+    "eigen_only": {"CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
+}
+
+
+def run(*command):
+    """Run a command; raise AssertionError with what it printed when it fails."""
+    result = subprocess.run(
+        [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+    )
+    assert result.returncode == 0, f"{' '.join(map(str, command))}\n{result.stdout[-20000:]}"
+    return result.stdout
+
+
+def configure(flavour):
+    """Configure a flavour and return its build folder, which holds compile_commands.json."""
+    build = ROOT / "build" / "tests-native" / flavour
+    definitions = [f"-D{name}={value}" for name, value in {**COMMON, **FLAVOURS[flavour]}.items()]
+    run(TOOLS / "cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *definitions)
+    return build

@@ -1,0 +1,205 @@
+#include "meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "spectral_conformal/boundary_loops.h"
+#include "spectral_conformal/parameterize.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A grid of points, each moved by up to 0.25 within the plane and lifted by `height` (x, y).
+template <class Height>
+Mesh grid_points(int columns, int rows, Height&& height) {
+  Mesh mesh;
+  const ComplexVector moves = random_map(static_cast<Eigen::Index>(columns + 1) * (rows + 1), 7);
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) {
+      const Complex p = Complex(i, j) + 0.25 * moves[static_cast<Eigen::Index>(mesh.points.size())];
+      mesh.points.emplace_back(p.real(), p.imag(), height(p.real(), p.imag()));
+    }
+  }
+  return mesh;
+}
+
+template <class Keep>
+void add_triangles(Mesh& mesh, int columns, int rows, Keep&& keep) {
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      if (!keep(i, j)) continue;
+      const int a = j * (columns + 1) + i;
+      const int b = a + 1;
+      const int c = b + columns + 1;
+      const int d = c - 1;
+      if ((i + j) % 2 == 0) {
+        mesh.add({a, b, c});
+        mesh.add({a, c, d});
+      } else {
+        mesh.add({a, b, d});
+        mesh.add({b, c, d});
+      }
+    }
+  }
+}
+
+double bumps(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y + 0.3) + 0.02 * x * y; }
+
+}  // namespace
+
+Mesh::Mesh(std::vector<Eigen::Vector3d> vertices, std::initializer_list<std::vector<int>> faces)
+    : points(std::move(vertices)) {
+  for (const auto& face : faces) add(face);
+}
+
+void Mesh::add(const std::vector<int>& face) {
+  corners.insert(corners.end(), face.begin(), face.end());
+  offsets.push_back(static_cast<int>(corners.size()));
+}
+
+void Mesh::append(const Mesh& other) {
+  const int first_point = static_cast<int>(points.size());
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  for (int f = 0; f < other.n_faces(); ++f) {
+    std::vector<int> face(other.corners.begin() + other.offsets[f], other.corners.begin() + other.offsets[f + 1]);
+    for (int& v : face) v += first_point;
+    add(face);
+  }
+}
+
+void Mesh::reverse(int face) { std::reverse(corners.begin() + offsets[face], corners.begin() + offsets[face + 1]); }
+
+PolygonMesh Mesh::view() const {
+  PolygonMesh mesh;
+  mesh.positions = points.empty() ? nullptr : points.front().data();
+  mesh.n_vertices = static_cast<int>(points.size());
+  mesh.face_offsets = offsets.data();
+  mesh.n_faces = n_faces();
+  mesh.corner_vertices = corners.data();
+  mesh.seam_edges = seams.data();
+  mesh.n_seam_edges = static_cast<int>(seams.size());
+  return mesh;
+}
+
+Patch::Patch(const Mesh& mesh) : chart(single_patch(mesh.view())), positions(chart.positions(mesh.view())) {}
+
+const BoundaryLoop& Patch::outer() const { return chart.boundary_loops[outer_loop(chart.boundary_loops, positions)]; }
+
+Mesh flat_grid(int columns, int rows) {
+  Mesh mesh = grid_points(columns, rows, [](double, double) { return 0.0; });
+  add_triangles(mesh, columns, rows, [](int, int) { return true; });
+  return mesh;
+}
+
+Mesh bumpy_grid(int columns, int rows) {
+  Mesh mesh = grid_points(columns, rows, bumps);
+  add_triangles(mesh, columns, rows, [](int, int) { return true; });
+  return mesh;
+}
+
+Mesh perforated_grid(int columns, int rows) {
+  Mesh mesh = grid_points(columns, rows, bumps);
+  add_triangles(mesh, columns, rows, [](int i, int j) { return i % 3 != 1 || j % 3 != 1; });
+  return mesh;
+}
+
+Mesh quad_grid(int columns, int rows) {
+  Mesh mesh;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) mesh.points.emplace_back(i, j, 0);
+  }
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const int a = j * (columns + 1) + i;
+      mesh.add({a, a + 1, a + columns + 2, a + columns + 1});
+    }
+  }
+  return mesh;
+}
+
+Mesh ring(int segments, int half_twists) {
+  Mesh mesh;
+  for (int i = 0; i < segments; ++i) {
+    const double angle = 2 * pi * i / segments;
+    const double twist = half_twists * angle / 2;
+    for (const double side : {-0.3, 0.3}) {
+      const double radius = 1 + side * std::sin(twist);
+      mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), side * std::cos(twist));
+    }
+  }
+  for (int i = 0; i < segments; ++i) {
+    const int low = 2 * i;
+    const bool crossed = i + 1 == segments && half_twists % 2 != 0;
+    const int next = 2 * ((i + 1) % segments);
+    mesh.add({low, crossed ? next + 1 : next, crossed ? next : next + 1, low + 1});
+  }
+  return mesh;
+}
+
+Mesh torus(int around, int across) {
+  Mesh mesh;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double a = 2 * pi * i / around;
+      const double b = 2 * pi * j / across;
+      mesh.points.emplace_back((2 + std::cos(b)) * std::cos(a), (2 + std::cos(b)) * std::sin(a), std::sin(b));
+    }
+  }
+  const auto index = [&](int i, int j) { return i % around * across + j % across; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) mesh.add({index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)});
+  }
+  return mesh;
+}
+
+Mesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+ComplexVector random_map(Eigen::Index n, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  const auto number = [&] { return static_cast<double>(engine() >> 11) * 0x1.0p-52 - 1.0; };
+  ComplexVector z(n);
+  for (Complex& entry : z) {
+    const double real = number();
+    entry = Complex(real, number());
+  }
+  return z;
+}
+
+ComplexVector flat_map(const Positions& positions) {
+  return positions.col(0).cast<Complex>() + Complex(0, 1) * positions.col(1).cast<Complex>();
+}
+
+Eigen::MatrixXcd dense(const HermitianMatrix& matrix) {
+  return Eigen::MatrixXcd(Eigen::MatrixXcd(matrix).selfadjointView<Eigen::Lower>());
+}
+
+double difference(const ComplexVector& a, const ComplexVector& b) { return (a - b).norm() / b.norm(); }
+
+double difference_up_to_similarity(const ComplexVector& a, const ComplexVector& b) {
+  const ComplexVector from = b.array() - b.mean();
+  const ComplexVector to = a.array() - a.mean();
+  return (to - from.dot(to) / from.squaredNorm() * from).norm() / to.norm();
+}
+
+double shoelace_area(const BoundaryLoop& loop, const ComplexVector& z) {
+  double area = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    area += 0.5 * std::imag(std::conj(z[loop[i]]) * z[loop[(i + 1) % loop.size()]]);
+  }
+  return area;
+}
+
+std::vector<FactorizationBackend> backends() {
+#ifdef SPECTRAL_CONFORMAL_HAVE_CHOLMOD
+  return {FactorizationBackend::cholmod, FactorizationBackend::eigen};
+#else
+  return {FactorizationBackend::eigen};
+#endif
+}
+
+}  // namespace spectral_conformal::test

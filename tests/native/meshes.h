@@ -1,0 +1,68 @@
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "spectral_conformal/charts.h"
+#include "spectral_conformal/conformal_energy.h"
+#include "spectral_conformal/factorization.h"
+
+namespace spectral_conformal::test {
+
+/// A polygon mesh that owns its arrays.
+struct Mesh {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<int> offsets{0};
+  std::vector<int> corners;
+  std::vector<std::array<int, 2>> seams;
+
+  Mesh() = default;
+  Mesh(std::vector<Eigen::Vector3d> vertices, std::initializer_list<std::vector<int>> faces);
+  void add(const std::vector<int>& face);
+  void append(const Mesh& other);
+  void reverse(int face);
+  int n_faces() const { return static_cast<int>(offsets.size()) - 1; }
+  /// Valid while the mesh is neither changed nor destroyed.
+  PolygonMesh view() const;
+};
+
+/// A mesh that is one disk-like patch.
+struct Patch {
+  Chart chart;
+  Positions positions;
+  explicit Patch(const Mesh& mesh);
+  ConformalEnergy energy(Weights weights) const { return {positions, chart.triangles, chart.coverage, weights}; }
+  /// The longest loop.
+  const BoundaryLoop& outer() const;
+};
+
+/// Triangles on the rectangle columns x rows (cells of size 1), moved irregularly within the plane.
+Mesh flat_grid(int columns, int rows);
+/// The same with bumps, so that no conformal map of it is an isometry. No symmetry.
+Mesh bumpy_grid(int columns, int rows);
+/// A bumpy grid without the cells (1 + 3 i, 1 + 3 j): (columns / 3) x (rows / 3) holes.
+Mesh perforated_grid(int columns, int rows);
+/// Quads on the flat grid of unit cells.
+Mesh quad_grid(int columns, int rows);
+/// A strip of quads around a ring, closed with the given number of half twists.
+Mesh ring(int segments, int half_twists);
+/// A grid of quads, periodic in both directions, bent to a torus.
+Mesh torus(int around, int across);
+Mesh tetrahedron();
+
+/// Deterministic numbers in the square (-1, 1) x (-1, 1), the same on every platform.
+ComplexVector random_map(Eigen::Index n, unsigned seed = 1);
+/// The first two coordinates.
+ComplexVector flat_map(const Positions& positions);
+Eigen::MatrixXcd dense(const HermitianMatrix& matrix);
+/// |a - b| / |b|.
+double difference(const ComplexVector& a, const ComplexVector& b);
+/// The same after a similarity has taken b as near to a as possible.
+double difference_up_to_similarity(const ComplexVector& a, const ComplexVector& b);
+/// The area inside a loop of the map, positive when it runs counter-clockwise.
+double shoelace_area(const BoundaryLoop& loop, const ComplexVector& z);
+
+/// The backends of this build.
+std::vector<FactorizationBackend> backends();
+
+}  // namespace spectral_conformal::test

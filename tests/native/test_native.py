@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Build the C++ library and its own tests in every flavour and run them."""
+
+import os
+
+import flavours
+import pytest
+
+
+@pytest.fixture(scope="module", params=flavours.FLAVOURS)
+def build(request):
+    folder = flavours.configure(request.param)
+    flavours.run(flavours.TOOLS / "cmake", "--build", folder)
+    return folder
+
+
+def test_ctest(build, monkeypatch):
+    monkeypatch.setenv("UBSAN_OPTIONS", "print_stacktrace=1")
+    summary = flavours.run(
+        flavours.TOOLS / "ctest", "--test-dir", build, "--output-on-failure", "--no-tests=error", "-j", os.cpu_count()
+    )
+    assert "100% tests passed" in summary
+
+
+def test_cholmod_is_linked_unless_left_out(build):
+    cache = (build / "CMakeCache.txt").read_text()
+    assert ("CHOLMOD_LIBRARY:FILEPATH=" in cache) == (build.name != "eigen_only")
+    assert "CHOLMOD_LIBRARY-NOTFOUND" not in cache

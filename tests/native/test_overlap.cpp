@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "meshes.h"
+#include "spectral_conformal/overlap.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+using Triangles = std::vector<std::array<int, 3>>;
+
+double cross(Complex a, Complex b) { return std::imag(std::conj(a) * b); }
+
+/// Area common to two triangles, by clipping one with the half-planes of the other (Sutherland and Hodgman).
+double common_area(std::array<Complex, 3> a, std::array<Complex, 3> b) {
+  if (cross(b[1] - b[0], b[2] - b[0]) < 0) std::swap(b[1], b[2]);
+  std::vector<Complex> polygon(a.begin(), a.end());
+  for (int k = 0; k < 3; ++k) {
+    const Complex side = b[(k + 1) % 3] - b[k];
+    std::vector<Complex> clipped;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Complex p = polygon[i];
+      const Complex q = polygon[(i + 1) % polygon.size()];
+      const double at_p = cross(side, p - b[k]);
+      const double at_q = cross(side, q - b[k]);
+      if (at_p >= 0) clipped.push_back(p);
+      if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) clipped.push_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    polygon = std::move(clipped);
+  }
+  double area = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) area += 0.5 * cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return std::abs(area);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("overlap");
+
+TEST_CASE("a flat mesh does not overlap, nor does one turned by any angle: neighbours only touch") {
+  const Patch patch(flat_grid(12, 9));
+  for (const double angle : {0.0, 0.3, 1.0, 2.2}) {
+    const ComplexVector z = std::polar(3.0, angle) * flat_map(patch.positions);
+    const std::vector<bool> overlapping = overlapping_triangles(patch.chart.triangles, z);
+    CHECK(std::count(overlapping.begin(), overlapping.end(), true) == 0);
+  }
+}
+
+TEST_CASE("agrees with the common area of every pair of scattered triangles") {
+  constexpr int n = 60;
+  Triangles triangles;
+  const ComplexVector random = random_map(4 * n, 11);
+  ComplexVector z(3 * n);
+  for (int t = 0; t < n; ++t) {
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    for (int k = 0; k < 3; ++k) z[3 * t + k] = 4.0 * random[4 * t] + 0.6 * random[4 * t + 1 + k];
+  }
+  const std::vector<bool> overlapping = overlapping_triangles(triangles, z);
+  int expected_count = 0;
+  for (int a = 0; a < n; ++a) {
+    bool expected = false;
+    for (int b = 0; b < n; ++b) {
+      expected |=
+          a != b && common_area({z[3 * a], z[3 * a + 1], z[3 * a + 2]}, {z[3 * b], z[3 * b + 1], z[3 * b + 2]}) > 1e-9;
+    }
+    CHECK(overlapping[a] == expected);
+    expected_count += expected ? 1 : 0;
+  }
+  REQUIRE((expected_count > 10 && expected_count < 50));
+}
+
+TEST_CASE("one inside another, two that coincide, and a folded neighbour overlap") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  ComplexVector z(6);
+  z << 0.0, 4.0, Complex(0, 4), Complex(1, 1), Complex(1.5, 1), Complex(1, 1.5);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
+  z.tail(3) = z.head(3);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
+  z.head(4) << 0.0, 1.0, Complex(0.5, 1), Complex(0.5, 0.4);
+  CHECK(overlapping_triangles({{0, 1, 2}, {1, 0, 3}}, z) == std::vector<bool>{true, true});
+  z[3] = Complex(0.5, -0.4);
+  CHECK(overlapping_triangles({{0, 1, 2}, {1, 0, 3}}, z) == std::vector<bool>{false, false});
+}
+
+TEST_CASE("contacts less deep than rounding do not count, whatever the scale") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  for (const double scale : {1e-12, 1.0, 1e12}) {
+    ComplexVector z(6);
+    for (const double depth : {1e-12, 1e-6}) {
+      z << 0.0, 1.0, Complex(0, 1), Complex(0, depth), Complex(0, depth - 1), Complex(1, depth - 1);
+      z *= scale;
+      CHECK(overlapping_triangles(two, z) == std::vector<bool>{depth > 1e-9, depth > 1e-9});
+    }
+  }
+}
+
+TEST_CASE("no triangles") { CHECK(overlapping_triangles({}, {}).empty()); }
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

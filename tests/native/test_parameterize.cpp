@@ -1,0 +1,259 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "meshes.h"
+#include "spectral_conformal/distortion.h"
+#include "spectral_conformal/errors.h"
+#include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/placement.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+Solver solver(const Patch& patch, Weights weights = Weights::uniform,
+              BoundaryMeasure boundary = BoundaryMeasure::length,
+              FactorizationBackend backend = FactorizationBackend::automatic) {
+  return {patch.chart, patch.positions, weights, boundary, backend};
+}
+
+Parameterization solve(const Patch& patch, Method method, Weights weights = Weights::uniform) {
+  return solver(patch, weights).solve(method, {}, 1e-8);
+}
+
+std::string message_of_single_patch(const Mesh& mesh) {
+  try {
+    single_patch(mesh.view());
+  } catch (const InvalidMesh& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+/// What the constructor of Solver says of the mesh's one chart.
+std::string message_of_solver(const Mesh& mesh) {
+  const Patch patch(mesh);
+  try {
+    solver(patch);
+  } catch (const InvalidMesh& problem) {
+    CHECK(problem.what() == why_not_a_disk(patch.chart, patch.positions));
+    return problem.what();
+  }
+  return "";
+}
+
+bool says(const std::string& message, const char* what) { return message.find(what) != std::string::npos; }
+
+}  // namespace
+
+TEST_SUITE_BEGIN("parameterize");
+
+TEST_CASE("flat patches come back as themselves, by every method, at any scale and place") {
+  const Mesh meshes[] = {flat_grid(12, 9), quad_grid(12, 9)};
+  for (const Mesh& flat : meshes) {
+    for (const double scale : {1e-15, 1.0, 1e15}) {
+      Mesh mesh = flat;
+      for (auto& p : mesh.points) p = scale * (p + Eigen::Vector3d(100, -70, 30));
+      const Patch patch(mesh);
+      for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+        for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+          const Parameterization map = solve(patch, method, weights);
+          CHECK(map.turning_number == 1);
+          CHECK_MESSAGE(map.message.empty(), map.message);
+          const Distortion distortion =
+              measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, map.z);
+          CHECK(distortion.max_qc - 1 < 1e-9);
+          CHECK(distortion.log2_scale.cwiseAbs().maxCoeff() < 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the eigenvalue is that of L z = lambda B z in the units of the input") {
+  Mesh mesh = perforated_grid(7, 7);
+  for (auto& p : mesh.points) p *= 3;
+  const Patch patch(mesh);
+  for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+    const ConformalEnergy energy = patch.energy(weights);
+    // Weights 1 / |T| instead of mean / |T|.
+    const Eigen::MatrixXcd matrix = dense(energy.matrix()) / energy.weight_unit();
+    const auto n = static_cast<int>(matrix.cols());
+    for (const auto boundary : {BoundaryMeasure::length, BoundaryMeasure::vertex}) {
+      const BoundaryForm form = boundary_form(patch.outer(), patch.positions, boundary);
+      // The largest mu of B^ z = mu (L + B + 1 1^T) z among those orthogonal to the constants: mu = 1 / (lambda + 1).
+      Eigen::VectorXcd mass = Eigen::VectorXcd::Zero(n);
+      for (std::size_t i = 0; i < form.vertices.size(); ++i) mass[form.vertices[i]] = form.mass[i];
+      const Eigen::MatrixXcd projected = Eigen::MatrixXcd(mass.asDiagonal()) - mass * mass.transpose() / form.total();
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> reference(
+          projected, matrix + projected + Eigen::MatrixXcd::Ones(n, n));
+      const double expected = 1 / reference.eigenvalues()[n - 1] - 1;
+      for (const auto backend : backends()) {
+        const Parameterization map = solver(patch, weights, boundary, backend).solve(Method::spectral, {}, 1e-8);
+        CHECK(map.eigenvalue == doctest::Approx(expected).epsilon(1e-8));
+        CHECK(map.residual < 1e-10);
+        CHECK(map.iterations > 0);
+        CHECK(difference_up_to_similarity(map.z, reference.eigenvectors().col(n - 1)) < 1e-6);
+        CHECK(energy.value(map.z) / energy.weight_unit() / form.value(map.z) ==
+              doctest::Approx(map.eigenvalue).epsilon(1e-9));
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> fiedler(matrix);
+    CHECK(solve(patch, Method::fiedler, weights).eigenvalue == doctest::Approx(fiedler.eigenvalues()[1]).epsilon(1e-8));
+    const Parameterization area = solve(patch, Method::area, weights);
+    CHECK(area.eigenvalue == doctest::Approx(energy.value(area.z) / energy.area_form(area.z)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("maps are centred, positively oriented and as large as the surface") {
+  const Patch patch(perforated_grid(10, 7));
+  const ConformalEnergy energy = patch.energy(Weights::uniform);
+  for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+    const Parameterization map = solve(patch, method);
+    CHECK(std::abs(map.z.mean()) < 1e-12);
+    CHECK(signed_area(energy, map.z) == doctest::Approx(energy.area()).epsilon(1e-12));
+    CHECK(map.turning_number == 1);
+    CHECK_FALSE(map.timings.empty());
+    for (const auto& [phase, seconds] : map.timings) CHECK((seconds >= 0 && !phase.empty()));
+  }
+}
+
+TEST_CASE("a solver object gives the same map again, and as a fresh one does") {
+  const Patch patch(bumpy_grid(10, 8));
+  Solver kept = solver(patch);
+  const ComplexVector first = kept.solve(Method::spectral, {}, 1e-8).z;
+  CHECK(kept.solve(Method::fiedler, {}, 1e-8).z != first);
+  CHECK(kept.solve(Method::spectral, {}, 1e-8).z == first);
+  CHECK(solve(patch, Method::spectral).z == first);
+}
+
+TEST_CASE("a mirror-symmetric quad mesh has a mirror-symmetric map") {
+  Mesh mesh = quad_grid(10, 6);
+  for (auto& p : mesh.points) p = {p.x() - 5, p.y(), std::cos(0.5 * (p.x() - 5)) * (1 + 0.3 * p.y())};
+  const Patch patch(mesh);
+  for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+    const ComplexVector z = solve(patch, Method::spectral, weights).z;
+    ComplexVector mirrored(z.size());
+    for (int j = 0; j <= 6; ++j) {
+      for (int i = 0; i <= 10; ++i) mirrored[11 * j + i] = z[11 * j + 10 - i];
+    }
+    CHECK(difference_up_to_similarity(mirrored.conjugate(), z) < 1e-7);
+  }
+}
+
+TEST_CASE("LSCM: two or more pins are held exactly, one places the map, none leaves it to the method") {
+  const Patch patch(perforated_grid(7, 7));
+  Solver kept = solver(patch);
+  const Pins pins{{0, {10, 20}}, {30, {14, 20.5}}, {51, {12, 25}}};
+  const Parameterization held = kept.solve(Method::lscm, pins, 1e-8);
+  for (const auto& [vertex, position] : pins) CHECK(held.z[vertex] == position);
+  CHECK(held.residual < 1e-10);
+  const Parameterization placed = kept.solve(Method::lscm, {{5, {3, 4}}}, 1e-8);
+  const Parameterization free = kept.solve(Method::lscm, {}, 1e-8);
+  CHECK(placed.z[5] == Complex(3, 4));
+  CHECK(difference_up_to_similarity(placed.z, free.z) < 1e-12);
+}
+
+TEST_CASE("pins that cannot be used are refused") {
+  const Patch patch(bumpy_grid(4, 4));
+  Solver kept = solver(patch);
+  CHECK_THROWS_AS(kept.solve(Method::lscm, {{0, 1.0}, {3, 1.0}}, 1e-8), InvalidMesh);
+  const double infinite = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(kept.solve(Method::lscm, {{0, 1.0}, {3, infinite}}, 1e-8), InvalidMesh);
+  CHECK_THROWS_AS(kept.solve(Method::spectral, {{0, 1.0}}, 1e-8), std::invalid_argument);
+}
+
+TEST_CASE("what is not one disk-like patch is refused with its name") {
+  CHECK(says(message_of_single_patch({}), "no faces"));
+  Mesh degenerate = flat_grid(2, 2);
+  degenerate.add({0, 1, 1});
+  CHECK(says(message_of_single_patch(degenerate), "fewer than three"));
+  const Mesh fin({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  CHECK(says(message_of_single_patch(fin), "three or more faces"));
+  Mesh two = flat_grid(2, 2);
+  two.append(flat_grid(1, 1));
+  CHECK(says(message_of_single_patch(two), "2 components"));
+  Mesh pinched = quad_grid(3, 3);
+  pinched.offsets = {0};
+  pinched.corners.clear();
+  for (const auto& quad : {std::vector<int>{0, 1, 5, 4},
+                           {1, 2, 6, 5},
+                           {2, 3, 7, 6},
+                           {6, 7, 11, 10},
+                           {4, 5, 9, 8},
+                           {8, 9, 13, 12},
+                           {9, 10, 14, 13}}) {
+    pinched.add(quad);
+  }
+  CHECK(says(message_of_single_patch(pinched), "bow ties"));
+
+  CHECK(says(message_of_solver(ring(9, 1)), "one-sided"));
+  CHECK(says(message_of_solver(tetrahedron()), "closed"));
+  CHECK(says(message_of_solver(torus(6, 5)), "closed, with 1 handle"));
+  Mesh punctured = torus(6, 5);
+  punctured.offsets.pop_back();
+  punctured.corners.resize(punctured.corners.size() - 4);
+  CHECK(says(message_of_solver(punctured), "1 handle and cannot lie flat"));
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mesh mesh = flat_grid(2, 2);
+    mesh.points[4].y() = bad;
+    CHECK(says(message_of_solver(mesh), "Vertex 4 has a coordinate that is not finite"));
+  }
+  Mesh point = flat_grid(2, 2);
+  for (auto& p : point.points) p.setConstant(3);
+  CHECK(says(message_of_solver(point), "no extent"));
+  Mesh line = flat_grid(2, 2);
+  for (auto& p : line.points) p = p.x() * Eigen::Vector3d(1, 2, 3);
+  CHECK(says(message_of_solver(line), "no area"));
+  // A cone whose whole boundary is one point.
+  Mesh bag({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}},
+           {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}, {3, 4, 5}});
+  const Patch patch(bag);
+  CHECK_THROWS_AS(solver(patch), InvalidMesh);
+}
+
+TEST_CASE("vertices that no face uses, and holes, are no obstacle") {
+  Mesh mesh = perforated_grid(7, 7);
+  mesh.points.insert(mesh.points.begin(), {9, 9, std::numeric_limits<double>::quiet_NaN()});
+  for (int& corner : mesh.corners) ++corner;
+  const Patch patch(mesh);
+  CHECK(patch.chart.n_vertices() == 64);
+  CHECK(solve(patch, Method::spectral).z.allFinite());
+}
+
+TEST_CASE("an energy that vanishes altogether is a failure, not a result") {
+  Patch patch(bumpy_grid(4, 4));
+  std::fill(patch.chart.coverage.begin(), patch.chart.coverage.end(), 0.0);
+  for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+    for (const auto backend : backends()) {
+      Solver empty = solver(patch, Weights::uniform, BoundaryMeasure::length, backend);
+      CHECK_THROWS_AS(empty.solve(method, {}, 1e-8), SolveFailure);
+    }
+  }
+}
+
+TEST_CASE("progress runs from 0 to 1 and can stop every method") {
+  const Patch patch(bumpy_grid(9, 9));
+  for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+    double last = 0;
+    int calls = 0;
+    solver(patch).solve(method, {}, 1e-8, [&](double fraction, const char*) {
+      CHECK((fraction >= last && fraction <= 1));
+      last = fraction;
+      ++calls;
+      return true;
+    });
+    CHECK(calls > 1);
+    for (int stop_at = 1; stop_at <= calls; ++stop_at) {
+      int call = 0;
+      const Progress stop = [&](double, const char*) { return ++call < stop_at; };
+      CHECK_THROWS_AS(solver(patch).solve(method, {}, 1e-8, stop), Cancelled);
+    }
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
