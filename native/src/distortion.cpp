@@ -48,18 +48,12 @@ Measures measure_triangles(const Eigen::Ref<const Positions>& positions,
     if (shape.clamped) continue;
     const Complex d1 = z[b] - z[a];
     const Complex d2 = z[c] - z[a];
-    const double conformal = std::abs(shape.holomorphic_part(d1, d2));
-    const double anticonformal = std::abs(shape.antiholomorphic_part(d1, d2));
-    const double smaller = std::abs(conformal - anticonformal);
-    distortion.qc[static_cast<Eigen::Index>(t)] =
-        smaller > 0 ? (conformal + anticonformal) / smaller : std::numeric_limits<double>::infinity();
+    distortion.qc[static_cast<Eigen::Index>(t)] = shape.quasi_conformal_distortion(d1, d2);
     const double share = coverage.empty() ? 1.0 : coverage[t];
     result.area[t] = share * shape.area();
-    // |f_z|^2 - |f_zbar|^2 is the Jacobian's determinant; both parts carry the factor 4 |T|.
-    const double determinant =
-        (conformal - anticonformal) * (conformal + anticonformal) / (16 * shape.area() * shape.area());
-    result.signed_area[t] = share * determinant * shape.area();
-    distortion.log2_scale[static_cast<Eigen::Index>(t)] = 0.5 * std::log2(std::abs(determinant));
+    const double image = 0.5 * std::imag(std::conj(d1) * d2);
+    result.signed_area[t] = share * image;
+    distortion.log2_scale[static_cast<Eigen::Index>(t)] = 0.5 * std::log2(std::abs(image) / shape.area());
   }
   return result;
 }

@@ -4,11 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace spectral_conformal {
 
 double triangle_area(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) {
   return 0.5 * (p1 - p0).cross(p2 - p0).norm();
+}
+
+double TriangleShape::quasi_conformal_distortion(Complex d1, Complex d2) const {
+  const double conformal = std::abs(holomorphic_part(d1, d2));
+  const double anticonformal = std::abs(antiholomorphic_part(d1, d2));
+  const double smaller = std::abs(conformal - anticonformal);
+  return smaller > 0 ? (conformal + anticonformal) / smaller : std::numeric_limits<double>::infinity();
 }
 
 namespace {

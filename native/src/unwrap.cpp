@@ -1,8 +1,7 @@
 #include "spectral_conformal/unwrap.h"
 
 #include <algorithm>
-
-#include "spectral_conformal/distortion.h"
+#include <array>
 
 namespace spectral_conformal {
 namespace {
@@ -27,34 +26,53 @@ std::string repairs(const Chart& chart, int clamped) {
   return text;
 }
 
-/// One triangulation of the chart to report on: where the energy has both splits of a quad, the one that is distorted
-/// less. (A symmetric map can collapse a triangle of the other.)
-struct Triangulation {
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<int> face;  ///< index into the chart's faces
-};
-
-Triangulation better_splits(const Chart& chart, const Eigen::VectorXd& qc) {
-  Triangulation result;
-  const auto take = [&](std::size_t t) {
-    result.triangles.push_back(chart.triangles[t]);
-    result.face.push_back(chart.triangle_face[t]);
+/// Fills in mean_qc, max_qc, flipped and area of a solved chart. They are those of one triangulation: where the energy
+/// has both splits of a quad, of the one that is distorted less (a symmetric map can collapse a triangle of the other).
+void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
+             UnwrappedChart& report) {
+  struct Triangle {
+    double qc = 1;
+    double area = 0;
+    double image = 0;
+  };
+  const auto measured = [&](std::size_t t) {
+    const auto& [a, b, c] = chart.triangles[t];
+    const TriangleShape& shape = energy.shapes()[t];
+    Triangle result;
+    if (shape.clamped) return result;
+    result.qc = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
+    result.area = shape.area();
+    result.image = 0.5 * std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
+    return result;
+  };
+  double weighted = 0;
+  double area = 0;
+  int last_flipped = -1;
+  const auto take = [&](const Triangle& triangle, std::size_t t) {
+    weighted += triangle.area * triangle.qc;
+    area += triangle.area;
+    report.max_qc = std::max(report.max_qc, triangle.qc);
+    // The whole map is positively oriented (place), so a flipped triangle is a negative one.
+    if (triangle.image < 0 && chart.triangle_face[t] != last_flipped) {
+      last_flipped = chart.triangle_face[t];
+      ++report.flipped;
+    }
   };
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     if (chart.coverage[t] == 1.0) {
-      take(t);
+      take(measured(t), t);
       continue;
     }
-    const auto worst = [&](std::size_t first) {
-      const auto i = static_cast<Eigen::Index>(first);
-      return std::max(qc[i], qc[i + 1]);
-    };
-    const std::size_t better = worst(t) <= worst(t + 2) ? t : t + 2;
-    take(better);
-    take(better + 1);
-    t += 3;  // triangulate_polygon puts the four triangles of the two splits in a row
+    // triangulate_polygon puts the four triangles of the two splits in a row.
+    const std::array<Triangle, 4> splits{measured(t), measured(t + 1), measured(t + 2), measured(t + 3)};
+    const auto worst = [&](int first) { return std::max(splits[first].qc, splits[first + 1].qc); };
+    const int better = worst(0) <= worst(2) ? 0 : 2;
+    take(splits[better], t);
+    take(splits[better + 1], t);
+    t += 3;
   }
-  return result;
+  report.mean_qc = area > 0 ? weighted / area : 1;
+  report.area = energy.area() * scale * scale;
 }
 
 /// The pins of the mesh on the copies that a chart has of their vertices.
@@ -77,6 +95,7 @@ void solve_chart(const PolygonMesh& mesh, const Chart& chart, const Parameterize
     Parameterization solution = solver.solve(options.method, pins_of(chart, pins), options.tolerance, progress);
     z = std::move(solution.z);
     report.solved = true;
+    measure(chart, solver.energy(), z, solver.scale(), report);
     report.message = solution.message + repairs(chart, solver.energy().clamped_triangles());
     if (!report.message.empty()) report.message.pop_back();
     report.eigenvalue = solution.eigenvalue;
@@ -87,25 +106,6 @@ void solve_chart(const PolygonMesh& mesh, const Chart& chart, const Parameterize
     report.message = problem.what();
   } catch (const SolveFailure& problem) {
     report.message = problem.what();
-  }
-  if (!report.solved) return;
-  Distortion distortion = measure_distortion(positions, chart.triangles, chart.coverage, z);
-  Triangulation reported{chart.triangles, chart.triangle_face};
-  if (std::any_of(chart.coverage.begin(), chart.coverage.end(), [](double share) { return share != 1.0; })) {
-    reported = better_splits(chart, distortion.qc);
-    distortion = measure_distortion(positions, reported.triangles, {}, z);
-  }
-  report.mean_qc = distortion.mean_qc;
-  report.max_qc = distortion.max_qc;
-  int last = -1;
-  for (std::size_t t = 0; t < reported.triangles.size(); ++t) {
-    if (!distortion.flipped[t] || reported.face[t] == last) continue;
-    last = reported.face[t];
-    ++report.flipped;
-  }
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const auto& [a, b, c] = chart.triangles[t];
-    report.area += chart.coverage[t] * triangle_area(positions.row(a), positions.row(b), positions.row(c));
   }
 }
 

@@ -66,6 +66,8 @@ class Solver {
   Parameterization solve(Method method, const Pins& pins, double tolerance, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
+  /// Input units per unit of the energy's positions.
+  double scale() const { return scale_; }
   const BoundaryLoop& outer_boundary() const { return outer_; }
 
  private:

@@ -22,6 +22,10 @@ struct TriangleShape {
     return Complex(0, -1) * (d1 * Complex(x2, y2) - d2 * x1);
   }
 
+  /// Quasi-conformal distortion of the same map: larger over smaller singular value, (|f_z| + |f_zbar|) over
+  /// ||f_z| - |f_zbar||; infinite where the image has no area.
+  double quasi_conformal_distortion(Complex d1, Complex d2) const;
+
   /// The least height over the longest side, relative to that side.
   static constexpr double minimum_height = 1e-10;
 };
