@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
+
+#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
@@ -195,6 +198,19 @@ class ShiftedOperator {
   mutable int solves_ = 0;  // Spectra takes the operator by const reference
 };
 
+/// Runs Lanczos. Spectra throws std::runtime_error where its small projected matrix is not finite or does not converge.
+template <class Solver>
+bool converges(Solver& solver, const EigenproblemOptions& options) {
+  try {
+    solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  return solver.info() == Spectra::CompInfo::Successful;
+}
+
 }  // namespace
 
 Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
@@ -211,8 +227,7 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
     const int dimension = std::min<int>(options.krylov_dimension, static_cast<int>(2 * n));
     Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, dimension);
     solver.init(reinterpret_cast<const double*>(start.data()));
-    solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
-    if (solver.info() != Spectra::CompInfo::Successful) {
+    if (!converges(solver, options)) {
       result.solves = op.solves();
       return result;
     }
@@ -248,9 +263,9 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   ComplexVector smooth(n);
   shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
   solver.init(reinterpret_cast<const double*>(smooth.data()));
-  solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
+  const bool converged = converges(solver, options);
   result.solves = shifted.solves();
-  if (solver.info() != Spectra::CompInfo::Successful) return result;
+  if (!converged) return result;
   const Eigen::VectorXd real = solver.eigenvectors(1);
   result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   result.mu = solver.eigenvalues()[0];
