@@ -268,13 +268,16 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges, const s
         }
       }
     }
-    std::sort(queue.begin(), queue.end());
     const auto against = std::count_if(queue.begin(), queue.end(), [&](int face) { return result.reversed[face]; });
     if (2 * against > static_cast<std::ptrdiff_t>(queue.size())) {
       for (const int face : queue) result.reversed[face] = static_cast<char>(1 - result.reversed[face]);
     }
-    result.faces.push_back(queue);
+    result.faces.emplace_back();
+    result.faces.back().reserve(queue.size());
     result.orientable.push_back(orientable ? 1 : 0);
+  }
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (result.chart_of_face[face] >= 0) result.faces[result.chart_of_face[face]].push_back(face);
   }
   return result;
 }

@@ -125,19 +125,25 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
   return sum;
 }
 
-void ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) const {
+double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) const {
   result.setZero(z.size());
+  double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     const TriangleShape& s = shapes_[t];
-    // The gradient of w |g|^2 / (4 |T|), g = antiholomorphic_part, towards the conjugates of z_b - z_a and z_c - z_a.
-    const Complex g = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]) * (weight(t) / (4 * s.area()));
-    const Complex towards_b = g * std::conj(Complex(0, -1) * Complex(s.x2, s.y2));
-    const Complex towards_c = g * std::conj(Complex(0, 1) * s.x1);
+    const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
+    const double scale = weight(t) / (4 * s.area());
+    sum += scale * std::norm(part);
+    // The gradient of w |part|^2 / (4 |T|) towards the conjugates of z_b - z_a and z_c - z_a:
+    // part times the conjugates of -i (x2 + i y2) and i x1.
+    const Complex g = scale * part;
+    const Complex towards_b(g.real() * s.y2 - g.imag() * s.x2, g.real() * s.x2 + g.imag() * s.y2);
+    const Complex towards_c(g.imag() * s.x1, -g.real() * s.x1);
     result[b] += towards_b;
     result[c] += towards_c;
     result[a] -= towards_b + towards_c;
   }
+  return sum;
 }
 
 }  // namespace spectral_conformal

@@ -88,23 +88,26 @@ struct Blas {
   }
 };
 
-/// Holds OpenBLAS to one thread while any object lives, and restores its setting after the last one: more threads gain
-/// nothing on these supernodes, and the result must not depend on their number. OpenBLAS has one setting for the whole
-/// process, which is why the count of holders is shared.
-class SingleThreadedBlas {
+/// Holds OpenBLAS to a fixed number of threads while any object lives, and restores its setting after the last one: the
+/// result must not depend on how many the machine or the user set. Two gain a third on large fronts; more find too
+/// little work in the small ones. OpenBLAS has one setting for the whole process, which is why the count of holders is
+/// shared.
+class FixedBlasThreads {
  public:
-  explicit SingleThreadedBlas(const Blas& blas) : blas_(blas) {
+  static constexpr int fixed_threads = 2;
+
+  explicit FixedBlasThreads(const Blas& blas) : blas_(blas) {
     const std::lock_guard<std::mutex> lock(mutex());
     const auto get = blas_.function<int (*)()>("openblas_get_num_threads");
     if (holders()++ == 0 && get != nullptr) before() = get();
-    set(1);
+    set(fixed_threads);
   }
-  ~SingleThreadedBlas() {
+  ~FixedBlasThreads() {
     const std::lock_guard<std::mutex> lock(mutex());
     if (--holders() == 0) set(before());
   }
-  SingleThreadedBlas(const SingleThreadedBlas&) = delete;
-  SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
+  FixedBlasThreads(const FixedBlasThreads&) = delete;
+  FixedBlasThreads& operator=(const FixedBlasThreads&) = delete;
 
  private:
   void set(int threads) const {
@@ -128,8 +131,8 @@ class SingleThreadedBlas {
 #else
 
 struct Blas {};
-struct SingleThreadedBlas {
-  explicit SingleThreadedBlas(const Blas&) {}
+struct FixedBlasThreads {
+  explicit FixedBlasThreads(const Blas&) {}
 };
 
 #endif
@@ -140,7 +143,6 @@ class CholmodFactorization final : public Factorization {
     cholmod_start(&common_);
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
-    common_.nmethods = 1;
     common_.postorder = 1;
   }
   ~CholmodFactorization() override {
@@ -152,9 +154,11 @@ class CholmodFactorization final : public Factorization {
 
   void analyze(const HermitianMatrix& matrix) override {
     cholmod_free_factor(&factor_, &common_);
-    // Nested dissection pays for its slower ordering from here on, in time and in memory.
-    constexpr Eigen::Index metis_from = 250000;
-    common_.method[0].ordering = matrix.rows() >= metis_from ? CHOLMOD_METIS : CHOLMOD_AMD;
+    // AMD alone is fastest while its factor fits comfortably; beyond, CHOLMOD compares it with METIS (its own default
+    // strategy), which takes longer to order and less memory.
+    constexpr Eigen::Index compare_from = 600000;
+    common_.nmethods = matrix.rows() < compare_from ? 1 : 0;
+    common_.method[0].ordering = CHOLMOD_AMD;
     cholmod_sparse view = view_of(matrix);
     factor_ = cholmod_analyze(&view, &common_);
     check();
@@ -171,7 +175,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
-    const SingleThreadedBlas single(blas_);
+    const FixedBlasThreads threads(blas_);
     cholmod_sparse view = view_of(matrix);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF) return false;
@@ -180,7 +184,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
-    const SingleThreadedBlas single(blas_);
+    const FixedBlasThreads threads(blas_);
     const int* order = permutation();
     for (std::size_t i = 0; i < factor_->n; ++i) work_[static_cast<Eigen::Index>(i)] = b[order[i]];
     forward(all_);
@@ -205,7 +209,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   void solve_selected(const ComplexVector& b, ComplexVector& x) override {
-    const SingleThreadedBlas single(blas_);
+    const FixedBlasThreads threads(blas_);
     for (const int k : reached_) work_.segment(first_column(k), columns(k)).setZero();
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
     forward(reached_);
@@ -215,7 +219,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
-    const SingleThreadedBlas single(blas_);
+    const FixedBlasThreads threads(blas_);
     work_.setZero();
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
     forward(reached_);

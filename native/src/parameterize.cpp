@@ -63,16 +63,17 @@ double largest_diagonal(const HermitianMatrix& matrix) {
   return largest;
 }
 
-/// r = L z - lambda B^ z.
-void eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, const ComplexVector& z, double lambda,
-                    ComplexVector& r) {
-  energy.apply(z, r);
+/// lambda = z^H L z / z^H B^ z and r = L z - lambda B^ z. Returns lambda.
+double eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, const ComplexVector& z,
+                      ComplexVector& r) {
+  const double lambda = energy.apply(z, r) / form.value(z);
   Complex barycentre = 0;
   for (std::size_t i = 0; i < form.vertices.size(); ++i) barycentre += form.mass[i] * z[form.vertices[i]];
   barycentre /= form.total();
   for (std::size_t i = 0; i < form.vertices.size(); ++i) {
     r[form.vertices[i]] -= lambda * form.mass[i] * (z[form.vertices[i]] - barycentre);
   }
+  return lambda;
 }
 
 }  // namespace
@@ -245,7 +246,8 @@ Solver::Solver(const Solver& like, Weights weights, BoundaryMeasure boundary)
 double Solver::lambda_unit(Method method) const {
   if (method == Method::area) return 1;
   // positions_ = positions / scale_. Lengths, and with them M, are divided by scale_; L has weight_unit / |T|.
-  const double energy_unit = energy_->weight_unit() == 1 ? 1 : energy_->weight_unit() * scale_ * scale_;
+  const bool uniform = energy_->weights() == Weights::uniform;
+  const double energy_unit = uniform ? 1 : energy_->weight_unit() * scale_ * scale_;
   const double mass_unit = method != Method::fiedler && boundary_ == BoundaryMeasure::length ? 1 / scale_ : 1;
   return mass_unit / energy_unit;
 }
@@ -298,8 +300,7 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
       constexpr double negligible = 1e-10;
       double relative_change = 0;
       for (int k = 0; k < max_corrections; ++k) {
-        lambda = energy_->value(result.z) / form.value(result.z);
-        eigen_residual(*energy_, form, result.z, lambda, r);
+        eigen_residual(*energy_, form, result.z, r);
         factor.factorization->solve(r, change);
         change.array() -= change.mean();
         ++result.iterations;
@@ -307,8 +308,7 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
         relative_change = change.norm() / result.z.norm();
         if (!(relative_change > negligible)) break;
       }
-      lambda = energy_->value(result.z) / form.value(result.z);
-      eigen_residual(*energy_, form, result.z, lambda, r);
+      lambda = eigen_residual(*energy_, form, result.z, r);
       result.residual = r.norm() / (scale_of_residual * result.z.norm());
       if (!(relative_change < resolved)) {
         why = "The triangles differ so much in size or shape that double precision does not resolve the map";

@@ -27,6 +27,12 @@ class Blender:
     pytest_command: tuple[str, ...]
     bundles_module: bool
 
+    def script_command(self, script: Path) -> list[str]:
+        """Return the command that runs a Python script in this Blender, in background mode."""
+        if self.name == "bpy":
+            return [sys.executable, str(script)]
+        return ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", str(script)]
+
 
 def system_blender() -> str:
     """Return the path of the system's Blender."""

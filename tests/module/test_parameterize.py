@@ -1,6 +1,7 @@
 import threading
 import time
 
+import igl
 import meshes
 import numpy as np
 import pytest
@@ -111,6 +112,14 @@ def test_lscm_holds_pins_exactly_and_minimises():
         if weights == "uniform":
             free = np.delete(gradient, list(pins))
             assert np.abs(free).max() < 1e-10 * np.ptp(uv, axis=0).max()
+
+
+def test_lscm_agrees_with_libigl():
+    vertices, triangles = meshes.bumpy_disk(2000, 3)
+    pins = {3: (0.0, 0.0), 9: (1.0, 0.2)}
+    expected, _ = igl.lscm(vertices, triangles, np.array(list(pins)), np.array(list(pins.values())))
+    uv = sc.parameterize(vertices, triangles, method="lscm", pins=pins).uv
+    assert np.abs(uv - expected).max() < 1e-8 * np.ptp(uv)
 
 
 def test_lscm_without_pins_takes_far_apart_boundary_vertices():

@@ -39,7 +39,8 @@ class ConformalEnergy {
   /// z^H A z = 2 A(z), twice the weighted signed area of the map.
   double area_form(const ComplexVector& z) const;
   /// L z, accumulated from the differences along the edges of each triangle, so that constants vanish exactly.
-  void apply(const ComplexVector& z, ComplexVector& result) const;
+  /// Returns value(z), which costs nothing beside it.
+  double apply(const ComplexVector& z, ComplexVector& result) const;
 
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   const std::vector<TriangleShape>& shapes() const { return shapes_; }

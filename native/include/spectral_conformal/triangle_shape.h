@@ -15,11 +15,15 @@ struct TriangleShape {
   /// Whether the shape was clamped, see lay_out.
   bool clamped = false;
 
-  /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2.
-  Complex holomorphic_part(Complex d1, Complex d2) const { return Complex(0, 1) * (d1 * Complex(x2, -y2) - d2 * x1); }
-  /// 4 |T| times the derivative f_zbar of the same map. Its conformal energy is E_C = 2 |T| |f_zbar|^2.
+  /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2:
+  /// i (d1 (x2 - i y2) - d2 x1). Written out, because complex multiplication by the standard looks for infinities.
+  Complex holomorphic_part(Complex d1, Complex d2) const {
+    return {d1.real() * y2 - d1.imag() * x2 + d2.imag() * x1, d1.real() * x2 + d1.imag() * y2 - d2.real() * x1};
+  }
+  /// 4 |T| times the derivative f_zbar of the same map: -i (d1 (x2 + i y2) - d2 x1). Its conformal energy is
+  /// E_C = 2 |T| |f_zbar|^2.
   Complex antiholomorphic_part(Complex d1, Complex d2) const {
-    return Complex(0, -1) * (d1 * Complex(x2, y2) - d2 * x1);
+    return {d1.real() * y2 + d1.imag() * x2 - d2.imag() * x1, d1.imag() * y2 - d1.real() * x2 + d2.real() * x1};
   }
 
   /// Quasi-conformal distortion of the same map: larger over smaller singular value, (|f_z| + |f_zbar|) over
