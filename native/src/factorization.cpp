@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 #include <new>
+#include <shared_mutex>
 #include <stdexcept>
 
 #include "spectral_conformal/errors.h"
@@ -88,32 +89,57 @@ struct Blas {
   }
 };
 
-/// Holds OpenBLAS to a fixed number of threads while any object lives, and restores its setting after the last one: the
-/// result must not depend on how many the machine or the user set. Two gain a third on large fronts; more find too
-/// little work in the small ones. OpenBLAS has one setting for the whole process, which is why the count of holders is
-/// shared.
+/// Holds OpenBLAS to a number of threads that depends on the task alone while the object lives, and restores its
+/// setting: the result must not depend on how many the machine or the user set. One thread for all but the largest
+/// factorisations, where a second gains a third; on small fronts it gains nothing and stalls while the other core is
+/// busy. OpenBLAS has one setting for the whole process, so its holders share a lock: any number with one thread, or
+/// one with two.
 class FixedBlasThreads {
  public:
-  static constexpr int fixed_threads = 2;
+  enum class Count { one, two };
 
-  explicit FixedBlasThreads(const Blas& blas) : blas_(blas) {
-    const std::lock_guard<std::mutex> lock(mutex());
-    const auto get = blas_.function<int (*)()>("openblas_get_num_threads");
-    if (holders()++ == 0 && get != nullptr) before() = get();
-    set(fixed_threads);
+  FixedBlasThreads(const Blas& blas, Count count) : blas_(blas), exclusive_(count == Count::two) {
+    if (exclusive_) {
+      gate().lock();
+      previous_ = get();
+      set(2);
+      return;
+    }
+    gate().lock_shared();
+    const std::lock_guard<std::mutex> lock(counting());
+    if (holders()++ == 0) {
+      before() = get();
+      set(1);
+    }
   }
   ~FixedBlasThreads() {
-    const std::lock_guard<std::mutex> lock(mutex());
-    if (--holders() == 0) set(before());
+    if (exclusive_) {
+      set(previous_);
+      gate().unlock();
+      return;
+    }
+    {
+      const std::lock_guard<std::mutex> lock(counting());
+      if (--holders() == 0) set(before());
+    }
+    gate().unlock_shared();
   }
   FixedBlasThreads(const FixedBlasThreads&) = delete;
   FixedBlasThreads& operator=(const FixedBlasThreads&) = delete;
 
  private:
-  void set(int threads) const {
-    if (const auto set = blas_.function<void (*)(int)>("openblas_set_num_threads")) set(threads);
+  int get() const {
+    const auto function = blas_.function<int (*)()>("openblas_get_num_threads");
+    return function == nullptr ? 1 : function();
   }
-  static std::mutex& mutex() {
+  void set(int threads) const {
+    if (const auto function = blas_.function<void (*)(int)>("openblas_set_num_threads")) function(threads);
+  }
+  static std::shared_mutex& gate() {
+    static std::shared_mutex shared;
+    return shared;
+  }
+  static std::mutex& counting() {
     static std::mutex shared;
     return shared;
   }
@@ -126,13 +152,16 @@ class FixedBlasThreads {
     return shared;
   }
   const Blas& blas_;
+  const bool exclusive_;
+  int previous_ = 1;
 };
 
 #else
 
 struct Blas {};
 struct FixedBlasThreads {
-  explicit FixedBlasThreads(const Blas&) {}
+  enum class Count { one, two };
+  FixedBlasThreads(const Blas&, Count) {}
 };
 
 #endif
@@ -175,7 +204,9 @@ class CholmodFactorization final : public Factorization {
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
-    const FixedBlasThreads threads(blas_);
+    constexpr std::size_t two_from = 100000;
+    const auto count = factor_->n < two_from ? FixedBlasThreads::Count::one : FixedBlasThreads::Count::two;
+    const FixedBlasThreads threads(blas_, count);
     cholmod_sparse view = view_of(matrix);
     cholmod_factorize(&view, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF) return false;
@@ -184,7 +215,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
-    const FixedBlasThreads threads(blas_);
+    const FixedBlasThreads threads(blas_, FixedBlasThreads::Count::one);
     const int* order = permutation();
     for (std::size_t i = 0; i < factor_->n; ++i) work_[static_cast<Eigen::Index>(i)] = b[order[i]];
     forward(all_);
@@ -209,7 +240,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   void solve_selected(const ComplexVector& b, ComplexVector& x) override {
-    const FixedBlasThreads threads(blas_);
+    const FixedBlasThreads threads(blas_, FixedBlasThreads::Count::one);
     for (const int k : reached_) work_.segment(first_column(k), columns(k)).setZero();
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
     forward(reached_);
@@ -219,7 +250,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
-    const FixedBlasThreads threads(blas_);
+    const FixedBlasThreads threads(blas_, FixedBlasThreads::Count::one);
     work_.setZero();
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
     forward(reached_);

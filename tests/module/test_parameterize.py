@@ -1,5 +1,9 @@
+import os
+import subprocess
+import sys
 import threading
 import time
+from pathlib import Path
 
 import igl
 import meshes
@@ -160,6 +164,21 @@ def test_backends_agree():
     second = sc.parameterize(vertices, triangles, factorization="eigen")
     assert first.eigenvalue == pytest.approx(second.eigenvalue, rel=1e-9)
     assert np.abs(first.uv - second.uv).max() < 1e-8
+
+
+def test_result_does_not_depend_on_the_thread_count():
+    code = (
+        "import hashlib, meshes, spectral_conformal as sc\n"
+        "solution = sc.parameterize(*meshes.bumpy_disk(120000, 3))\n"
+        "print(hashlib.sha256(solution.uv.tobytes()).hexdigest(), solution.eigenvalue)"
+    )
+    outputs = set()
+    for threads in ("1", "2", "5"):
+        path = os.pathsep.join([str(Path(meshes.__file__).parent), os.environ.get("PYTHONPATH", "")])
+        limits = {"OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads, "PYTHONPATH": path}
+        command = [sys.executable, "-c", code]
+        outputs.add(subprocess.run(command, env={**os.environ, **limits}, capture_output=True, check=True).stdout)
+    assert len(outputs) == 1
 
 
 def test_blas_is_openblas():

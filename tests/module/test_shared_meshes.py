@@ -1,0 +1,78 @@
+"""The hard and real meshes beside the project, where they exist. Everything they show is also tested on own meshes."""
+
+import json
+from pathlib import Path
+
+import meshes
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes"
+
+
+def read_obj(path):
+    lines = [line.split() for line in path.read_text().splitlines()]
+    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
+    faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
+    return vertices, faces
+
+
+if (SHARED / "hard" / "hard.json").exists():
+    HARD = json.loads((SHARED / "hard" / "hard.json").read_text())
+
+    @pytest.mark.parametrize(("weights", "boundary"), [("uniform", "length"), ("inverse_area", "vertex")])
+    @pytest.mark.parametrize("name", sorted(HARD))
+    def test_hard_mesh_does_what_is_expected(name, weights, boundary):
+        vertices, faces = read_obj(SHARED / "hard" / f"{name}.obj")
+        expected = HARD[name]["expect"]
+        if not faces:
+            with pytest.raises(sc.InvalidMeshError, match="no faces"):
+                sc.unwrap(vertices, [0], [])
+            assert expected == "reject"
+            return
+        result = sc.unwrap(vertices, *meshes.polygons(faces), weights=weights, boundary=boundary)
+        assert np.isfinite(result.uv).all()
+        solved = [chart for chart in result.charts if chart.status == "solved"]
+        assert all(chart.turning_number == 1 for chart in solved)
+        # hard.json allows splitting for the fin; every other mesh to be rejected must be, with a reason.
+        if expected == "reject" and name != "nonmanifold_fin":
+            assert not solved
+            assert all(chart.message for chart in result.charts)
+        else:
+            assert len(solved) == len(result.charts)
+        if expected == "per_component":
+            assert len(solved) == HARD[name]["components"]
+        # The tube's two boundary loops are equally long, so one side of it has to shrink: one fold near its seam.
+        allowed = 1 if expected == "solve_flips" or name == "tube_open" else 0
+        assert sum(chart.flipped for chart in solved) <= allowed
+
+    @pytest.mark.parametrize("name", ["scale_1e-6", "scale_1e6", "offset_1e6"])
+    def test_scale_and_place_do_not_matter(name):
+        expected = sc.unwrap(*_mesh("scale_1")).uv
+        digits = 1e-5 if name == "offset_1e6" else 1e-6  # the file keeps nine digits of every coordinate
+        assert meshes.similarity_deviation(sc.unwrap(*_mesh(name)).uv, expected) < digits
+
+    def _mesh(name):
+        vertices, faces = read_obj(SHARED / "hard" / f"{name}.obj")
+        return vertices, *meshes.polygons(faces)
+
+    # Chosen for their kinds: many holes, strong shrinkage, a scan, developable to the file's digits, one loop, eleven.
+    @pytest.mark.parametrize(
+        ("name", "mean_qc"),
+        [
+            ("tower_holes", 1.040),
+            ("hand_oded", 1.061),
+            ("skull", 1.034),
+            ("maze_bff", 1 + 1e-7),
+            ("cowhead_bff", 1.059),
+            ("beetle_bff", 1.0045),
+        ],
+    )
+    def test_real_mesh_has_low_distortion_and_no_flips(name, mean_qc):
+        vertices, faces = read_obj(SHARED / "real" / f"{name}.obj")
+        for weights, boundary in (("uniform", "length"), ("inverse_area", "vertex")):
+            solution = sc.parameterize(vertices, np.array(faces), weights=weights, boundary=boundary)
+            measured = sc.distortion(vertices, np.array(faces), solution.uv)
+            assert (solution.turning_number, solution.message, measured.flipped.sum()) == (1, "", 0)
+            assert measured.mean_qc < mean_qc
