@@ -19,9 +19,9 @@ VENV = BUILD / "venv"
 PYTHON = VENV / "bin" / "python"
 WHEELS = BUILD / "wheels"
 
-# Debian 12 and Ubuntu 22.04 names. The serial OpenBLAS: CHOLMOD's fronts are small, and threads slow it down.
+# Debian 12 and Ubuntu 22.04 names. Not the serial OpenBLAS: it must not be called from two threads at once.
 APT: dict[str, list[str]] = {
-    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libopenblas-serial-dev", "libspectra-dev", "libsuitesparse-dev"],
+    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libopenblas-pthread-dev", "libspectra-dev", "libsuitesparse-dev"],
     # What bpy's wheel links to and does not bring along.
     "bpy": ["libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1"],
     "blender": ["blender", "python3-numpy"],

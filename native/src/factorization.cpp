@@ -98,17 +98,18 @@ class FixedBlasThreads {
  public:
   enum class Count { one, two };
 
-  FixedBlasThreads(const Blas& blas, Count count) : blas_(blas), exclusive_(count == Count::two) {
+  FixedBlasThreads(const Blas& blas, Count count)
+      : blas_(blas), exclusive_(count == Count::two || call("openblas_get_parallel", 1) == 0) {
     if (exclusive_) {
       gate().lock();
-      previous_ = get();
-      set(2);
+      previous_ = call("openblas_get_num_threads", 1);
+      set(count == Count::two ? 2 : 1);
       return;
     }
     gate().lock_shared();
     const std::lock_guard<std::mutex> lock(counting());
     if (holders()++ == 0) {
-      before() = get();
+      before() = call("openblas_get_num_threads", 1);
       set(1);
     }
   }
@@ -128,9 +129,10 @@ class FixedBlasThreads {
   FixedBlasThreads& operator=(const FixedBlasThreads&) = delete;
 
  private:
-  int get() const {
-    const auto function = blas_.function<int (*)()>("openblas_get_num_threads");
-    return function == nullptr ? 1 : function();
+  /// What OpenBLAS answers; `otherwise` in any other BLAS.
+  int call(const char* name, int otherwise) const {
+    const auto function = blas_.function<int (*)()>(name);
+    return function == nullptr ? otherwise : function();
   }
   void set(int threads) const {
     if (const auto function = blas_.function<void (*)(int)>("openblas_set_num_threads")) function(threads);
