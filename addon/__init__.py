@@ -4,7 +4,7 @@
 from . import menus, operators
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
-# blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_version.py).
+# blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).
 bl_info = {
     "name": "Spectral Unwrap",
     "author": "The Spectral Unwrap developers",

@@ -36,7 +36,7 @@ def unwrap(
     if not edit_meshes:
         return None
     solutions = [unwrapping.solve(edit_mesh.polygons, options) for edit_mesh in edit_meshes]
-    summary = reporting.summarize(solutions, [edit_mesh.name for edit_mesh in edit_meshes])
+    summary = reporting.summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     if summary.solved == 0:
         return Outcome(summary)
     placement = unwrapping.place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, keep_in_place)

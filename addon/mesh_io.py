@@ -17,7 +17,7 @@ from .core.polygon_mesh import PolygonMesh
 class EditMesh:
     """A mesh in edit mode and its arrays."""
 
-    name: str
+    edit_object: bpy.types.Object
     mesh: bpy.types.Mesh
     polygons: PolygonMesh
 
@@ -42,7 +42,7 @@ def read(edit_object: bpy.types.Object, by_uv_selection: bool) -> EditMesh:
         bm.faces.ensure_lookup_table()
         for face in np.flatnonzero(selected).tolist():
             selected[face] = compatibility.has_selected_uv(bm.faces[face], layer)
-    return EditMesh(edit_object.name, mesh, polygons)
+    return EditMesh(edit_object, mesh, polygons)
 
 
 def _read_arrays(mesh: bpy.types.Mesh) -> PolygonMesh:

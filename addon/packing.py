@@ -31,8 +31,11 @@ def pack(
     everything = all(mesh.total_face_sel == np.count_nonzero(chosen.get(mesh, ())) for mesh in meshes)
     by_faces = everything and compatibility.can_pack_by_mesh_selection(context.scene.tool_settings)
     selection = _selected_faces(context, meshes) if by_faces else _selected_uvs(context, meshes, chosen)
-    # The packer refuses to run from an image editor that shows no UVs; without an area it runs anywhere.
-    with selection, context.temp_override(area=None, region=None):
+    # The packer refuses to run from an image editor that shows no UVs, and where the active object has none; without an
+    # area, and for an object that was unwrapped, it runs anywhere.
+    solved = edit_meshes[0].edit_object
+    anywhere = {"area": None, "region": None, "object": solved, "active_object": solved, "edit_object": solved}
+    with selection, context.temp_override(**anywhere):
         _run_packer(margin)
 
 

@@ -5,8 +5,14 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <thread>
+#include <tuple>
 
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/factorization.h"
@@ -91,13 +97,18 @@ sc::FactorizationBackend backend_named(const std::string& name) {
                                          "factorization");
 }
 
-/// Takes the GIL for the call; anything but False goes on, and Python's exceptions (Ctrl-C among them) pass through.
+/// Takes the GIL for the call; None and anything true go on. Python's exceptions pass through, and Ctrl-C is heard even
+/// where there is nothing to call.
 sc::Progress progress_of(const py::object& callable) {
-  if (callable.is_none()) return {};
   return [&callable](double fraction, const char* phase) {
     const py::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    return !callable(fraction, phase).is(py::bool_(false));
+    if (callable.is_none()) return true;
+    const py::object answer = callable(fraction, phase);
+    if (answer.is_none()) return true;
+    const int truth = PyObject_IsTrue(answer.ptr());
+    if (truth < 0) throw py::error_already_set();
+    return truth != 0;
   };
 }
 
@@ -148,6 +159,7 @@ class PatchSolver {
 
   void factorize(const py::object& progress) {
     const sc::Progress callback = progress_of(progress);
+    const Turn turn(*this);
     const py::gil_scoped_release unlocked;
     solver_->factorize(callback);
   }
@@ -166,6 +178,7 @@ class PatchSolver {
     sc::Parameterization solution;
     sc::ComplexVector z;
     {
+      const Turn turn(*this);
       const py::gil_scoped_release unlocked;
       solution = solver_->solve(method_value, pins, tolerance, callback);
       z = sc::ComplexVector::Zero(n_vertices_);
@@ -186,6 +199,33 @@ class PatchSolver {
   }
 
  private:
+  /// The factor has work space of its own, so threads take turns. Waits without the GIL; the thread whose turn it is
+  /// must not come again (from its progress function).
+  class Turn {
+   public:
+    explicit Turn(PatchSolver& solver) : solver_(solver) {
+      if (solver.owner_ == std::this_thread::get_id()) {
+        throw std::runtime_error("This Solver is solving already; its progress function must not call it again.");
+      }
+      {
+        const py::gil_scoped_release unlocked;
+        solver.mutex_.lock();
+      }
+      solver.owner_ = std::this_thread::get_id();
+    }
+    ~Turn() {
+      solver_.owner_ = std::thread::id();
+      solver_.mutex_.unlock();
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    PatchSolver& solver_;
+  };
+
+  std::mutex mutex_;
+  std::atomic<std::thread::id> owner_{};
   Eigen::Index n_vertices_;
   double charts_seconds_ = 0;
   std::vector<int> vertices_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/polygon_triangulation.h"
@@ -282,7 +283,7 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges, const s
   return result;
 }
 
-/// Chains the boundary half-edges, each start vertex having exactly one in its chart. `start` maps a chart vertex to
+/// Chains the boundary half-edges, each of which starts at a vertex of its own. `next_vertex` maps a chart vertex to
 /// the next one along the boundary, or -1.
 std::vector<BoundaryLoop> chain_loops(std::vector<int>& next_vertex) {
   std::vector<BoundaryLoop> loops;

@@ -270,9 +270,10 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   result.mu = solver.eigenvalues()[0];
   // (L + s M) z' = lambda A z + s M z has the unshifted eigenvectors as fixed points.
-  constexpr int corrections = 3;
+  constexpr int max_corrections = 30;
+  constexpr double resolved = 1e-7;
   ComplexVector rhs;
-  for (int k = 0; k < corrections; ++k) {
+  for (int k = 0; k < max_corrections; ++k) {
     const double lambda = energy.value(result.vector) / energy.area_form(result.vector);
     area.apply(result.vector, rhs);
     rhs *= lambda;
@@ -288,7 +289,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
     result.residual = change;
     if (change < options.tolerance) break;
   }
-  result.converged = result.vector.allFinite() && energy.area_form(result.vector) > 0;
+  result.converged = result.residual < resolved && result.vector.allFinite() && energy.area_form(result.vector) > 0;
   return result;
 }
 

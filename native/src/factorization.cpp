@@ -342,10 +342,12 @@ class CholmodFactorization final : public Factorization {
   void check() const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == CHOLMOD_TOO_LARGE) {
-      throw SolveFailure("The patch is too large for this build's index type; cut it into smaller islands with seams.");
+      throw SolveFailure("The patch is too large for this build's index type",
+                         "cut it into smaller islands with seams.");
     }
     if (common_.status < CHOLMOD_OK) {
-      throw SolveFailure("CHOLMOD reported status " + std::to_string(common_.status) + ".");
+      throw SolveFailure("CHOLMOD reported status " + std::to_string(common_.status),
+                         "please report this with the mesh.");
     }
   }
 
@@ -364,9 +366,13 @@ class CholmodFactorization final : public Factorization {
 
 }  // namespace
 
-std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend) {
+std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, [[maybe_unused]] Eigen::Index n) {
 #ifdef SPECTRAL_CONFORMAL_HAVE_CHOLMOD
-  if (backend != FactorizationBackend::eigen) return std::make_unique<CholmodFactorization>();
+  // Setting CHOLMOD up takes longer than Eigen takes for a small matrix.
+  constexpr Eigen::Index cholmod_from = 300;
+  if (backend == FactorizationBackend::cholmod || (backend == FactorizationBackend::automatic && n >= cholmod_from)) {
+    return std::make_unique<CholmodFactorization>();
+  }
 #else
   if (backend == FactorizationBackend::cholmod) {
     throw std::invalid_argument("This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.");

@@ -1,6 +1,7 @@
 #include "spectral_conformal/lscm.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace spectral_conformal {
@@ -48,12 +49,12 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
 
   report(progress, 0.1, "factorization");
   const HermitianMatrix block = free_block(matrix, free_index, n_free);
-  const auto factorization = make_factorization(backend);
+  const auto factorization = make_factorization(backend, n_free);
   factorization->analyze(block);
   if (!factorization->factorize(block)) {
-    throw SolveFailure(
-        "The pinned conformal energy is singular in double precision: the patch has degenerate triangles or pins that "
-        "coincide in 3D. Clean the mesh or pin other vertices.");
+    throw SolveFailure("The pinned conformal energy is singular in double precision",
+                       "the patch has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other "
+                       "vertices.");
   }
   report(progress, 0.8, "solve");
   constexpr int refinements = 4;

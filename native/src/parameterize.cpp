@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
 
 #include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/eigenproblem.h"
@@ -52,6 +55,8 @@ constexpr Attempt attempts[] = {
 /// The eigenvector must satisfy its reduced equation at least this well, whatever tolerance was asked for. On flat
 /// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift, which the corrections then take out.
 constexpr double residual_limit = 1e-3;
+/// |L z| of a pinned map over its free vertices, relative to its extent and the largest entry of L.
+constexpr double pinned_residual_limit = 1e-10;
 /// The corrections that follow must end below this change, relative to the map.
 constexpr double resolved = 1e-7;
 
@@ -76,10 +81,32 @@ double eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, c
   return lambda;
 }
 
-}  // namespace
+std::string winding(int turning_number) {
+  return "The boundary of the map winds round " + std::to_string(turning_number) + " times instead of once";
+}
 
-namespace {
 std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
+
+std::string count(int n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
+
+/// What was done to the chart's faces before it could be solved; "" for a clean chart.
+std::string repairs(const Chart& chart, int clamped) {
+  std::string text;
+  if (chart.reversed_faces > 0) {
+    text += count(chart.reversed_faces, "face", "faces") + " wound the other way: turned. ";
+  }
+  if (!chart.duplicates.empty()) {
+    text += count(static_cast<int>(chart.duplicates.size()), "duplicate face", "duplicate faces") +
+            ": placed on the first of the same vertices. ";
+  }
+  if (chart.self_intersecting_polygons > 0) {
+    text += count(chart.self_intersecting_polygons, "self-intersecting polygon", "self-intersecting polygons") +
+            ": split as a fan. ";
+  }
+  if (clamped > 0) text += count(clamped, "degenerate triangle", "degenerate triangles") + ": given a minimal height. ";
+  return text;
+}
+
 }  // namespace
 
 std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
@@ -154,6 +181,7 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
   if (form_.vertices.size() < 2) {
     throw InvalidMesh("The patch's longest boundary loop has no length; clean up its coincident vertices.");
   }
+  repairs_ = repairs(chart, energy_->clamped_triangles());
   watch.lap("assembly");
 }
 
@@ -170,7 +198,7 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
   const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), median, ratios.end());
   const double unit = *median;
-  result.factorization = make_factorization(backend_);
+  result.factorization = make_factorization(backend_, shifted.rows());
   report(progress, 0.0, "ordering");
   result.factorization->analyze(shifted);
   constexpr int max_raises = 4;
@@ -186,10 +214,10 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
     if (result.factorization->factorize(shifted)) return result;
     added = result.shift;
   }
-  throw SolveFailure(
-      "The conformal energy could not be factorised, even with a shift of " + std::to_string(added) +
-      " of the boundary form: the patch has too many degenerate triangles. Merge vertices by distance or dissolve "
-      "degenerate faces.");
+  throw SolveFailure("The conformal energy could not be factorised, even with a shift of " + std::to_string(added) +
+                         " of the boundary form",
+                     "the patch has too many degenerate triangles; merge vertices by distance or dissolve degenerate "
+                     "faces.");
 }
 
 void Solver::factorize(const Progress& progress) {
@@ -200,30 +228,38 @@ void Solver::factorize(const Progress& progress) {
 }
 
 Parameterization Solver::solve(Method method, const Pins& pins, double tolerance, const Progress& progress) {
-  if (method == Method::lscm) return solve_pinned(pins, progress);
-  if (!pins.empty()) throw std::invalid_argument("Only the method 'lscm' takes pins.");
+  if (method != Method::lscm && !pins.empty()) throw std::invalid_argument("Only the method 'lscm' takes pins.");
+  Parameterization result =
+      method == Method::lscm ? solve_pinned(pins, progress) : solve_with_remedies(method, tolerance, progress);
+  result.message += repairs_;
+  if (!result.message.empty()) result.message.pop_back();  // the space after the last sentence
+  report(progress, 1.0, "done");
+  return result;
+}
+
+Parameterization Solver::solve_with_remedies(Method method, double tolerance, const Progress& progress) {
   try {
     return solve_eigenvector(method, tolerance, progress);
   } catch (const SolveFailure& failure) {
     if (method != Method::spectral) throw;
     const bool by_length = boundary_ == BoundaryMeasure::length;
     const bool uniform = energy_->weights() == Weights::uniform;
-    const Weights other_weights = uniform ? Weights::inverse_area : Weights::uniform;
-    const BoundaryMeasure other_boundary = by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length;
-    const std::string said = std::string(failure.what()) + " Solved with ";
     struct Remedy {
       Weights weights;
       BoundaryMeasure boundary;
-      std::string name;
+      const char* name;
     };
-    const Remedy remedies[] = {
-        {energy_->weights(), other_boundary, by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
-        {other_weights, boundary_, uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
+    const Remedy remedies[] = {{energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length,
+                                by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
+                               {uniform ? Weights::inverse_area : Weights::uniform, boundary_,
+                                uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
     for (const Remedy& remedy : remedies) {
       try {
         Solver other(*this, remedy.weights, remedy.boundary);
-        Parameterization result = other.solve_eigenvector(method, tolerance, progress);
-        result.message = said + remedy.name + " instead. " + result.message;
+        // The fraction done only rises: the failed attempt has used it up.
+        const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
+        Parameterization result = other.solve_eigenvector(method, tolerance, rest);
+        result.message = failure.reason() + ": solved with " + remedy.name + " instead. " + result.message;
         return result;
       } catch (const SolveFailure&) {
         continue;  // the first failure is the one to tell
@@ -326,21 +362,22 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
       why = "The map has no positive area";
       continue;
     }
-    if (result.turning_number != 1) {
-      why = "The boundary of the map winds round " + std::to_string(result.turning_number) + " times instead of once";
+    const bool winds_once = std::abs(result.turning_number) == 1;
+    if (method == Method::spectral && !winds_once) {
+      why = winding(result.turning_number);
       continue;
     }
     watch.lap("placement");
     result.message = attempt.remedy;
+    if (!winds_once) result.message += winding(result.turning_number) + ". ";
     result.timings = set_up_timings_;
     for (const auto& timing : timings) {
       if (timing.first != "waiting") result.timings.push_back(timing);
     }
     return result;
   }
-  throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) +
-                     " attempts with different shifts and starts: add seams that make the patch flatter, or clean up "
-                     "degenerate faces.");
+  throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",
+                     "add seams that make the patch flatter, or clean up degenerate faces.");
 }
 
 Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress) {
@@ -350,15 +387,20 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
   const bool hold = pins.size() >= 2;
   Pins held;
   Complex origin = 0;
+  double unit = 1;
   if (hold) {
     // Lengths of the plane are measured in a unit of their own, so that pins of any magnitude solve alike.
     for (const auto& pin : pins) origin += pin.second / static_cast<double>(pins.size());
     double extent = 0;
-    for (const auto& pin : pins) extent = std::max(extent, std::abs(pin.second - origin));
+    for (const auto& pin : pins) {
+      const Complex offset = pin.second - origin;
+      extent = std::max({extent, std::abs(offset.real()), std::abs(offset.imag())});
+    }
     if (!(extent > 0) || !std::isfinite(extent)) {
       throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
     }
-    held = pins;
+    for (const auto& [vertex, position] : pins) held[vertex] = (position - origin) / extent;
+    unit = extent;
   } else {
     const auto pair = farthest_boundary_vertices(outer_, positions_, energy_->matrix());
     held[pair[0]] = 0.0;
@@ -371,12 +413,22 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
   result.residual = solution.residual;
   result.iterations = 1;
   watch.lap("solve");
-  if (!result.z.allFinite()) throw SolveFailure("The pinned map is not finite; clean up degenerate faces.");
+  if (!result.z.allFinite()) throw SolveFailure("The pinned map is not finite", "clean up degenerate faces.");
   result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
   result.eigenvalue = energy_->value(result.z) / form_.value(result.z) * lambda_unit(Method::lscm);
-  if (!hold) {
+  if (!(result.residual < pinned_residual_limit)) {
+    throw SolveFailure("The pinned map does not satisfy its equations in double precision",
+                       "clean up degenerate faces, or pin other vertices.");
+  }
+  if (std::abs(result.turning_number) != 1) {
+    result.message = winding(result.turning_number) + ". ";
+  }
+  if (hold) {
+    for (Complex& z : result.z) z = origin + unit * z;
+    for (const auto& [vertex, position] : pins) result.z[vertex] = position;
+  } else {
     if (!place(result.z, *energy_, outer_, positions_, energy_->area() * scale_ * scale_)) {
-      throw SolveFailure("The pinned map has no positive area. Use the spectral method, or pin other vertices.");
+      throw SolveFailure("The pinned map has no positive area", "use the spectral method, or pin other vertices.");
     }
     if (pins.size() == 1) {
       const auto& [vertex, position] = *pins.begin();

@@ -5,7 +5,11 @@
 namespace spectral_conformal {
 
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
-                   const std::vector<double>& coverage, const ComplexVector& z) {
+                   const std::vector<double>& coverage, const ComplexVector& map) {
+  // Products of coordinates must neither overflow nor vanish, whatever the unit.
+  const double extent = map.size() == 0 ? 0 : map.cwiseAbs().maxCoeff();
+  if (!(extent > 0)) return 0;
+  const ComplexVector z = map / extent;
   constexpr double pi = 3.14159265358979323846;
   std::vector<int> place_on_loop(static_cast<std::size_t>(z.size()), -1);
   for (std::size_t i = 0; i < loop.size(); ++i) place_on_loop[loop[i]] = static_cast<int>(i);

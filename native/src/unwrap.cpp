@@ -6,26 +6,6 @@
 namespace spectral_conformal {
 namespace {
 
-std::string count(int n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
-
-/// What was done to the chart's faces before it could be solved; "" for a clean chart.
-std::string repairs(const Chart& chart, int clamped) {
-  std::string text;
-  if (chart.reversed_faces > 0) {
-    text += count(chart.reversed_faces, "face", "faces") + " wound the other way: turned. ";
-  }
-  if (!chart.duplicates.empty()) {
-    text += count(static_cast<int>(chart.duplicates.size()), "duplicate face", "duplicate faces") +
-            ": placed on the first of the same vertices. ";
-  }
-  if (chart.self_intersecting_polygons > 0) {
-    text += count(chart.self_intersecting_polygons, "self-intersecting polygon", "self-intersecting polygons") +
-            ": split as a fan. ";
-  }
-  if (clamped > 0) text += count(clamped, "degenerate triangle", "degenerate triangles") + ": given a minimal height. ";
-  return text;
-}
-
 /// Fills in mean_qc, max_qc, flipped and area of a solved chart. They are those of one triangulation: where the energy
 /// has both splits of a quad, of the one that is distorted less (a symmetric map can collapse a triangle of the other).
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
@@ -45,6 +25,7 @@ void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVec
     result.image = 0.5 * std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
     return result;
   };
+  report.max_qc = 1;
   double weighted = 0;
   double area = 0;
   int last_flipped = -1;
@@ -96,8 +77,7 @@ void solve_chart(const PolygonMesh& mesh, const Chart& chart, const Parameterize
     z = std::move(solution.z);
     report.solved = true;
     measure(chart, solver.energy(), z, solver.scale(), report);
-    report.message = solution.message + repairs(chart, solver.energy().clamped_triangles());
-    if (!report.message.empty()) report.message.pop_back();
+    report.message = solution.message;
     report.eigenvalue = solution.eigenvalue;
     report.residual = solution.residual;
     report.iterations = solution.iterations;

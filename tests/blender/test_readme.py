@@ -20,6 +20,7 @@ bpy.context.object.data.edges[0].use_seam = True
 for mesh in bpy.data.meshes:
     while mesh.uv_layers:
         mesh.uv_layers.remove(mesh.uv_layers[0])
+bpy.ops.object.mode_set(mode="EDIT")  # a file saved in Edit Mode opens in it
 bpy.ops.wm.save_as_mainfile(filepath={path!r})
 """
 

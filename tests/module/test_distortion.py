@@ -92,5 +92,7 @@ def test_bad_arguments_are_named():
         sc.distortion(vertices, triangles, np.zeros((3, 2)))
     with pytest.raises(ValueError, match="not finite"):
         sc.distortion(vertices, triangles, np.full((len(vertices), 2), np.nan))
+    with pytest.raises(ValueError, match="vertices has values that are not finite"):
+        sc.distortion(vertices * np.nan, triangles, vertices[:, :2])
     with pytest.raises(ValueError, match="shape"):
         sc.distortion(vertices, triangles, vertices)

@@ -225,7 +225,7 @@ def test_cancelling(stop_at):
 
     def progress(fraction, phase):
         calls.append(phase)
-        return len(calls) <= stop_at
+        return np.bool_(len(calls) <= stop_at)
 
     with pytest.raises(sc.Cancelled):
         sc.parameterize(vertices, triangles, progress=progress)
@@ -271,6 +271,59 @@ def test_two_solves_at_once_equal_two_in_a_row():
     for uvs, uv in zip(results, expected):
         assert len(uvs) == 10
         assert all(np.array_equal(other, uv) for other in uvs)
+
+
+def test_a_shared_solver_takes_turns():
+    vertices, triangles = meshes.bumpy_disk(4000)
+    solver = sc.Solver(vertices, triangles)
+    expected = solver.solve().uv
+    results = []
+    threads = [threading.Thread(target=lambda: results.extend(solver.solve().uv for _ in range(6))) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 18
+    assert all(np.array_equal(uv, expected) for uv in results)
+
+
+def test_a_solver_is_not_called_by_its_own_progress_function():
+    solver = sc.Solver(*meshes.bumpy_disk(500))
+    with pytest.raises(RuntimeError, match="solving already"):
+        solver.solve(progress=lambda fraction, phase: solver.solve())
+    assert solver.solve().turning_number == 1
+
+
+def test_longest_loop_may_be_a_hole_of_the_map():
+    n = 60
+    angle = 2 * np.pi * np.arange(n) / n
+    radii = [1 + 0 * angle, 0.8 + 0 * angle, 0.6 + 0.15 * (-1) ** np.arange(n)]  # the zigzag is the longest
+    flat = np.concatenate([np.c_[r * np.cos(angle), r * np.sin(angle)] for r in radii])
+    ring = np.arange(3 * n).reshape(3, n)
+    a, b, c, d = ring[:-1], np.roll(ring, -1, 1)[:-1], np.roll(ring, -1, 1)[1:], ring[1:]
+    triangles = np.concatenate([np.stack(t, -1).reshape(-1, 3) for t in ((b, a, c), (c, a, d))])
+    vertices = np.c_[flat, 0 * flat[:, 0]]
+    solution = sc.parameterize(vertices, triangles)
+    assert (solution.turning_number, solution.message) == (-1, "")
+    assert sc.distortion(vertices, triangles, solution.uv).max_qc - 1 < 1e-9
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e-170, 1e12, 1e160])
+def test_pins_of_any_magnitude(unit):
+    vertices, triangles = meshes.bumpy_disk(400)
+    expected = sc.parameterize(vertices, triangles, method="lscm", pins={0: (0, 0), 7: (1, 0.5)})
+    scaled = sc.parameterize(vertices, triangles, method="lscm", pins={0: (0, 0), 7: (unit, 0.5 * unit)})
+    assert tuple(scaled.uv[7]) == (unit, 0.5 * unit)
+    assert np.allclose(scaled.uv / unit, expected.uv, atol=1e-9)
+    assert scaled.turning_number == expected.turning_number == 1
+    assert scaled.eigenvalue == pytest.approx(expected.eigenvalue)
+
+
+def test_repairs_are_said():
+    vertices, triangles = meshes.bumpy_disk(300)
+    mixed = triangles.copy()
+    mixed[:3] = mixed[:3, ::-1]
+    assert sc.parameterize(vertices, mixed).message == "3 faces wound the other way: turned."
 
 
 def square():
@@ -342,12 +395,19 @@ def test_bow_tie_within_one_patch_is_refused():
         ({"vertices": np.zeros((4, 2))}, "vertices must have the shape"),
         ({"vertices": np.zeros((4, 3), complex)}, "real numbers"),
         ({"vertices": [["a"] * 3] * 4}, "real numbers"),
-        ({"triangles": [[0, 1, 4]]}, "refers to vertex 4"),
+        ({"triangles": [[0, 1, 4]]}, "has the vertex 4"),
         ({"triangles": [[0, 1, -1]]}, "between 0"),
         ({"triangles": [[0, 1, 2**40]]}, "between 0"),
         ({"triangles": [[0.0, 1.0, 2.0]]}, "integers"),
         ({"triangles": [0, 1, 2]}, "shape"),
         ({"method": "magic"}, "method must be one of"),
+        ({"method": None}, "method must be one of"),
+        ({"tolerance": "a"}, "tolerance must lie"),
+        ({"progress": 3}, "progress must be callable"),
+        ({"vertices": [[0, 0, 0], [1, 0]]}, "vertices is no regular array"),
+        ({"method": "lscm", "pins": [(0, (0, 0))]}, "pins must map"),
+        ({"method": "lscm", "pins": {0.5: (0, 0), 1: (1, 0)}}, "pins must map"),
+        ({"method": "lscm", "pins": {0: (0, 0, 0), 1: (1, 0)}}, "pins must map"),
         ({"weights": "magic"}, "weights must be one of"),
         ({"boundary": "magic"}, "boundary must be one of"),
         ({"factorization": "magic"}, "factorization must be one of"),

@@ -116,6 +116,7 @@ def test_closed_box_fails_and_the_rest_is_solved():
     assert [chart.status for chart in result.charts] == ["failed", "solved"]
     assert "closed" in result.charts[0].message
     assert "seams" in result.charts[0].message
+    assert np.isnan([result.charts[0].mean_qc, result.charts[0].eigenvalue]).all()
     assert not result.solved_corners[: offsets[6]].any()
     assert result.solved_corners[offsets[6] :].all()
     assert (result.uv[~result.solved_corners] == 0).all()
@@ -237,8 +238,8 @@ def test_progress_rises_over_all_charts():
         ({"face_offsets": [0, 3]}, "face_offsets must rise"),
         ({"face_offsets": [1, 4]}, "face_offsets must rise"),
         ({"face_offsets": [0, 5, 4]}, "face_offsets must rise|between"),
-        ({"corner_vertices": [0, 1, 2, 9]}, "refers to vertex 9"),
-        ({"seam_edges": [[0, 9]]}, "seam_edges refers to vertex 9"),
+        ({"corner_vertices": [0, 1, 2, 9]}, "has the vertex 9"),
+        ({"seam_edges": [[0, 9]]}, "seam_edges has the vertex 9"),
         ({"seam_edges": [0, 1]}, "seam_edges must have the shape"),
         ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
         ({"selected_faces": [1]}, "booleans"),

@@ -50,7 +50,7 @@ struct Factored {
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {
       shifted.coeffRef(form.vertices[i], form.vertices[i]) += shift * form.mass[i];
     }
-    factorization = make_factorization(backend);
+    factorization = make_factorization(backend, 1000);
     factorization->analyze(shifted);
     REQUIRE(factorization->factorize(shifted));
   }

@@ -20,7 +20,7 @@ ComplexVector product(const HermitianMatrix& matrix, const ComplexVector& z) {
 }
 
 std::unique_ptr<Factorization> factor(const HermitianMatrix& matrix, FactorizationBackend backend) {
-  auto result = make_factorization(backend);
+  auto result = make_factorization(backend, 1000);
   result->analyze(matrix);
   REQUIRE(result->factorize(matrix));
   return result;
@@ -75,7 +75,7 @@ TEST_CASE("a matrix that is not positive definite is refused, and the same objec
     HermitianMatrix indefinite = good;
     for (int v = 0; v < good.cols(); v += 10) indefinite.coeffRef(v, v) += shift;
     for (const auto backend : backends()) {
-      const auto factorization = make_factorization(backend);
+      const auto factorization = make_factorization(backend, 1000);
       factorization->analyze(good);
       CHECK_FALSE(factorization->factorize(indefinite));
       REQUIRE(factorization->factorize(good));
@@ -127,9 +127,9 @@ TEST_CASE("the libraries are named; CHOLMOD without CHOLMOD is an error") {
 #else
   CHECK(library.rfind("Eigen ", 0) == 0);
   CHECK(blas_library().empty());
-  CHECK_THROWS_AS(make_factorization(FactorizationBackend::cholmod), std::invalid_argument);
+  CHECK_THROWS_AS(make_factorization(FactorizationBackend::cholmod, 1000), std::invalid_argument);
 #endif
-  CHECK(make_factorization(FactorizationBackend::automatic) != nullptr);
+  CHECK(make_factorization(FactorizationBackend::automatic, 1000) != nullptr);
 }
 
 TEST_SUITE_END();

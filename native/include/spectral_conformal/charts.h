@@ -47,9 +47,9 @@ struct ChartDecomposition {
   std::vector<Chart> charts;                ///< in the order of their first face
   std::vector<int> chart_of_face;           ///< (n_faces,), -1 where a face is in no chart
   std::vector<int> chart_vertex_of_corner;  ///< (n_corners,), index into the chart's vertices, -1 outside charts
-  std::vector<int> degenerate_faces;        ///< selected faces with fewer than three different vertices
-  int non_manifold_edges = 0;               ///< edges of three or more selected faces, where charts were split
-  int split_vertices = 0;                   ///< mesh vertices with several copies within one chart
+  std::vector<int> degenerate_faces;  ///< selected, with fewer than three different vertices or one twice in a row
+  int non_manifold_edges = 0;         ///< edges of three or more selected faces, where charts were split
+  int split_vertices = 0;             ///< mesh vertices with several copies within one chart
 };
 
 /// Cuts a polygon mesh into charts: connected over edges of exactly two selected faces that are no seams. A vertex gets

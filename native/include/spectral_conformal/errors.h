@@ -14,7 +14,13 @@ class InvalidMesh : public std::invalid_argument {
 /// The input is valid, but no result passed the numerical checks within the bounded number of attempts.
 class SolveFailure : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// what() is "<reason>: <advice>".
+  SolveFailure(const std::string& reason, const std::string& advice)
+      : std::runtime_error(reason + ": " + advice), reason_(reason) {}
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
 };
 
 /// The caller's progress function asked to stop.

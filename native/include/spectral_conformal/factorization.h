@@ -8,7 +8,7 @@
 namespace spectral_conformal {
 
 enum class FactorizationBackend {
-  automatic,  ///< CHOLMOD where the module was built with it, otherwise Eigen
+  automatic,  ///< CHOLMOD where the module was built with it and the matrix is not tiny, otherwise Eigen
   cholmod,    ///< SuiteSparse CHOLMOD, supernodal L L^H
   eigen       ///< Eigen's SimplicialLDLT
 };
@@ -37,8 +37,8 @@ class Factorization {
   virtual double factor_nonzeros() const = 0;
 };
 
-/// Throws std::invalid_argument for CHOLMOD when the module was built without it.
-std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend);
+/// For matrices of n rows. Throws std::invalid_argument for CHOLMOD when the module was built without it.
+std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n);
 
 /// The library behind `automatic` and its version, such as "CHOLMOD 3.0.14".
 std::string factorization_library();

@@ -29,12 +29,13 @@ struct ParameterizeOptions {
 };
 
 struct Parameterization {
-  ComplexVector z;         ///< (V,) u + i v
-  double eigenvalue = 0;   ///< lambda of L z = lambda B z in the units of the input; E_C / A-like quotients alike
-  double residual = 0;     ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2)
-  int iterations = 0;      ///< solves with the factor
-  int turning_number = 0;  ///< of the outer boundary loop
-  std::string message;     ///< remedies that were needed; empty when none was
+  ComplexVector z;        ///< (V,) u + i v
+  double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
+  double residual =
+      0;  ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area: last change
+  int iterations = 0;                                   ///< solves with the factor
+  int turning_number = 0;                               ///< of the outer boundary loop
+  std::string message;                                  ///< remedies and repairs that were needed; empty when none was
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
@@ -61,8 +62,10 @@ class Solver {
   /// pins: for Method::lscm only; empty for the two farthest boundary vertices. With given pins the map is returned as
   /// solved, otherwise placed (see placement.h) with its area equal to the area in 3D.
   /// Every eigenvector is checked: residual, corrections that converge, positive area, and for the spectral method a
-  /// turning number of one. One that fails is solved again with a larger shift and another start, then (spectral) with
-  /// the other boundary form and with the other weights; `message` says so. Throws SolveFailure when nothing passes.
+  /// turning number of 1, or -1 where the longest loop in 3D is a hole of the map. One that fails is solved again with
+  /// a larger shift and another start, then (spectral) with the other boundary form and with the other weights;
+  /// `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its equations; where its boundary
+  /// winds round more than once, `message` says so. Throws SolveFailure when nothing passes.
   Parameterization solve(Method method, const Pins& pins, double tolerance, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
@@ -79,6 +82,7 @@ class Solver {
     double shift = 0;
   };
   ShiftedFactor factor_shifted(const BoundaryForm& form, double relative_shift, const Progress& progress);
+  Parameterization solve_with_remedies(Method method, double tolerance, const Progress& progress);
   Parameterization solve_eigenvector(Method method, double tolerance, const Progress& progress);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
   double lambda_unit(Method method) const;
@@ -91,6 +95,7 @@ class Solver {
   BoundaryForm form_;
   FactorizationBackend backend_;
   ShiftedFactor factor_;
+  std::string repairs_;  ///< sentences, each with a space behind
   std::vector<std::pair<std::string, double>> set_up_timings_;
 };
 

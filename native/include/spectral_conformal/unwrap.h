@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "spectral_conformal/charts.h"
@@ -8,15 +9,18 @@
 namespace spectral_conformal {
 
 struct UnwrappedChart {
+  /// Not a number: what a failed chart has no value for.
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
   std::vector<int> faces;  ///< in the mesh, ascending
   bool solved = false;
   std::string message;  ///< why it failed and what to do, or what had to be done to solve it; may be empty
-  double eigenvalue = 0;
-  double residual = 0;
+  double eigenvalue = unknown;
+  double residual = unknown;
   int iterations = 0;
   int turning_number = 0;
-  double mean_qc = 0;  ///< of one triangulation: of a quad's two splits the less distorted one
-  double max_qc = 0;
+  double mean_qc = unknown;  ///< of one triangulation: of a quad's two splits the less distorted one
+  double max_qc = unknown;
   int flipped = 0;  ///< faces with a flipped triangle
   int n_vertices = 0;
   double area = 0;  ///< in 3D

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import numbers
+import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, Optional
+from typing import Any, Literal, Optional, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +21,12 @@ Factorization = Literal["auto", "cholmod", "eigen"]
 Pins = Mapping[int, "tuple[float, float]"]
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
+_OPTIONS = {
+    "method": get_args(Method),
+    "weights": get_args(Weights),
+    "boundary": get_args(Boundary),
+    "factorization": get_args(Factorization),
+}
 
 DEFAULT_TOLERANCE = 1e-8
 _INDEX_LIMIT = np.iinfo(np.int32).max
@@ -33,14 +41,15 @@ class Parameterization:
     eigenvalue: float
     """lambda of L z = lambda B z (Eq. 5) for the given vertices. For "lscm" z*Lz / z*Bz; for "area" B = A."""
     residual: float
-    """|L z - lambda B z| / (largest diagonal entry of L x |z|); for "lscm" over the free vertices; for "area" the last
-    relative change of the inverse iteration."""
+    """|L z - lambda B z| / (largest diagonal entry of L x |z|). For "lscm" |L z| over the free vertices / (largest
+    diagonal entry x extent of the map); for "area" the last relative change of the inverse iteration."""
     iterations: int
     """Solves with the factor."""
     turning_number: int
-    """Of the outer boundary loop: 1 for a map that does not wind round itself."""
+    """Of the longest boundary loop: 1 for a map that does not wind round itself, -1 if that loop is a hole of it."""
     message: str
-    """Remedies that were needed; empty when there was none."""
+    """Remedies that were needed (the eigenvalue is then of the form and weights named here) and repaired faces; empty
+    when there was none."""
     timings: dict[str, float]
     """Seconds per phase, by name."""
 
@@ -81,6 +90,7 @@ class Chart:
     message: str
     """Why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
     eigenvalue: float
+    """Not a number for a failed chart, like residual, mean_qc and max_qc."""
     residual: float
     iterations: int
     turning_number: int
@@ -109,7 +119,7 @@ class Unwrap:
 
 
 class Solver:
-    """One patch, factored once, solved as often as wanted."""
+    """One patch, factored once, solved as often as wanted. Several threads may share it; they take turns."""
 
     def __init__(
         self,
@@ -126,7 +136,7 @@ class Solver:
         Arguments and errors are those of `parameterize`.
         """
         self._n_vertices, self._native = _assemble(vertices, triangles, weights, boundary, factorization)
-        self._native.factorize(progress)
+        self._native.factorize(_progress(progress))
 
     def solve(
         self,
@@ -184,7 +194,7 @@ def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayL
     """Measure a map.
 
     Args:
-        vertices: (V, 3) positions.
+        vertices: (V, 3) positions, finite where a triangle uses them.
         triangles: (F, 3) vertex indices.
         uv: (V, 2) image of each vertex, finite.
 
@@ -193,6 +203,8 @@ def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayL
     """
     vertices = _vertices(vertices)
     triangles = _indices(triangles, "triangles", 3, len(vertices))
+    if not np.isfinite(vertices[triangles]).all():
+        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
     uv = _floats(uv, "uv", 2)
     if len(uv) != len(vertices):
         raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
@@ -226,7 +238,8 @@ def unwrap(
         corner_vertices: (C,) vertex of each corner.
         seam_edges: (S, 2) vertex pairs in any order; pairs that are no edge are without effect.
         selected_faces: (faces,) bool, all faces when left out.
-        pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`.
+        pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`; pins outside the selection
+            have no effect.
         method: this and the other options as in `parameterize`.
         weights: see `parameterize`.
         boundary: see `parameterize`.
@@ -256,6 +269,7 @@ def unwrap(
                 f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
                 f"{selected.shape}."
             )
+    _check_options(method=method, weights=weights, boundary=boundary, factorization=factorization)
     result = _native.unwrap(
         vertices,
         offsets,
@@ -268,7 +282,7 @@ def unwrap(
         _pins(pins, method, len(vertices)),
         _tolerance(tolerance),
         factorization,
-        progress,
+        _progress(progress),
     )
     result["charts"] = [Chart(**chart) for chart in result["charts"]]
     return Unwrap(**result)
@@ -282,6 +296,7 @@ def build_info() -> dict[str, str]:
 def _assemble(
     vertices: npt.ArrayLike, triangles: npt.ArrayLike, weights: str, boundary: str, factorization: str
 ) -> tuple[int, Any]:
+    _check_options(weights=weights, boundary=boundary, factorization=factorization)
     vertices = _vertices(vertices)
     triangles = _indices(triangles, "triangles", 3, len(vertices))
     return len(vertices), _native.Solver(vertices, triangles, weights, boundary, factorization)
@@ -295,11 +310,33 @@ def _solve(
     tolerance: float,
     progress: Progress | None,
 ) -> Parameterization:
-    return Parameterization(**solver.solve(method, _pins(pins, method, n_vertices), _tolerance(tolerance), progress))
+    _check_options(method=method)
+    pin_list = _pins(pins, method, n_vertices)
+    return Parameterization(**solver.solve(method, pin_list, _tolerance(tolerance), _progress(progress)))
+
+
+def _check_options(**options: object) -> None:
+    for name, value in options.items():
+        if value not in _OPTIONS[name]:
+            choices = ", ".join(repr(choice) for choice in _OPTIONS[name])
+            raise ValueError(f"{name} must be one of {choices}, not {value!r}.")
+
+
+def _progress(progress: Progress | None) -> Progress | None:
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress must be callable or None, not {type(progress).__name__}.")
+    return progress
+
+
+def _array(values: npt.ArrayLike, name: str) -> np.ndarray:
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} is no regular array: {error}.") from error
 
 
 def _floats(values: npt.ArrayLike, name: str, columns: int) -> npt.NDArray[np.float64]:
-    array = np.asarray(values)
+    array = _array(values, name)
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     if array.ndim != 2 or array.shape[1] != columns:
@@ -314,7 +351,7 @@ def _vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def _index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
-    array = np.asarray(values)
+    array = _array(values, name)
     if array.size == 0:
         array = array.astype(np.int32)
     if array.dtype.kind not in "iu":
@@ -322,12 +359,14 @@ def _index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
     if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT or len(array) > _INDEX_LIMIT):
-        raise ValueError(f"{name} must lie between 0 and {_INDEX_LIMIT}.")
+        raise ValueError(
+            f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {array.min()} to {array.max()}."
+        )
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
 def _indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
-    array = np.asarray(values)
+    array = _array(values, name)
     if columns is not None:
         if array.size == 0:
             array = np.zeros((0, columns), np.int32)
@@ -336,27 +375,33 @@ def _indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: 
     shape = array.shape
     flat = _index_vector(array.ravel() if columns is not None else array, name)
     if flat.size and flat.max() >= n_vertices:
-        raise ValueError(f"{name} refers to vertex {flat.max()}, but there are {n_vertices} vertices.")
+        raise ValueError(f"{name} has the vertex {flat.max()}, but there are {n_vertices} vertices.")
     return flat.reshape(shape) if columns is not None else flat
 
 
 def _pins(pins: Pins | None, method: str, n_vertices: int) -> list[tuple[int, float, float]]:
-    if not pins:
+    if pins is None:
         return []
-    if method != "lscm":
+    if not isinstance(pins, Mapping):
+        raise ValueError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
+    if pins and method != "lscm":
         raise ValueError(f"pins need the method 'lscm'; '{method}' solves without any.")
     result = []
     for vertex, position in pins.items():
-        u, v = (float(x) for x in position)
-        if not 0 <= int(vertex) < n_vertices:
-            raise ValueError(f"Vertex {vertex} is pinned, but there are {n_vertices} vertices.")
+        try:
+            index = operator.index(vertex)
+            u, v = (float(x) for x in position)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
+        if not 0 <= index < n_vertices:
+            raise ValueError(f"Vertex {index} is pinned, but there are {n_vertices} vertices.")
         if not (np.isfinite(u) and np.isfinite(v)):
-            raise ValueError(f"The pin of vertex {vertex} is not finite: ({u}, {v}).")
-        result.append((int(vertex), u, v))
+            raise ValueError(f"The pin of vertex {index} is not finite: ({u}, {v}).")
+        result.append((index, u, v))
     return result
 
 
 def _tolerance(tolerance: float) -> float:
-    if not 1e-14 <= tolerance <= 1e-3:
-        raise ValueError(f"tolerance must lie between 1e-14 and 1e-3, not {tolerance}.")
+    if not (isinstance(tolerance, numbers.Real) and 1e-14 <= tolerance <= 1e-3):
+        raise ValueError(f"tolerance must lie between 1e-14 and 1e-3, not {tolerance!r}.")
     return float(tolerance)

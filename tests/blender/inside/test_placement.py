@@ -19,6 +19,26 @@ def test_objects_in_edit_mode_are_packed_together_to_one_scale():
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
 
 
+def _nothing():
+    return scenes.new_object(np.zeros((0, 3)), [], name="Empty", uv_map=False)
+
+
+@pytest.mark.parametrize(
+    "make_active",
+    [lambda: scenes.cube(name="Closed", uv_map=False), _nothing],
+    ids=["closed, without a UV map", "without faces"],
+)
+def test_active_object_without_result_does_not_stop_the_others(make_active):
+    active, grid = make_active(), scenes.grid(3, 2, uv_map=False)
+    scenes.edit(active, grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    uv = scenes.read_uv(grid)
+    assert uv.min() > -1e-5
+    assert uv.max() == pytest.approx(1.0, abs=0.01)
+    assert not active.data.uv_layers
+    assert bpy.context.view_layer.objects.active == active
+
+
 def test_closed_island_is_not_packed_over(reports):
     # The failed island keeps its place; only the solved one moves, into the whole tile.
     both = scenes.grid_and_cube()
