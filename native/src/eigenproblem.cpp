@@ -269,25 +269,23 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   const Eigen::VectorXd real = solver.eigenvectors(1);
   result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   result.mu = solver.eigenvalues()[0];
-  // (L + s M) z' = lambda A z + s M z has the unshifted eigenvectors as fixed points.
+  // z' = z - (L + s M)^-1 (L z - lambda A z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
+  // with the residual.
   constexpr int max_corrections = 30;
   constexpr double resolved = 1e-7;
-  ComplexVector rhs;
+  ComplexVector residual;
+  ComplexVector area_part;
+  ComplexVector change;
   for (int k = 0; k < max_corrections; ++k) {
-    const double lambda = energy.value(result.vector) / energy.area_form(result.vector);
-    area.apply(result.vector, rhs);
-    rhs *= lambda;
-    for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-      rhs[form.vertices[i]] += shift * form.mass[i] * result.vector[form.vertices[i]];
-    }
-    ComplexVector next;
-    factorization.solve(rhs, next);
-    next.array() -= next.mean();
+    const double lambda = energy.apply(result.vector, residual) / energy.area_form(result.vector);
+    area.apply(result.vector, area_part);
+    residual -= lambda * area_part;
+    factorization.solve(residual, change);
+    change.array() -= change.mean();
+    result.vector -= change;
     ++result.solves;
-    const double change = (next / next.norm() - result.vector / result.vector.norm()).norm();
-    result.vector = next;
-    result.residual = change;
-    if (change < options.tolerance) break;
+    result.residual = change.norm() / result.vector.norm();
+    if (result.residual < 0.01 * options.tolerance) break;
   }
   result.converged = result.residual < resolved && result.vector.allFinite() && energy.area_form(result.vector) > 0;
   return result;
