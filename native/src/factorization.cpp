@@ -90,7 +90,7 @@ struct Blas {
 };
 
 /// Holds OpenBLAS to a number of threads that depends on the task alone while the object lives, and restores its
-/// setting: the result must not depend on how many the machine or the user set. One thread for all but the largest
+/// setting: the result must not depend on how many the machine or the user set. One thread for all but the larger
 /// factorisations, where a second gains a third; on small fronts it gains nothing and stalls while the other core is
 /// busy. OpenBLAS has one setting for the whole process, so its holders share a lock: any number with one thread, or
 /// one with two.
@@ -206,7 +206,7 @@ class CholmodFactorization final : public Factorization {
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
-    constexpr std::size_t two_from = 100000;
+    constexpr std::size_t two_from = 40000;
     const auto count = factor_->n < two_from ? FixedBlasThreads::Count::one : FixedBlasThreads::Count::two;
     const FixedBlasThreads threads(blas_, count);
     cholmod_sparse view = view_of(matrix);
