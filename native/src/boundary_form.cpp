@@ -4,12 +4,16 @@
 
 namespace spectral_conformal {
 
+Complex BoundaryForm::barycentre(const ComplexVector& z) const {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) sum += mass[i] * z[vertices[i]];
+  return sum / total();
+}
+
 double BoundaryForm::value(const ComplexVector& z) const {
-  Complex barycentre = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) barycentre += mass[i] * z[vertices[i]];
-  barycentre /= total();
+  const Complex centre = barycentre(z);
   double result = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - barycentre);
+  for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - centre);
   return result;
 }
 

@@ -93,7 +93,8 @@ struct Blas {
 /// setting: the result must not depend on how many the machine or the user set. One thread for all but the larger
 /// factorisations, where a second gains a third; on small fronts it gains nothing and stalls while the other core is
 /// busy. OpenBLAS has one setting for the whole process, so its holders share a lock: any number with one thread, or
-/// one with two.
+/// one with two. OpenBLAS built without threads (openblas_get_parallel() == 0) must not be called by two threads at
+/// once at all: then there is one holder at a time.
 class FixedBlasThreads {
  public:
   enum class Count { one, two };

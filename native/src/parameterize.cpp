@@ -21,6 +21,7 @@ using Timings = std::vector<std::pair<std::string, double>>;
 class Stopwatch {
  public:
   explicit Stopwatch(Timings& timings) : timings_(timings), last_(Clock::now()) {}
+  void restart() { last_ = Clock::now(); }
   void lap(const char* phase) {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - last_).count();
@@ -72,9 +73,7 @@ double largest_diagonal(const HermitianMatrix& matrix) {
 double eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, const ComplexVector& z,
                       ComplexVector& r) {
   const double lambda = energy.apply(z, r) / form.value(z);
-  Complex barycentre = 0;
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) barycentre += form.mass[i] * z[form.vertices[i]];
-  barycentre /= form.total();
+  const Complex barycentre = form.barycentre(z);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) {
     r[form.vertices[i]] -= lambda * form.mass[i] * (z[form.vertices[i]] - barycentre);
   }
@@ -202,7 +201,6 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
   report(progress, 0.0, "ordering");
   result.factorization->analyze(shifted);
   constexpr int max_raises = 4;
-  double added = 0;
   for (int raise = 0; raise <= max_raises; ++raise) {
     report(progress, 0.2, "factorization");
     result.shift = relative_shift * std::pow(100.0, raise) * unit;
@@ -212,10 +210,9 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
           energy_->matrix().valuePtr()[energy_->matrix().outerIndexPtr()[v]] + result.shift * form.mass[i];
     }
     if (result.factorization->factorize(shifted)) return result;
-    added = result.shift;
   }
-  throw SolveFailure("The conformal energy could not be factorised, even with a shift of " + std::to_string(added) +
-                         " of the boundary form",
+  throw SolveFailure("The conformal energy could not be factorised, even with a shift of " +
+                         std::to_string(result.shift) + " of the boundary form",
                      "the patch has too many degenerate triangles; merge vertices by distance or dissolve degenerate "
                      "faces.");
 }
@@ -306,7 +303,11 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
       own_factor = factor_shifted(form, attempt.relative_shift, part(progress, 0.0, 0.6));
     }
     ShiftedFactor& factor = own_factor.factorization ? own_factor : factor_;
-    watch.lap(own_factor.factorization ? "factorization" : "waiting");
+    if (own_factor.factorization) {
+      watch.lap("factorization");
+    } else {
+      watch.restart();  // factorize() has its own time
+    }
     EigenproblemOptions options;
     options.tolerance = tolerance * attempt.tolerance_factor;
     options.start = attempt.start;
@@ -371,9 +372,7 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
     result.message = attempt.remedy;
     if (!winds_once) result.message += winding(result.turning_number) + ". ";
     result.timings = set_up_timings_;
-    for (const auto& timing : timings) {
-      if (timing.first != "waiting") result.timings.push_back(timing);
-    }
+    result.timings.insert(result.timings.end(), timings.begin(), timings.end());
     return result;
   }
   throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",

@@ -24,19 +24,13 @@ import scipy.sparse
 import spectral_conformal as sc
 
 
-def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    lines = [line.split() for line in path.read_text().splitlines()]
-    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float)
-    faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
-    return vertices, np.array(faces)
-
-
 def peak_gigabytes() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
 
 
 def measure(case: str) -> str:
-    vertices, triangles = meshes.bumpy_disk(int(case)) if case.isdigit() else read_obj(Path(case))
+    vertices, triangles = meshes.bumpy_disk(int(case)) if case.isdigit() else meshes.read_obj(Path(case))
+    triangles = np.array(triangles)
     before = peak_gigabytes()
     rounds = 3 if len(vertices) < 300_000 else 2
     best = np.inf

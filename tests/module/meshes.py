@@ -6,6 +6,14 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 
+def read_obj(path):
+    """(V, 3) vertices and the corner lists of the faces of an OBJ file."""
+    lines = [line.split() for line in path.read_text().splitlines()]
+    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
+    faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
+    return vertices, faces
+
+
 def without_unused(vertices, triangles):
     used, compact = np.unique(triangles, return_inverse=True)
     return vertices[used], compact.reshape(triangles.shape)

@@ -11,20 +11,13 @@ import spectral_conformal as sc
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes"
 
 
-def read_obj(path):
-    lines = [line.split() for line in path.read_text().splitlines()]
-    vertices = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float).reshape(-1, 3)
-    faces = [[int(corner.split("/")[0]) - 1 for corner in line[1:]] for line in lines if line[:1] == ["f"]]
-    return vertices, faces
-
-
 if (SHARED / "hard" / "hard.json").exists():
     HARD = json.loads((SHARED / "hard" / "hard.json").read_text())
 
     @pytest.mark.parametrize(("weights", "boundary"), [("uniform", "length"), ("inverse_area", "vertex")])
     @pytest.mark.parametrize("name", sorted(HARD))
     def test_hard_mesh_does_what_is_expected(name, weights, boundary):
-        vertices, faces = read_obj(SHARED / "hard" / f"{name}.obj")
+        vertices, faces = meshes.read_obj(SHARED / "hard" / f"{name}.obj")
         expected = HARD[name]["expect"]
         if not faces:
             with pytest.raises(sc.InvalidMeshError, match="no faces"):
@@ -54,7 +47,7 @@ if (SHARED / "hard" / "hard.json").exists():
         assert meshes.similarity_deviation(sc.unwrap(*_mesh(name)).uv, expected) < digits
 
     def _mesh(name):
-        vertices, faces = read_obj(SHARED / "hard" / f"{name}.obj")
+        vertices, faces = meshes.read_obj(SHARED / "hard" / f"{name}.obj")
         return vertices, *meshes.polygons(faces)
 
     # Chosen for their kinds: many holes, strong shrinkage, a scan, developable to the file's digits, one loop, eleven.
@@ -70,7 +63,7 @@ if (SHARED / "hard" / "hard.json").exists():
         ],
     )
     def test_real_mesh_has_low_distortion_and_no_flips(name, mean_qc):
-        vertices, faces = read_obj(SHARED / "real" / f"{name}.obj")
+        vertices, faces = meshes.read_obj(SHARED / "real" / f"{name}.obj")
         for weights, boundary in (("uniform", "length"), ("inverse_area", "vertex")):
             solution = sc.parameterize(vertices, np.array(faces), weights=weights, boundary=boundary)
             measured = sc.distortion(vertices, np.array(faces), solution.uv)

@@ -120,6 +120,22 @@ Mesh quad_grid(int columns, int rows) {
   return mesh;
 }
 
+Mesh pinched_ring() {
+  Mesh pinched = quad_grid(3, 3);
+  pinched.offsets = {0};
+  pinched.corners.clear();
+  for (const auto& quad : {std::vector<int>{0, 1, 5, 4},
+                           {1, 2, 6, 5},
+                           {2, 3, 7, 6},
+                           {6, 7, 11, 10},
+                           {4, 5, 9, 8},
+                           {8, 9, 13, 12},
+                           {9, 10, 14, 13}}) {
+    pinched.add(quad);
+  }
+  return pinched;
+}
+
 Mesh ring(int segments, int half_twists) {
   Mesh mesh;
   for (int i = 0; i < segments; ++i) {

@@ -44,6 +44,8 @@ Mesh bumpy_grid(int columns, int rows);
 Mesh perforated_grid(int columns, int rows);
 /// Quads on the flat grid of unit cells.
 Mesh quad_grid(int columns, int rows);
+/// Quads of a 3 x 3 grid that form a ring closed at vertex 10 only: one chart with two copies of it.
+Mesh pinched_ring();
 /// A strip of quads around a ring, closed with the given number of half twists.
 Mesh ring(int segments, int half_twists);
 /// A grid of quads, periodic in both directions, bent to a torus.

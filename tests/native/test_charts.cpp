@@ -167,19 +167,7 @@ TEST_CASE("a bow tie: faces that share a vertex only are two charts; within one 
   const Mesh two({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
   CHECK(charts_of(two).charts.size() == 2);
   CHECK(charts_of(two).split_vertices == 0);
-  // A ring of quads closed at a vertex only.
-  Mesh pinched = quad_grid(3, 3);
-  pinched.offsets = {0};
-  pinched.corners.clear();
-  for (const auto& quad : {std::vector<int>{0, 1, 5, 4},
-                           {1, 2, 6, 5},
-                           {2, 3, 7, 6},
-                           {6, 7, 11, 10},
-                           {4, 5, 9, 8},
-                           {8, 9, 13, 12},
-                           {9, 10, 14, 13}}) {
-    pinched.add(quad);
-  }
+  const Mesh pinched = pinched_ring();
   const ChartDecomposition decomposition = charts_of(pinched);
   check_consistent(pinched, decomposition);
   REQUIRE(decomposition.charts.size() == 1);

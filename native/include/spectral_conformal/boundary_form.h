@@ -13,9 +13,10 @@ enum class BoundaryMeasure {
 ///   B^ = M - (M 1)(M 1)^T / (1^T M 1),
 /// with M = diag(mass) on `vertices` and 0 elsewhere. Only the diagonal is stored.
 struct BoundaryForm {
-  std::vector<int> vertices;                   ///< distinct
-  Eigen::VectorXd mass;                        ///< (vertices.size(),), positive
-  double total() const { return mass.sum(); }  ///< 1^T M 1
+  std::vector<int> vertices;                         ///< distinct
+  Eigen::VectorXd mass;                              ///< (vertices.size(),), positive
+  double total() const { return mass.sum(); }        ///< 1^T M 1
+  Complex barycentre(const ComplexVector& z) const;  ///< 1^T M z / 1^T M 1
   /// z^H B^ z, summed about the barycentre so that a constant adds no rounding.
   double value(const ComplexVector& z) const;
 };
