@@ -13,6 +13,21 @@ from .mesh_io import EditMesh
 
 
 @dataclass(frozen=True)
+class Settings:
+    """The operator's settings, apart from Blender.
+
+    Attributes:
+        options: what the solver does.
+        keep_in_place: fit every island into its former bounds instead of packing all.
+        margin: space between packed islands.
+    """
+
+    options: unwrapping.Options
+    keep_in_place: bool = False
+    margin: float = 0.001
+
+
+@dataclass(frozen=True)
 class Outcome:
     """What an unwrap did: totals over all meshes, and how many islands could not be kept in place."""
 
@@ -20,37 +35,64 @@ class Outcome:
     without_bounds: int = 0
 
 
-def unwrap(
-    context: bpy.types.Context, options: unwrapping.Options, keep_in_place: bool, margin: float
-) -> Outcome | None:
+def unwrap(context: bpy.types.Context, settings: Settings) -> Outcome | None:
     """Unwrap the selected visible faces of all objects in edit mode into their active UV maps.
 
-    Called from the UV editor without sync selection, only faces with a selected UV count. Returns None, having changed
-    nothing, if no face is selected. Failed charts keep their UVs; if all fail, nothing changes.
+    Returns None, having changed nothing, if no face is selected. `read`, `solve` and `write` are its three steps.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
         PackingError: Blender's packer did not run; nothing changed.
     """
-    edit_meshes = _read_selected(context)
+    edit_meshes = read(context)
     if not edit_meshes:
         return None
-    solutions = [unwrapping.solve(edit_mesh.polygons, options) for edit_mesh in edit_meshes]
+    return write(context, settings, edit_meshes, solve(edit_meshes, settings))
+
+
+def solve(
+    edit_meshes: Sequence[EditMesh], settings: Settings, progress: unwrapping.Progress | None = None
+) -> list[unwrapping.Solution]:
+    """Solve the meshes that `read` returned. Touches nothing of Blender's, so that any thread may call it.
+
+    `progress` gets the fraction done of all meshes.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
+    """
+    return unwrapping.solve_all([edit_mesh.polygons for edit_mesh in edit_meshes], settings.options, progress)
+
+
+def write(
+    context: bpy.types.Context,
+    settings: Settings,
+    edit_meshes: Sequence[EditMesh],
+    solutions: Sequence[unwrapping.Solution],
+) -> Outcome:
+    """Place the solved charts and write them. Failed charts keep their UVs; if all fail, nothing changes.
+
+    Raises:
+        PackingError: Blender's packer did not run; nothing changed.
+    """
     summary = reporting.summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     if summary.solved == 0:
         return Outcome(summary)
-    placement = unwrapping.place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, keep_in_place)
+    placement = unwrapping.place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
     solved = [
         (edit_mesh, uv, solution.solved_corners)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
-    _write(context, solved, None if keep_in_place else margin)
+    _write(context, solved, None if settings.keep_in_place else settings.margin)
     return Outcome(summary, placement.without_bounds)
 
 
-def _read_selected(context: bpy.types.Context) -> list[EditMesh]:
-    """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap."""
+def read(context: bpy.types.Context) -> list[EditMesh]:
+    """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap.
+
+    Called from the UV editor without sync selection, only faces with a selected UV count.
+    """
     by_uv_selection = (
         context.area is not None
         and context.area.type == "IMAGE_EDITOR"

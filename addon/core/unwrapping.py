@@ -74,6 +74,21 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
     return Solution(result.uv, np.where(result.solved_corners, chart_of_corner, -1), result.charts)
 
 
+def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
+    """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
+    sizes = np.array([max(1, np.count_nonzero(mesh.selected_faces)) for mesh in meshes], dtype=np.float64)
+    ends = np.cumsum(sizes) / sizes.sum()
+    return [
+        solve(mesh, options, progress and _part(progress, end - size, size))
+        for mesh, end, size in zip(meshes, ends.tolist(), (sizes / sizes.sum()).tolist())
+    ]
+
+
+def _part(progress: Progress, start: float, length: float) -> Progress:
+    """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
+    return lambda fraction, phase: progress(start + length * fraction, phase)
+
+
 @dataclass(frozen=True)
 class Placement:
     """The maps of all meshes, placed together.

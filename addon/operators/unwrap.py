@@ -54,17 +54,26 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Unwrap with the operator's settings and report the result."""
         start = time.perf_counter()
-        options = unwrapping.Options(self.method.lower(), self.weights.lower(), self.boundary.lower())
         try:
-            outcome = edit_mode_unwrap.unwrap(context, options, self.placement == names.KEEP, self.margin)
+            outcome = edit_mode_unwrap.unwrap(context, self._settings())
         except (NativeModuleError, PackingError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        return self._report(outcome, time.perf_counter() - start)
+
+    def _settings(self) -> edit_mode_unwrap.Settings:
+        return edit_mode_unwrap.Settings(
+            unwrapping.Options(self.method.lower(), self.weights.lower(), self.boundary.lower()),
+            keep_in_place=self.placement == names.KEEP,
+            margin=self.margin,
+        )
+
+    def _report(self, outcome: edit_mode_unwrap.Outcome | None, seconds: float) -> set[str]:
+        """Tell the user what was done in `seconds`; return the operator's status."""
         if outcome is None:
             self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
             return {"CANCELLED"}
         summary = outcome.summary
-        seconds = time.perf_counter() - start
         # Blender shows the last report in the status bar, all of them in the Info editor.
         reports = (
             ("INFO", reporting.remedies(summary)),
