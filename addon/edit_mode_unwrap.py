@@ -35,7 +35,9 @@ class Outcome:
     without_bounds: int = 0
 
 
-def unwrap(context: bpy.types.Context, settings: Settings) -> Outcome | None:
+def unwrap(
+    context: bpy.types.Context, settings: Settings, progress: unwrapping.Progress | None = None
+) -> Outcome | None:
     """Unwrap the selected visible faces of all objects in edit mode into their active UV maps.
 
     Returns None, having changed nothing, if no face is selected. `read`, `solve` and `write` are its three steps.
@@ -47,7 +49,7 @@ def unwrap(context: bpy.types.Context, settings: Settings) -> Outcome | None:
     edit_meshes = read(context)
     if not edit_meshes:
         return None
-    return write(context, settings, edit_meshes, solve(edit_meshes, settings))
+    return write(context, settings, edit_meshes, solve(edit_meshes, settings, progress))
 
 
 def solve(
@@ -104,6 +106,22 @@ def read(context: bpy.types.Context) -> list[EditMesh]:
         if edit_object.data.total_face_sel
     ]
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
+
+
+def read_again(
+    context: bpy.types.Context, _settings: Settings, edit_meshes: Sequence[EditMesh]
+) -> list[EditMesh] | None:
+    """Read what an earlier `read` returned once more; None if anything in it has changed or gone since.
+
+    The objects in `edit_meshes` need not exist any more.
+    """
+    if context.mode != "EDIT_MESH":
+        return None
+    now = read(context)
+    same = len(now) == len(edit_meshes) and all(
+        new.edit_object == old.edit_object and new.polygons.equals(old.polygons) for new, old in zip(now, edit_meshes)
+    )
+    return now if same else None
 
 
 def _write(

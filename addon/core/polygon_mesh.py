@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The mesh as arrays, in the layout that both Blender and `spectral_conformal.unwrap` use."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -29,3 +29,11 @@ class PolygonMesh:
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""
         return np.repeat(np.arange(len(self.selected_faces)), np.diff(self.face_offsets))
+
+    def equals(self, other: "PolygonMesh") -> bool:
+        """Return whether everything is the same; NaN equals NaN."""
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(
+            np.array_equal(mine, yours, equal_nan=np.asarray(mine).dtype.kind == "f" and yours is not None)
+            for mine, yours in pairs
+        )

@@ -2,14 +2,19 @@
 """The Spectral Unwrap operator."""
 
 import time
+from typing import ClassVar
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from .. import edit_mode_unwrap, names
+from .. import edit_mode_unwrap, names, progress
 from ..core import reporting, unwrapping
 from ..core.native import NativeModuleError
 from ..packing import PackingError
+from ..solving import UnwrapInThread
+
+# A solve shorter than this ends within the click that started it.
+_SECONDS_BEFORE_MODAL = 0.25
 
 
 class UV_OT_spectral_unwrap(bpy.types.Operator):
@@ -30,9 +35,15 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
     )
 
+    # The unwrap that a window waits for.
+    _running: ClassVar[UnwrapInThread | None] = None
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
+        """Allow the operator where a mesh is in edit mode, one solve at a time."""
+        if cls._running is not None and cls._running.worker.is_wanted:
+            cls.poll_message_set(f"{names.UNWRAP_LABEL} is running; Esc cancels it")
+            return False
         return context.mode == "EDIT_MESH"
 
     def draw(self, _context: bpy.types.Context) -> None:
@@ -52,14 +63,63 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         row.prop(self, "margin")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Unwrap with the operator's settings and report the result."""
+        """Unwrap with the operator's settings and report the result; Blender waits."""
         start = time.perf_counter()
         try:
-            outcome = edit_mode_unwrap.unwrap(context, self._settings())
+            with progress.blocking(context) as report_progress:
+                outcome = edit_mode_unwrap.unwrap(context, self._settings(), report_progress)
         except (NativeModuleError, PackingError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return self._report(outcome, time.perf_counter() - start)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Unwrap as `execute` does, but solve in a thread, so that Blender's windows live and Esc cancels."""
+        if bpy.app.background:
+            return self.execute(context)
+        edit_meshes = edit_mode_unwrap.read(context)
+        if not edit_meshes:
+            return self._report(None, 0.0)
+        running = UnwrapInThread(self._settings(), edit_meshes)
+        if running.worker.wait(_SECONDS_BEFORE_MODAL):
+            return self._write(context, running)
+        type(self)._running = running
+        self._progress = progress.WindowProgress(context)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Wait for the solve; let nothing but view navigation through."""
+        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+            self.cancel(context)
+            self.report({"INFO"}, f"{names.UNWRAP_LABEL}: Cancelled")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
+        running = self._running
+        if context.mode == "EDIT_MESH" and not running.worker.wait(0.0):
+            self._progress.update(context, running.worker.fraction, running.worker.phase)
+            return {"PASS_THROUGH"}
+        self.cancel(context)
+        if not running.is_current(context):
+            self.report({"WARNING"}, "The meshes changed while they were solved, so nothing was written; unwrap again")
+            return {"CANCELLED"}
+        return self._write(context, running)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop waiting: the solve ends without result, its progress disappears. Blender calls it on closing, too."""
+        self._running.worker.cancel()
+        type(self)._running = None
+        self._progress.end(context)
+
+    def _write(self, context: bpy.types.Context, solved: UnwrapInThread) -> set[str]:
+        """Write what was solved in a thread and report the result."""
+        try:
+            outcome = solved.write(context)
+        except (NativeModuleError, PackingError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return self._report(outcome, solved.seconds)
 
     def _settings(self) -> edit_mode_unwrap.Settings:
         return edit_mode_unwrap.Settings(
