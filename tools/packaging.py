@@ -3,15 +3,18 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import re
 import shutil
+import tempfile
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from tools import steps
-from tools.environment import PYTHON, VENV, wheel
+from tools.environment import PYTHON, bpy_environments, site_packages, wheel
 from tools.steps import BUILD, ROOT, StepError
 
 ADDON = ROOT / "addon"
@@ -19,8 +22,12 @@ PACKAGES = BUILD / "packages"
 REPAIRED = BUILD / "wheels-repaired"
 NAME = "spectral_unwrap"
 MANIFEST = "blender_manifest.toml"
-# Blender's names for processors.
-ARCHITECTURES = {"x86_64": "x64", "aarch64": "arm64"}
+# Blender's names for processors and, by the start of a wheel's platform tag, for systems.
+ARCHITECTURES = {"x86_64": "x64", "amd64": "x64", "aarch64": "arm64", "arm64": "arm64"}
+SYSTEMS = {"manylinux": "linux", "linux": "linux", "win": "windows", "macosx": "macos"}
+# The Pythons of Blender 3.4 to 4.1, and the oldest one of 4.2 and later.
+LEGACY_PYTHONS = ("cp310", "cp311")
+OLDEST_EXTENSION_PYTHON = 11
 # The earliest time that a zip can hold: equal content gives equal bytes.
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -29,18 +36,71 @@ def run() -> int:
     """Write the zips to build/packages/."""
     module = repair_wheel()
     architecture = ARCHITECTURES.get(platform.machine(), platform.machine())
-    python = module.name.split("-")[2]
-    target = f"{NAME}-{version()}", f"linux_{architecture}-{python}.zip"
+    target = f"{NAME}-{version()}", f"linux_{architecture}-{python_tag(module)}.zip"
     shutil.rmtree(PACKAGES, ignore_errors=True)
     PACKAGES.mkdir(parents=True)
     extension = PACKAGES / "-".join(target)
     with steps.progress("packing"):
         write_zip(PACKAGES / "-legacy-".join(target), legacy_files(module))
-        write_zip(extension, extension_files(module, f"linux-{architecture}"))
+        write_zip(extension, extension_files([module], [f"linux-{architecture}"]))
     validate(extension)
-    for path in sorted(PACKAGES.iterdir()):
-        print(f"{path.relative_to(ROOT)}  {path.stat().st_size / 1e6:.1f} MB")
+    report(PACKAGES)
     return 0
+
+
+def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
+    """Write the zips of all platforms that have wheels in `folder`: one extension each, one legacy zip per Python."""
+    modules = sorted(folder.glob("spectral_conformal-*.whl"))
+    for_extension = [module for module in modules if int(python_tag(module)[3:]) >= OLDEST_EXTENSION_PYTHON]
+    if not for_extension:
+        raise StepError(
+            f"{folder} holds no wheel of spectral_conformal for Python 3.{OLDEST_EXTENSION_PYTHON} or later."
+        )
+    tools = blender_tools()
+    if not tools:
+        raise StepError("Blender's own tool packs the extensions, and comes with bpy: run this with Python 3.11.")
+    shutil.rmtree(output, ignore_errors=True)
+    output.mkdir(parents=True)
+    with steps.progress("packing legacy zips"):
+        for module in modules:
+            if python_tag(module) in LEGACY_PYTHONS:
+                target = f"{blender_platform(module).replace('-', '_')}-{python_tag(module)}"
+                write_zip(output / f"{NAME}-{version()}-legacy-{target}.zip", legacy_files(module))
+    with tempfile.TemporaryDirectory() as source:
+        platforms = sorted({blender_platform(module) for module in for_extension})
+        for name, content in extension_files(for_extension, platforms).items():
+            path = Path(source, name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        words = ["--split-platforms", "--source-dir", source, "--output-dir", output]
+        newest = list(tools.values())[-1]
+        steps.run("packing extensions (blender_ext.py)", [PYTHON, newest, "build", *words], log="package")
+    for extension in sorted(output.glob("*.zip")):
+        if "-legacy-" not in extension.name:
+            validate(extension)
+    report(output)
+    return 0
+
+
+def report(folder: Path) -> None:
+    """Print the packages and their sizes."""
+    for path in sorted(folder.iterdir()):
+        print(f"{os.path.relpath(path, ROOT)}  {path.stat().st_size / 1e6:.1f} MB")
+
+
+def python_tag(module: Path) -> str:
+    """Return a wheel's tag of a Python version, such as cp311."""
+    return module.stem.split("-")[-3]
+
+
+def blender_platform(module: Path) -> str:
+    """Return Blender's name of the platform that a wheel is for, such as linux-x64."""
+    tag = module.stem.split("-")[-1].split(".")[0]
+    system = next((name for start, name in SYSTEMS.items() if tag.startswith(start)), None)
+    processor = next((name for end, name in ARCHITECTURES.items() if tag.endswith(f"_{end}")), None)
+    if not system or not processor:
+        raise StepError(f"Blender runs on no platform with the tag of {module.name}.")
+    return f"{system}-{processor}"
 
 
 def version() -> str:
@@ -86,13 +146,14 @@ def legacy_files(module: Path) -> dict[str, bytes]:
     return {f"{NAME}/{name}": content for name, content in files.items()}
 
 
-def extension_files(module: Path, blender_platform: str) -> dict[str, bytes]:
-    """Return the files of the extension for Blender 4.2 and later, which installs the wheel itself."""
+def extension_files(modules: Sequence[Path], platforms: Sequence[str]) -> dict[str, bytes]:
+    """Return the files of the extension for Blender 4.2 and later, which picks and installs the wheel itself."""
     files = addon_files()
-    # Keys at the top: further down they could land in a table.
-    keys = f'platforms = ["{blender_platform}"]\nwheels = ["./wheels/{module.name}"]\n'
+    wheels = [f"./wheels/{module.name}" for module in modules]
+    # Keys at the top: further down they could land in a table. A list of strings in JSON is one in TOML.
+    keys = f"platforms = {json.dumps(list(platforms))}\nwheels = {json.dumps(wheels)}\n"
     files[MANIFEST] = keys.encode() + files[MANIFEST]
-    files[f"wheels/{module.name}"] = module.read_bytes()
+    files.update((f"wheels/{module.name}", module.read_bytes()) for module in modules)
     return files
 
 
@@ -107,9 +168,18 @@ def write_zip(path: Path, files: dict[str, bytes]) -> None:
 
 
 def validate(extension: Path) -> None:
-    """Let Blender's own tool check the extension, where bpy brings it along."""
-    tool = next(VENV.glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"), None)
-    if tool:
-        steps.run("validating the extension (blender_ext.py)", [PYTHON, tool, "validate", extension], log="package")
-    else:
+    """Let the tool of every Blender that is at hand check the extension."""
+    tools = blender_tools()
+    for blender, tool in tools.items():
+        steps.run(
+            f"validating {extension.name} (Blender {blender})", [PYTHON, tool, "validate", extension], log="package"
+        )
+    if not tools:
         print("- the extension was not validated: that needs bpy 4.2 or later")
+
+
+def blender_tools() -> dict[str, Path]:
+    """Return the extension tools (blender_ext.py) that the installed versions of bpy bring along, by version."""
+    pattern = "bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"
+    found = {name: list(site_packages(folder).glob(pattern)) for name, folder in bpy_environments().items()}
+    return {name: paths[0] for name, paths in found.items() if paths}

@@ -8,7 +8,11 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-ADDON = Path(__file__).resolve().parents[2] / "addon"
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from tools import environment  # noqa: E402 - found only now
+
+ADDON = ROOT / "addon"
 PYTEST_RUNNER = Path(__file__).with_name("run_pytest.py")
 
 
@@ -18,19 +22,21 @@ class Blender:
 
     Attributes:
         name: for the reader of the test report.
+        python: the interpreter that imports this Blender as `bpy`; None for a Blender with a program of its own.
         pytest_command: the words before pytest's own arguments.
         bundles_module: whether the add-on carries `spectral_conformal` inside, as the zip for 3.4 to 4.1 does;
             otherwise it stands at top level, as an extension's wheel does.
     """
 
     name: str
+    python: Path | None
     pytest_command: tuple[str, ...]
     bundles_module: bool
 
     def script_command(self, script: Path) -> list[str]:
         """Return the command that runs a Python script in this Blender, in background mode."""
-        if self.name == "bpy":
-            return [sys.executable, str(script)]
+        if self.python:
+            return [str(self.python), str(script)]
         return ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", str(script)]
 
 
@@ -45,12 +51,13 @@ def system_blender() -> str:
 
 
 def all_blenders() -> list[Blender]:
-    """Return the system's Blender and, where this environment has it, `bpy`."""
+    """Return the system's Blender and, where there is a `bpy` for this Python, all versions of it."""
     packages = str(Path(importlib.util.find_spec("pytest").origin).parents[1])
     run_script = ("--background", "--factory-startup", "--python-exit-code", "1", "--python", str(PYTEST_RUNNER))
-    blenders = [Blender("system", ("blender", *run_script, "--", packages), bundles_module=True)]
-    if importlib.util.find_spec("bpy"):
-        blenders.append(Blender("bpy", (sys.executable, "-m", "pytest"), bundles_module=False))
+    blenders = [Blender("system", None, ("blender", *run_script, "--", packages), bundles_module=True)]
+    for version, folder in environment.bpy_environments().items():
+        python = folder / "bin" / "python"
+        blenders.append(Blender(f"bpy-{version}", python, (str(python), "-m", "pytest"), bundles_module=False))
     return blenders
 
 

