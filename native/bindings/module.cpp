@@ -70,13 +70,18 @@ T named(const std::string& name, std::initializer_list<std::pair<const char*, T>
   throw py::value_error(std::string(what) + " must be one of " + list + ", not '" + name + "'.");
 }
 
-sc::Method method_named(const std::string& name) {
-  return named<sc::Method>(name,
-                           {{"spectral", sc::Method::spectral},
-                            {"lscm", sc::Method::lscm},
-                            {"fiedler", sc::Method::fiedler},
-                            {"area", sc::Method::area}},
-                           "method");
+constexpr std::initializer_list<std::pair<const char*, sc::Method>> methods = {{"spectral", sc::Method::spectral},
+                                                                               {"lscm", sc::Method::lscm},
+                                                                               {"fiedler", sc::Method::fiedler},
+                                                                               {"area", sc::Method::area}};
+
+sc::Method method_named(const std::string& name) { return named<sc::Method>(name, methods, "method"); }
+
+const char* name_of(sc::Method method) {
+  for (const auto& [name, value] : methods) {
+    if (value == method) return name;
+  }
+  return "";
 }
 
 sc::Weights weights_named(const std::string& name) {
@@ -142,7 +147,7 @@ py::array_t<bool> copy(const std::vector<bool>& values) {
 class PatchSolver {
  public:
   PatchSolver(const Array<double>& vertices, const Array<int>& triangles, const std::string& weights,
-              const std::string& boundary, const std::string& backend)
+              const std::string& boundary, const std::string& backend, bool fill_holes)
       : n_vertices_(vertices.shape(0)) {
     const MeshArrays arrays = triangle_mesh(vertices, triangles);
     const sc::PolygonMesh mesh = arrays.view();
@@ -154,7 +159,8 @@ class PatchSolver {
     const sc::Chart chart = sc::single_patch(mesh);
     charts_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     vertices_ = chart.vertices;
-    solver_ = std::make_unique<sc::Solver>(chart, chart.positions(mesh), weights_value, boundary_value, backend_value);
+    solver_ = std::make_unique<sc::Solver>(chart, chart.positions(mesh), weights_value, boundary_value, backend_value,
+                                           fill_holes);
   }
 
   void factorize(const py::object& progress) {
@@ -164,7 +170,8 @@ class PatchSolver {
     solver_->factorize(callback);
   }
 
-  py::dict solve(const std::string& method, const PinList& pin_list, double tolerance, const py::object& progress) {
+  py::dict solve(const std::string& method, const PinList& pin_list, double soft_pins, double tolerance,
+                 const py::object& progress) {
     const sc::Progress callback = progress_of(progress);
     const auto method_value = method_named(method);
     sc::Pins pins;
@@ -180,7 +187,7 @@ class PatchSolver {
     {
       const Turn turn(*this);
       const py::gil_scoped_release unlocked;
-      solution = solver_->solve(method_value, pins, tolerance, callback);
+      solution = solver_->solve({method_value, tolerance, soft_pins}, pins, callback);
       z = sc::ComplexVector::Zero(n_vertices_);
       for (std::size_t v = 0; v < vertices_.size(); ++v) z[vertices_[v]] = solution.z[static_cast<Eigen::Index>(v)];
     }
@@ -259,16 +266,21 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
 py::dict unwrap(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                 std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
                 const std::string& method, const std::string& weights, const std::string& boundary,
-                const PinList& pin_list, double tolerance, const std::string& backend, const py::object& progress) {
+                const PinList& pin_list, const std::optional<Array<bool>>& pinned_corners,
+                const std::optional<Array<double>>& corner_uv, double soft_pins, bool fill_holes, double tolerance,
+                const std::string& backend, const py::object& progress) {
   const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
   const sc::PolygonMesh mesh = arrays.view();
-  const sc::ParameterizeOptions options{method_named(method), weights_named(weights), boundary_named(boundary),
-                                        tolerance, backend_named(backend)};
+  const sc::ParameterizeOptions options{
+      method_named(method),  weights_named(weights), boundary_named(boundary), tolerance, fill_holes, soft_pins,
+      backend_named(backend)};
+  sc::CornerPins corner_pins;
+  if (pinned_corners && corner_uv) corner_pins = {pinned_corners->data(), corner_uv->data()};
   const sc::Progress callback = progress_of(progress);
   sc::Unwrap unwrapped;
   {
     const py::gil_scoped_release unlocked;
-    unwrapped = sc::unwrap(mesh, options, pins_of(pin_list), callback);
+    unwrapped = sc::unwrap(mesh, options, pins_of(pin_list), corner_pins, callback);
   }
   py::array_t<double> uv({static_cast<py::ssize_t>(unwrapped.uv.rows()), static_cast<py::ssize_t>(2)});
   std::copy_n(unwrapped.uv.data(), unwrapped.uv.size(), uv.mutable_data());
@@ -279,6 +291,7 @@ py::dict unwrap(const Array<double>& vertices, const Array<int>& face_offsets, c
                            py::arg("residual") = chart.residual, py::arg("iterations") = chart.iterations,
                            py::arg("turning_number") = chart.turning_number, py::arg("mean_qc") = chart.mean_qc,
                            py::arg("max_qc") = chart.max_qc, py::arg("flipped") = chart.flipped,
+                           py::arg("method") = name_of(chart.method), py::arg("n_pins") = chart.n_pins,
                            py::arg("n_vertices") = chart.n_vertices, py::arg("area") = chart.area));
   }
   return py::dict(py::arg("uv") = uv, py::arg("solved_corners") = copy(unwrapped.solved_corners),
@@ -297,8 +310,8 @@ PYBIND11_MODULE(_native, module) {
   py::register_local_exception<sc::SolveFailure>(module, "SolveError", PyExc_RuntimeError);
   py::register_local_exception<sc::Cancelled>(module, "Cancelled", PyExc_Exception);
   py::class_<PatchSolver>(module, "Solver", py::module_local())
-      .def(py::init<const Array<double>&, const Array<int>&, const std::string&, const std::string&,
-                    const std::string&>())
+      .def(py::init<const Array<double>&, const Array<int>&, const std::string&, const std::string&, const std::string&,
+                    bool>())
       .def("factorize", &PatchSolver::factorize)
       .def("solve", &PatchSolver::solve);
   module.def("distortion", &distortion);

@@ -34,31 +34,6 @@ class HalfEdges {
   std::vector<int> face_of_corner_;
 };
 
-void validate(const PolygonMesh& mesh) {
-  for (int face = 0; face < mesh.n_faces; ++face) {
-    if (mesh.face_offsets[face + 1] < mesh.face_offsets[face]) {
-      throw InvalidMesh("face_offsets must not decrease, but they do after face " + std::to_string(face) + ".");
-    }
-  }
-  if (mesh.n_faces > 0 && mesh.face_offsets[0] != 0) throw InvalidMesh("face_offsets must start with 0.");
-  const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
-  for (int c = 0; c < n_corners; ++c) {
-    const int vertex = mesh.corner_vertices[c];
-    if (vertex < 0 || vertex >= mesh.n_vertices) {
-      throw InvalidMesh("Corner " + std::to_string(c) + " refers to vertex " + std::to_string(vertex) +
-                        ", but there are " + std::to_string(mesh.n_vertices) + " vertices.");
-    }
-  }
-  for (int i = 0; i < mesh.n_seam_edges; ++i) {
-    for (const int vertex : mesh.seam_edges[i]) {
-      if (vertex < 0 || vertex >= mesh.n_vertices) {
-        throw InvalidMesh("Seam edge " + std::to_string(i) + " refers to vertex " + std::to_string(vertex) +
-                          ", but there are " + std::to_string(mesh.n_vertices) + " vertices.");
-      }
-    }
-  }
-}
-
 enum FaceState : char { outside, inside, degenerate, duplicate };
 
 /// Selected faces; those with fewer than three different vertices or with a vertex twice in a row are degenerate.
@@ -371,6 +346,31 @@ class ChartBuilder {
 };
 
 }  // namespace
+
+void validate(const PolygonMesh& mesh) {
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (mesh.face_offsets[face + 1] < mesh.face_offsets[face]) {
+      throw InvalidMesh("face_offsets must not decrease, but they do after face " + std::to_string(face) + ".");
+    }
+  }
+  if (mesh.n_faces > 0 && mesh.face_offsets[0] != 0) throw InvalidMesh("face_offsets must start with 0.");
+  const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
+  for (int c = 0; c < n_corners; ++c) {
+    const int vertex = mesh.corner_vertices[c];
+    if (vertex < 0 || vertex >= mesh.n_vertices) {
+      throw InvalidMesh("Corner " + std::to_string(c) + " refers to vertex " + std::to_string(vertex) +
+                        ", but there are " + std::to_string(mesh.n_vertices) + " vertices.");
+    }
+  }
+  for (int i = 0; i < mesh.n_seam_edges; ++i) {
+    for (const int vertex : mesh.seam_edges[i]) {
+      if (vertex < 0 || vertex >= mesh.n_vertices) {
+        throw InvalidMesh("Seam edge " + std::to_string(i) + " refers to vertex " + std::to_string(vertex) +
+                          ", but there are " + std::to_string(mesh.n_vertices) + " vertices.");
+      }
+    }
+  }
+}
 
 Positions Chart::positions(const PolygonMesh& mesh) const {
   Positions result(n_vertices(), 3);

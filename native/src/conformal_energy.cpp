@@ -6,13 +6,14 @@
 namespace spectral_conformal {
 ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
                                  std::vector<std::array<int, 3>> triangles, std::vector<double> coverage,
-                                 Weights weights)
-    : triangles_(std::move(triangles)), coverage_(std::move(coverage)), weights_(weights) {
+                                 Weights weights, std::size_t n_virtual)
+    : triangles_(std::move(triangles)), coverage_(std::move(coverage)), weights_(weights), n_virtual_(n_virtual) {
   shapes_.resize(triangles_.size());
   double covered = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     shapes_[t] = lay_out(positions.row(a), positions.row(b), positions.row(c));
+    if (t + n_virtual_ >= triangles_.size()) continue;
     if (shapes_[t].clamped) ++clamped_triangles_;
     area_ += coverage_[t] * (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c))
                                                 : shapes_[t].area());

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -131,11 +132,13 @@ ComplexVector dense_eigenvector(const ReducedOperator& op) {
   return solver.eigenvectors().col(n - 1);
 }
 
-/// The operators of Spectra's regular inverse mode, A z = nu (L + s M) z, on the real view.
+// The operators of Spectra's regular inverse mode, B z = mu (L + s M) z, on the real view.
+
+/// B = A.
 class AreaOperator {
  public:
   using Scalar = double;
-  explicit AreaOperator(const HermitianMatrix& matrix) : matrix_(matrix) {}
+  explicit AreaOperator(const ConformalEnergy& energy) : energy_(energy), matrix_(energy.matrix()) {}
   Eigen::Index rows() const { return 2 * matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
   /// A z, A being minus the imaginary part of L: A_ij = -i Im L_ij.
@@ -150,6 +153,7 @@ class AreaOperator {
       }
     }
   }
+  double value(const ComplexVector& z) const { return energy_.area_form(z); }
   void perform_op(const double* x, double* y) const {
     const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
     ComplexVector out;
@@ -158,7 +162,39 @@ class AreaOperator {
   }
 
  private:
+  const ConformalEnergy& energy_;
   const HermitianMatrix& matrix_;
+};
+
+/// B = B^ - Q.
+class AttractedOperator {
+ public:
+  using Scalar = double;
+  AttractedOperator(int n_vertices, const BoundaryForm& form, const PinAttraction& attraction)
+      : n_(n_vertices), form_(form), attraction_(attraction) {}
+  Eigen::Index rows() const { return 2 * n_; }
+  Eigen::Index cols() const { return rows(); }
+  void apply(const ComplexVector& z, ComplexVector& result) const {
+    result.setZero(z.size());
+    const Complex barycentre = form_.barycentre(z);
+    for (std::size_t i = 0; i < form_.vertices.size(); ++i) {
+      const int v = form_.vertices[i];
+      result[v] = form_.mass[static_cast<Eigen::Index>(i)] * (z[v] - barycentre);
+    }
+    attraction_.subtract(z, result);
+  }
+  double value(const ComplexVector& z) const { return form_.value(z) - attraction_.value(z); }
+  void perform_op(const double* x, double* y) const {
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), n_);
+    ComplexVector out;
+    apply(in, out);
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), n_) = out;
+  }
+
+ private:
+  Eigen::Index n_;
+  const BoundaryForm& form_;
+  const PinAttraction& attraction_;
 };
 
 class ShiftedOperator {
@@ -211,6 +247,54 @@ bool converges(Solver& solver, const EigenproblemOptions& options) {
   return solver.info() == Spectra::CompInfo::Successful;
 }
 
+/// B z = mu (L + s M) z, largest mu, for an indefinite B with the operations of AreaOperator (Spectra wants it
+/// mutable), accepted when the last correction is below `resolved` of the map.
+template <class Form>
+Eigenpair solve_indefinite(Factorization& factorization, const ConformalEnergy& energy, Form indefinite,
+                           const BoundaryForm& form, double shift, const EigenproblemOptions& options, double resolved,
+                           const Progress& progress) {
+  const Eigen::Index n = energy.n_vertices();
+  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
+  const ComplexVector on_boundary = start_vector(form, options.start);
+  ComplexVector start = ComplexVector::Zero(n);
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
+  Eigenpair result;
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
+  Spectra::SymGEigsSolver<Form, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(indefinite, shifted, 1,
+                                                                                            dimension);
+  ComplexVector smooth(n);
+  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
+  solver.init(reinterpret_cast<const double*>(smooth.data()));
+  const bool converged = converges(solver, options);
+  result.solves = shifted.solves();
+  if (!converged) return result;
+  const Eigen::VectorXd real = solver.eigenvectors(1);
+  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  result.mu = solver.eigenvalues()[0];
+  // z' = z - (L + s M)^-1 (L z - lambda B z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
+  // with the residual. Negative eigenvalues larger than mu make it grow instead.
+  constexpr int max_corrections = 30;
+  ComplexVector residual;
+  ComplexVector form_part;
+  ComplexVector change;
+  result.residual = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < max_corrections; ++k) {
+    const double lambda = energy.apply(result.vector, residual) / indefinite.value(result.vector);
+    indefinite.apply(result.vector, form_part);
+    residual -= lambda * form_part;
+    factorization.solve(residual, change);
+    change.array() -= change.mean();
+    ++result.solves;
+    const double relative = change.norm() / result.vector.norm();
+    if (!(relative < result.residual)) break;
+    result.residual = relative;
+    result.vector -= change;
+    if (relative < 0.01 * options.tolerance) break;
+  }
+  result.converged = result.residual < resolved && result.vector.allFinite() && indefinite.value(result.vector) > 0;
+  return result;
+}
+
 }  // namespace
 
 Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
@@ -250,45 +334,15 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress) {
-  const Eigen::Index n = energy.n_vertices();
-  AreaOperator area(energy.matrix());
-  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
-  const ComplexVector on_boundary = start_vector(form, options.start);
-  ComplexVector start = ComplexVector::Zero(n);
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
-  Eigenpair result;
-  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
-  Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
-                                                                                                    dimension);
-  ComplexVector smooth(n);
-  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
-  solver.init(reinterpret_cast<const double*>(smooth.data()));
-  const bool converged = converges(solver, options);
-  result.solves = shifted.solves();
-  if (!converged) return result;
-  const Eigen::VectorXd real = solver.eigenvectors(1);
-  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
-  result.mu = solver.eigenvalues()[0];
-  // z' = z - (L + s M)^-1 (L z - lambda A z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
-  // with the residual.
-  constexpr int max_corrections = 30;
-  constexpr double resolved = 1e-7;
-  ComplexVector residual;
-  ComplexVector area_part;
-  ComplexVector change;
-  for (int k = 0; k < max_corrections; ++k) {
-    const double lambda = energy.apply(result.vector, residual) / energy.area_form(result.vector);
-    area.apply(result.vector, area_part);
-    residual -= lambda * area_part;
-    factorization.solve(residual, change);
-    change.array() -= change.mean();
-    result.vector -= change;
-    ++result.solves;
-    result.residual = change.norm() / result.vector.norm();
-    if (result.residual < 0.01 * options.tolerance) break;
-  }
-  result.converged = result.residual < resolved && result.vector.allFinite() && energy.area_form(result.vector) > 0;
-  return result;
+  return solve_indefinite(factorization, energy, AreaOperator(energy), form, shift, options, 1e-7, progress);
+}
+
+Eigenpair solve_attracted_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
+                                       const BoundaryForm& form, const PinAttraction& attraction, double shift,
+                                       const EigenproblemOptions& options, const Progress& progress) {
+  AttractedOperator attracted(energy.n_vertices(), form, attraction);
+  // A strong attraction leaves no corrections, only what Lanczos and the shift do: 1e-6 or so of the map.
+  return solve_indefinite(factorization, energy, attracted, form, shift, options, 1e-5, progress);
 }
 
 }  // namespace spectral_conformal

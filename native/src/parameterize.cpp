@@ -9,6 +9,8 @@
 
 #include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/eigenproblem.h"
+#include "spectral_conformal/hole_filling.h"
+#include "spectral_conformal/pin_attraction.h"
 #include "spectral_conformal/placement.h"
 #include "spectral_conformal/turning_number.h"
 
@@ -164,8 +166,8 @@ Chart single_patch(const PolygonMesh& mesh) {
 }
 
 Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, Weights weights,
-               BoundaryMeasure boundary, FactorizationBackend backend)
-    : boundary_(boundary), backend_(backend) {
+               BoundaryMeasure boundary, FactorizationBackend backend, bool fill_holes)
+    : n_vertices_(chart.n_vertices()), boundary_(boundary), backend_(backend) {
   Stopwatch watch(set_up_timings_);
   const std::string problem = why_not_a_disk(chart, positions);
   if (!problem.empty()) throw InvalidMesh(problem);
@@ -174,8 +176,20 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
   const Eigen::RowVector3d high = positions.colwise().maxCoeff();
   scale_ = (high - low).maxCoeff();
   positions_ = (positions.rowwise() - (low + 0.5 * (high - low))) / scale_;
-  energy_ = std::make_unique<ConformalEnergy>(positions_, chart.triangles, chart.coverage, weights);
-  outer_ = chart.boundary_loops[outer_loop(chart.boundary_loops, positions_)];
+  const int outer = outer_loop(chart.boundary_loops, positions_);
+  outer_ = chart.boundary_loops[static_cast<std::size_t>(outer)];
+  std::vector<std::array<int, 3>> triangles = chart.triangles;
+  std::vector<double> coverage = chart.coverage;
+  if (fill_holes && chart.boundary_loops.size() > 1) {
+    const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, positions_);
+    triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
+    coverage.insert(coverage.end(), filling.coverage.begin(), filling.coverage.end());
+    positions_.conservativeResize(n_vertices_ + filling.centres.rows(), 3);
+    positions_.bottomRows(filling.centres.rows()) = filling.centres;
+  }
+  const std::size_t n_virtual = triangles.size() - chart.triangles.size();
+  energy_ =
+      std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(coverage), weights, n_virtual);
   form_ = boundary_form(outer_, positions_, boundary_);
   if (form_.vertices.size() < 2) {
     throw InvalidMesh("The patch's longest boundary loop has no length; clean up its coincident vertices.");
@@ -224,21 +238,32 @@ void Solver::factorize(const Progress& progress) {
   watch.lap("factorization");
 }
 
-Parameterization Solver::solve(Method method, const Pins& pins, double tolerance, const Progress& progress) {
-  if (method != Method::lscm && !pins.empty()) throw std::invalid_argument("Only the method 'lscm' takes pins.");
-  Parameterization result =
-      method == Method::lscm ? solve_pinned(pins, progress) : solve_with_remedies(method, tolerance, progress);
+Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& progress) {
+  const bool attracted = options.method == Method::spectral && options.soft_pins > 0;
+  if (options.method != Method::lscm && pins.size() > 1 && !attracted) {
+    throw std::invalid_argument("Several pins need the method 'lscm', or soft_pins with 'spectral'.");
+  }
+  Parameterization result;
+  if (options.method == Method::lscm) {
+    result = solve_pinned(pins, progress);
+  } else {
+    result = solve_with_remedies(options, attracted ? pins : Pins{}, progress);
+    if (!pins.empty() && !fit_to_pins(result.z, pins)) {
+      throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
+    }
+  }
   result.message += repairs_;
   if (!result.message.empty()) result.message.pop_back();  // the space after the last sentence
   report(progress, 1.0, "done");
   return result;
 }
 
-Parameterization Solver::solve_with_remedies(Method method, double tolerance, const Progress& progress) {
+Parameterization Solver::solve_with_remedies(const SolveOptions& options, const Pins& attractors,
+                                             const Progress& progress) {
   try {
-    return solve_eigenvector(method, tolerance, progress);
+    return solve_eigenvector(options, attractors, progress);
   } catch (const SolveFailure& failure) {
-    if (method != Method::spectral) throw;
+    if (options.method != Method::spectral) throw;
     const bool by_length = boundary_ == BoundaryMeasure::length;
     const bool uniform = energy_->weights() == Weights::uniform;
     struct Remedy {
@@ -255,7 +280,7 @@ Parameterization Solver::solve_with_remedies(Method method, double tolerance, co
         Solver other(*this, remedy.weights, remedy.boundary);
         // The fraction done only rises: the failed attempt has used it up.
         const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
-        Parameterization result = other.solve_eigenvector(method, tolerance, rest);
+        Parameterization result = other.solve_eigenvector(options, attractors, rest);
         result.message = failure.reason() + ": solved with " + remedy.name + " instead. " + result.message;
         return result;
       } catch (const SolveFailure&) {
@@ -268,9 +293,10 @@ Parameterization Solver::solve_with_remedies(Method method, double tolerance, co
 
 Solver::Solver(const Solver& like, Weights weights, BoundaryMeasure boundary)
     : positions_(like.positions_),
+      n_vertices_(like.n_vertices_),
       scale_(like.scale_),
       energy_(std::make_unique<ConformalEnergy>(like.positions_, like.energy_->triangles(), like.energy_->coverage(),
-                                                weights)),
+                                                weights, like.energy_->n_virtual())),
       outer_(like.outer_),
       boundary_(boundary),
       form_(boundary_form(outer_, positions_, boundary)),
@@ -285,9 +311,13 @@ double Solver::lambda_unit(Method method) const {
   return mass_unit / energy_unit;
 }
 
-Parameterization Solver::solve_eigenvector(Method method, double tolerance, const Progress& progress) {
+Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const Pins& attractors,
+                                           const Progress& progress) {
+  const Method method = settings.method;
+  // With fewer than three pins a similarity always fits.
+  const bool attracted = attractors.size() > 2;
   const bool own_form = method == Method::fiedler;
-  const BoundaryForm identity = own_form ? identity_form(energy_->n_vertices()) : BoundaryForm{};
+  const BoundaryForm identity = own_form ? identity_form(n_vertices_) : BoundaryForm{};
   const BoundaryForm& form = own_form ? identity : form_;
   Timings timings;
   std::string why;
@@ -309,13 +339,17 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
       watch.restart();  // factorize() has its own time
     }
     EigenproblemOptions options;
-    options.tolerance = tolerance * attempt.tolerance_factor;
+    options.tolerance = settings.tolerance * attempt.tolerance_factor;
     options.start = attempt.start;
     options.krylov_dimension = attempt.krylov_dimension;
     const Progress eigen_progress = part(progress, 0.6, 0.95);
-    Eigenpair pair = method == Method::area ? solve_area_eigenproblem(*factor.factorization, *energy_, form,
-                                                                      factor.shift, options, eigen_progress)
-                                            : solve_eigenproblem(*factor.factorization, form, options, eigen_progress);
+    const PinAttraction attraction = attracted ? pin_attraction(attractors, form, settings.soft_pins) : PinAttraction{};
+    Eigenpair pair =
+        attracted ? solve_attracted_eigenproblem(*factor.factorization, *energy_, form, attraction, factor.shift,
+                                                 options, eigen_progress)
+        : method == Method::area
+            ? solve_area_eigenproblem(*factor.factorization, *energy_, form, factor.shift, options, eigen_progress)
+            : solve_eigenproblem(*factor.factorization, form, options, eigen_progress);
     if (!pair.converged || !(pair.residual < residual_limit)) {
       why = "The eigenvalue iteration did not converge";
       continue;
@@ -325,8 +359,10 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
     result.iterations = pair.solves;
     const double scale_of_residual = largest_diagonal(energy_->matrix());
     double lambda = 0;
-    if (method == Method::area) {
-      lambda = energy_->value(result.z) / energy_->area_form(result.z);
+    if (attracted || method == Method::area) {
+      const double form_value =
+          attracted ? form.value(result.z) - attraction.value(result.z) : energy_->area_form(result.z);
+      lambda = energy_->value(result.z) / form_value;
       result.residual = pair.residual;
     } else {
       // Inverse iteration on the residual, which is evaluated more accurately than the factor: takes out what rounding
@@ -359,7 +395,8 @@ Parameterization Solver::solve_eigenvector(Method method, double tolerance, cons
       why = "The result is not finite";
       continue;
     }
-    if (!place(result.z, *energy_, outer_, positions_, energy_->area() * scale_ * scale_)) {
+    result.z.conservativeResize(n_vertices_);
+    if (!place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
       why = "The map has no positive area";
       continue;
     }
@@ -422,11 +459,12 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
   if (std::abs(result.turning_number) != 1) {
     result.message = winding(result.turning_number) + ". ";
   }
+  result.z.conservativeResize(n_vertices_);
   if (hold) {
     for (Complex& z : result.z) z = origin + unit * z;
     for (const auto& [vertex, position] : pins) result.z[vertex] = position;
   } else {
-    if (!place(result.z, *energy_, outer_, positions_, energy_->area() * scale_ * scale_)) {
+    if (!place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
       throw SolveFailure("The pinned map has no positive area", "use the spectral method, or pin other vertices.");
     }
     if (pins.size() == 1) {

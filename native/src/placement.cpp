@@ -73,7 +73,7 @@ Complex smallest_rectangle(const std::vector<Complex>& hull) {
 double signed_area(const ConformalEnergy& energy, const ComplexVector& z) {
   double area = 0;
   const auto& triangles = energy.triangles();
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
+  for (std::size_t t = 0; t + energy.n_virtual() < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     area += 0.5 * energy.coverage()[t] * cross(z[b] - z[a], z[c] - z[a]);
   }

@@ -56,24 +56,29 @@ void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVec
   report.area = energy.area() * scale * scale;
 }
 
-/// The pins of the mesh on the copies that a chart has of their vertices.
-Pins pins_of(const Chart& chart, const Pins& pins) {
-  Pins result;
-  if (pins.empty()) return result;
+/// Adds the pins of mesh vertices, on the copies that a chart has of them, where corners have none.
+void add_vertex_pins(const PinSplitMesh& split, const Chart& chart, const Pins& vertex_pins, Pins& pins) {
+  if (vertex_pins.empty()) return;
   for (int v = 0; v < chart.n_vertices(); ++v) {
-    const auto pin = pins.find(chart.vertices[v]);
-    if (pin != pins.end()) result[v] = pin->second;
+    const auto pin = vertex_pins.find(split.original_vertex(chart.vertices[static_cast<std::size_t>(v)]));
+    if (pin != vertex_pins.end()) pins.emplace(v, pin->second);
   }
-  return result;
 }
 
-/// Solves one chart and fills in its report; the map goes to `z`.
-void solve_chart(const PolygonMesh& mesh, const Chart& chart, const ParameterizeOptions& options, const Pins& pins,
-                 const Progress& progress, UnwrappedChart& report, ComplexVector& z) {
+/// Solves one chart and fills in its report; the map goes to `z`. `find_pins` returns the chart's pins.
+template <class FindPins>
+void solve_chart(const PolygonMesh& mesh, const Chart& chart, const ParameterizeOptions& options,
+                 const FindPins& find_pins, const Progress& progress, UnwrappedChart& report, ComplexVector& z) {
   const Positions positions = chart.positions(mesh);
+  report.method = options.method;
   try {
-    Solver solver(chart, positions, options.weights, options.boundary, options.backend);
-    Parameterization solution = solver.solve(options.method, pins_of(chart, pins), options.tolerance, progress);
+    const Pins pins = find_pins();
+    report.n_pins = static_cast<int>(pins.size());
+    const bool soft = options.method == Method::spectral && options.soft_pins > 0;
+    if (pins.size() > 1 && !soft) report.method = Method::lscm;
+    Solver solver(chart, positions, options.weights, options.boundary, options.backend, options.fill_holes);
+    Parameterization solution =
+        solver.solve({report.method, options.tolerance, soft ? options.soft_pins : 0}, pins, progress);
     z = std::move(solution.z);
     report.solved = true;
     measure(chart, solver.energy(), z, solver.scale(), report);
@@ -91,8 +96,11 @@ void solve_chart(const PolygonMesh& mesh, const Chart& chart, const Parameterize
 
 }  // namespace
 
-Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const Pins& pins, const Progress& progress) {
+Unwrap unwrap(const PolygonMesh& given, const ParameterizeOptions& options, const Pins& vertex_pins,
+              const CornerPins& corner_pins, const Progress& progress) {
   report(progress, 0.0, "charts");
+  const PinSplitMesh split(given, corner_pins);
+  const PolygonMesh mesh = split.view();
   ChartDecomposition decomposition = build_charts(mesh);
   const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
   Unwrap result;
@@ -108,8 +116,13 @@ Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const
     unwrapped.n_vertices = chart.n_vertices();
     const double share = static_cast<double>(chart.faces.size()) / total_faces;
     ComplexVector z;
-    solve_chart(mesh, chart, options, pins, part(progress, 0.05 + 0.95 * done, 0.05 + 0.95 * (done + share)), unwrapped,
-                z);
+    const auto find_pins = [&] {
+      Pins pins = chart_pins(mesh, chart, decomposition.chart_vertex_of_corner, corner_pins);
+      add_vertex_pins(split, chart, vertex_pins, pins);
+      return pins;
+    };
+    solve_chart(mesh, chart, options, find_pins, part(progress, 0.05 + 0.95 * done, 0.05 + 0.95 * (done + share)),
+                unwrapped, z);
     done += share;
     unwrapped.faces = std::move(chart.faces);
     unwrapped.faces.insert(unwrapped.faces.end(), chart.duplicates.begin(), chart.duplicates.end());

@@ -12,7 +12,7 @@ namespace spectral_conformal::test {
 namespace {
 
 Unwrap unwrapped(const Mesh& mesh, const ParameterizeOptions& options = {}, const Pins& pins = {}) {
-  Unwrap result = unwrap(mesh.view(), options, pins, {});
+  Unwrap result = unwrap(mesh.view(), options, pins, {}, {});
   REQUIRE(result.uv.rows() == static_cast<Eigen::Index>(mesh.corners.size()));
   CHECK(result.uv.allFinite());
   for (int face = 0; face < mesh.n_faces(); ++face) {
@@ -174,7 +174,7 @@ TEST_CASE("faces that are not selected stay out") {
   PolygonMesh view = mesh.view();
   const bool selected[] = {true, false, true};
   view.selected_faces = selected;
-  const Unwrap result = unwrap(view, {}, {}, {});
+  const Unwrap result = unwrap(view, {}, {}, {}, {});
   CHECK(result.chart_of_face == std::vector<int>{0, -1, 1});
   CHECK(std::count(result.solved_corners.begin(), result.solved_corners.end(), true) == 8);
 }
@@ -183,14 +183,14 @@ TEST_CASE("an empty mesh has nothing to unwrap; arrays that do not describe a me
   CHECK(unwrapped({}).charts.empty());
   Mesh broken = quad_grid(1, 1);
   broken.corners[0] = 7;
-  CHECK_THROWS_AS(unwrap(broken.view(), {}, {}, {}), InvalidMesh);
+  CHECK_THROWS_AS(unwrap(broken.view(), {}, {}, {}, {}), InvalidMesh);
 }
 
 TEST_CASE("progress rises from 0 to 1 over all charts and can stop it") {
   const Mesh mesh = mixed_components();
   double last = 0;
   int calls = 0;
-  unwrap(mesh.view(), {}, {}, [&](double fraction, const char*) {
+  unwrap(mesh.view(), {}, {}, {}, [&](double fraction, const char*) {
     CHECK((fraction >= last && fraction <= 1));
     last = fraction;
     ++calls;
@@ -200,7 +200,7 @@ TEST_CASE("progress rises from 0 to 1 over all charts and can stop it") {
   for (const int stop_at : {1, calls / 2, calls}) {
     int call = 0;
     const Progress stop = [&](double, const char*) { return ++call < stop_at; };
-    CHECK_THROWS_AS(unwrap(mesh.view(), {}, {}, stop), Cancelled);
+    CHECK_THROWS_AS(unwrap(mesh.view(), {}, {}, {}, stop), Cancelled);
   }
 }
 

@@ -22,6 +22,9 @@ struct PolygonMesh {
   int n_seam_edges = 0;
 };
 
+/// Throws InvalidMesh when offsets decrease or an index is out of range.
+void validate(const PolygonMesh& mesh);
+
 /// A connected patch of faces, consistently wound, with vertices of its own.
 struct Chart {
   std::vector<int> faces;                     ///< in the mesh, ascending

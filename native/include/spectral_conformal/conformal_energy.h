@@ -20,10 +20,11 @@ enum class Weights {
 /// The inverse-area weights are relative to the mean area (w = mean / |T|), so that L keeps the same magnitude.
 class ConformalEnergy {
  public:
-  /// positions (V, 3) near unit scale; triangles counter-clockwise; coverage per triangle.
+  /// positions (V, 3) near unit scale; triangles counter-clockwise; coverage per triangle. The last `n_virtual`
+  /// triangles (filled holes) are in the energy and in no measure of the surface.
   /// Nearly degenerate triangles are clamped as lay_out does and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
-                  std::vector<double> coverage, Weights weights);
+                  std::vector<double> coverage, Weights weights, std::size_t n_virtual = 0);
 
   const HermitianMatrix& matrix() const { return matrix_; }
   int n_vertices() const { return static_cast<int>(matrix_.rows()); }
@@ -42,7 +43,9 @@ class ConformalEnergy {
   /// Returns value(z), which costs nothing beside it.
   double apply(const ComplexVector& z, ComplexVector& result) const;
 
+  /// Virtual ones included, at the end.
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  std::size_t n_virtual() const { return n_virtual_; }
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
   const std::vector<double>& coverage() const { return coverage_; }
 
@@ -54,6 +57,7 @@ class ConformalEnergy {
   std::vector<double> coverage_;
   std::vector<TriangleShape> shapes_;
   Weights weights_;
+  std::size_t n_virtual_;
   double weight_unit_ = 1;
   double area_ = 0;
   int clamped_triangles_ = 0;

@@ -25,7 +25,16 @@ struct ParameterizeOptions {
   Weights weights = Weights::uniform;
   BoundaryMeasure boundary = BoundaryMeasure::length;
   double tolerance = 1e-8;  ///< see EigenproblemOptions
+  bool fill_holes = false;  ///< see hole_filling.h
+  double soft_pins = 0;     ///< strength of pins as a soft force (see pin_attraction.h); 0: they are held exactly
   FactorizationBackend backend = FactorizationBackend::automatic;
+};
+
+/// What one solve of a Solver may vary.
+struct SolveOptions {
+  Method method = Method::spectral;
+  double tolerance = 1e-8;
+  double soft_pins = 0;
 };
 
 struct Parameterization {
@@ -51,22 +60,24 @@ Chart single_patch(const PolygonMesh& mesh);
 /// One patch with its energy and boundary form; keeps the factor of L + s M between solves.
 class Solver {
  public:
-  /// chart: one disk-like patch; positions (V, 3) of its vertices. Throws InvalidMesh when why_not_a_disk says so.
+  /// chart: one disk-like patch; positions (V, 3) of its vertices. With `fill_holes` every loop but the outer one is
+  /// closed by virtual triangles. Throws InvalidMesh when why_not_a_disk says so.
   Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, Weights weights, BoundaryMeasure boundary,
-         FactorizationBackend backend);
+         FactorizationBackend backend, bool fill_holes = false);
 
   /// Factors L + s M, raising s a hundredfold while rounding breaks the factorisation (bounded).
   /// Throws SolveFailure. Called by solve where needed.
   void factorize(const Progress& progress = {});
 
-  /// pins: for Method::lscm only; empty for the two farthest boundary vertices. With given pins the map is returned as
-  /// solved, otherwise placed (see placement.h) with its area equal to the area in 3D.
+  /// Without pins (for Method::lscm: two farthest boundary vertices) the map is placed (see placement.h), with its area
+  /// equal to the area in 3D. One pin: the same map moved onto it. Several pins: held exactly by Method::lscm, or, with
+  /// `soft_pins`, attracted by Method::spectral, whose map then comes with the similarity that fits it to the pins.
   /// Every eigenvector is checked: residual, corrections that converge, positive area, and for the spectral method a
   /// turning number of 1, or -1 where the longest loop in 3D is a hole of the map. One that fails is solved again with
   /// a larger shift and another start, then (spectral) with the other boundary form and with the other weights;
   /// `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its equations; where its boundary
   /// winds round more than once, `message` says so. Throws SolveFailure when nothing passes.
-  Parameterization solve(Method method, const Pins& pins, double tolerance, const Progress& progress = {});
+  Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
   /// Input units per unit of the energy's positions.
@@ -82,12 +93,13 @@ class Solver {
     double shift = 0;
   };
   ShiftedFactor factor_shifted(const BoundaryForm& form, double relative_shift, const Progress& progress);
-  Parameterization solve_with_remedies(Method method, double tolerance, const Progress& progress);
-  Parameterization solve_eigenvector(Method method, double tolerance, const Progress& progress);
+  Parameterization solve_with_remedies(const SolveOptions& options, const Pins& attractors, const Progress& progress);
+  Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
   double lambda_unit(Method method) const;
 
-  Positions positions_;  ///< centred, largest extent 1
+  Positions positions_;  ///< centred, largest extent 1; added vertices of filled holes at the end
+  int n_vertices_ = 0;   ///< of the chart
   double scale_ = 1;     ///< input units per unit of positions_
   std::unique_ptr<ConformalEnergy> energy_;
   BoundaryLoop outer_;

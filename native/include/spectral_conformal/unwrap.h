@@ -4,6 +4,7 @@
 #include <string>
 
 #include "spectral_conformal/charts.h"
+#include "spectral_conformal/corner_pins.h"
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal {
@@ -21,7 +22,9 @@ struct UnwrappedChart {
   int turning_number = 0;
   double mean_qc = unknown;  ///< of one triangulation: of a quad's two splits the less distorted one
   double max_qc = unknown;
-  int flipped = 0;  ///< faces with a flipped triangle
+  int flipped = 0;                   ///< faces with a flipped triangle
+  Method method = Method::spectral;  ///< the one used: Method::lscm for a chart with several pins
+  int n_pins = 0;                    ///< pinned vertices
   int n_vertices = 0;
   double area = 0;  ///< in 3D
 };
@@ -34,9 +37,11 @@ struct Unwrap {
 };
 
 /// Cuts a polygon mesh into charts and parameterises each. What one chart cannot do never stops the others: it is
-/// reported as failed; degenerate faces together make one failed chart, the last. `pins` maps mesh vertices to
-/// positions (Method::lscm). Each chart is placed as by place(). Throws InvalidMesh for arrays that do not describe a
-/// mesh, and Cancelled.
-Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const Pins& pins, const Progress& progress);
+/// reported as failed; degenerate faces together make one failed chart, the last. Each chart is placed as by place().
+/// Pins are those of mesh vertices, on all of their copies, and of corners (which win). A chart with several is solved
+/// by pinned LSCM, or, with options.soft_pins, by the spectral method attracted by them; with one it is solved free and
+/// moved onto the pin. Throws InvalidMesh for arrays that do not describe a mesh, and Cancelled.
+Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const Pins& vertex_pins,
+              const CornerPins& corner_pins, const Progress& progress);
 
 }  // namespace spectral_conformal

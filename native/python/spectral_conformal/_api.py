@@ -29,6 +29,8 @@ _OPTIONS = {
 }
 
 DEFAULT_TOLERANCE = 1e-8
+# Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
+SOFT_PINS_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 
 
@@ -99,6 +101,10 @@ class Chart:
     max_qc: float
     flipped: int
     """Faces with a flipped triangle."""
+    method: Method
+    """The one used: "lscm" for a chart with several pins, unless they are soft."""
+    n_pins: int
+    """Pinned vertices of the chart."""
     n_vertices: int
     """Vertices of the chart; a mesh vertex on a seam counts once for every copy."""
     area: float
@@ -107,7 +113,7 @@ class Chart:
 
 @dataclass(frozen=True)
 class Unwrap:
-    """A polygon mesh unwrapped chart by chart. Charts are not packed: each is centred at the origin."""
+    """A polygon mesh unwrapped chart by chart. Charts are not packed: each is centred at the origin, or at its pins."""
 
     uv: npt.NDArray[np.float64]
     """(C, 2) per face corner, 0 where not solved."""
@@ -128,6 +134,7 @@ class Solver:
         *,
         weights: Weights = "uniform",
         boundary: Boundary = "length",
+        fill_holes: bool = False,
         factorization: Factorization = "auto",
         progress: Progress | None = None,
     ) -> None:
@@ -135,7 +142,9 @@ class Solver:
 
         Arguments and errors are those of `parameterize`.
         """
-        self._n_vertices, self._native = _assemble(vertices, triangles, weights, boundary, factorization)
+        self._n_vertices, self._native = _assemble(
+            vertices, triangles, weights, boundary, factorization, fill_holes
+        )
         self._native.factorize(_progress(progress))
 
     def solve(
@@ -143,11 +152,12 @@ class Solver:
         *,
         method: Method = "spectral",
         pins: Pins | None = None,
+        soft_pins: float = 0.0,
         tolerance: float = DEFAULT_TOLERANCE,
         progress: Progress | None = None,
     ) -> Parameterization:
         """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`."""
-        return _solve(self._native, self._n_vertices, method, pins, tolerance, progress)
+        return _solve(self._native, self._n_vertices, method, pins, soft_pins, tolerance, progress)
 
 
 def parameterize(
@@ -158,6 +168,8 @@ def parameterize(
     weights: Weights = "uniform",
     boundary: Boundary = "length",
     pins: Pins | None = None,
+    soft_pins: float = 0.0,
+    fill_holes: bool = False,
     tolerance: float = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
     factorization: Factorization = "auto",
@@ -172,7 +184,13 @@ def parameterize(
         boundary: mass B of a vertex of the outer loop, "length" (half of its two boundary edges) or "vertex" (1, as in
             the paper).
         pins: vertex -> (u, v), for "lscm": two or more are held exactly and the map is returned as solved; with one the
-            map is solved free and moved onto it; without any, the two farthest boundary vertices are held.
+            map is solved free and moved onto it; without any, the two farthest boundary vertices are held. For
+            "spectral" together with `soft_pins`.
+        soft_pins: for "spectral", strength of a force in B that pulls the pinned vertices towards a similar image of
+            their positions, as a fraction of the boundary's total mass; the map then comes with the similarity that fits
+            it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: no force.
+        fill_holes: close every boundary loop but the longest by virtual triangles, which keep the holes' shape. They
+            count in the eigenvalue and in no measure of the map.
         tolerance: relative residual at which the eigenvalue iteration stops, between 1e-14 and 1e-3.
         progress: see `Progress`.
         factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen.
@@ -186,8 +204,8 @@ def parameterize(
         SolveError: no attempt passed the numerical checks.
         Cancelled: `progress` returned False.
     """
-    n_vertices, solver = _assemble(vertices, triangles, weights, boundary, factorization)
-    return _solve(solver, n_vertices, method, pins, tolerance, progress)
+    n_vertices, solver = _assemble(vertices, triangles, weights, boundary, factorization, fill_holes)
+    return _solve(solver, n_vertices, method, pins, soft_pins, tolerance, progress)
 
 
 def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> Distortion:
@@ -224,6 +242,10 @@ def unwrap(
     weights: Weights = "uniform",
     boundary: Boundary = "length",
     pins: Pins | None = None,
+    pinned_corners: npt.ArrayLike | None = None,
+    corner_uv: npt.ArrayLike | None = None,
+    soft_pins: float = 0.0,
+    fill_holes: bool = False,
     tolerance: float = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
     factorization: Factorization = "auto",
@@ -240,6 +262,13 @@ def unwrap(
         selected_faces: (faces,) bool, all faces when left out.
         pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`; pins outside the selection
             have no effect.
+        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin. A chart with two or more pins is solved by pinned
+            LSCM whatever `method` says, and returned as solved; with one it is solved free, with its area in 3D, and
+            moved onto the pin. A mesh vertex with different pins is split there: each of its corners goes to the
+            nearest. The pin of a chart's vertex is the mean over its pinned corners, and goes before `pins`.
+        corner_uv: (C, 2) the map so far, finite where pinned; needed with `pinned_corners`.
+        soft_pins: see `parameterize`; charts with pins are then solved by the spectral method.
+        fill_holes: see `parameterize`.
         method: this and the other options as in `parameterize`.
         weights: see `parameterize`.
         boundary: see `parameterize`.
@@ -270,6 +299,8 @@ def unwrap(
                 f"{selected.shape}."
             )
     _check_options(method=method, weights=weights, boundary=boundary, factorization=factorization)
+    pinned, uv = _corner_pins(pinned_corners, corner_uv, len(corners))
+    soft = _soft_pins(soft_pins, method)
     result = _native.unwrap(
         vertices,
         offsets,
@@ -279,7 +310,11 @@ def unwrap(
         method,
         weights,
         boundary,
-        _pins(pins, method, len(vertices)),
+        _pins(pins, method, soft, len(vertices)),
+        pinned,
+        uv,
+        soft,
+        _flag(fill_holes, "fill_holes"),
         _tolerance(tolerance),
         factorization,
         _progress(progress),
@@ -294,12 +329,18 @@ def build_info() -> dict[str, str]:
 
 
 def _assemble(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, weights: str, boundary: str, factorization: str
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    weights: str,
+    boundary: str,
+    factorization: str,
+    fill_holes: bool,
 ) -> tuple[int, Any]:
     _check_options(weights=weights, boundary=boundary, factorization=factorization)
     vertices = _vertices(vertices)
     triangles = _indices(triangles, "triangles", 3, len(vertices))
-    return len(vertices), _native.Solver(vertices, triangles, weights, boundary, factorization)
+    fill = _flag(fill_holes, "fill_holes")
+    return len(vertices), _native.Solver(vertices, triangles, weights, boundary, factorization, fill)
 
 
 def _solve(
@@ -307,12 +348,14 @@ def _solve(
     n_vertices: int,
     method: str,
     pins: Pins | None,
+    soft_pins: float,
     tolerance: float,
     progress: Progress | None,
 ) -> Parameterization:
     _check_options(method=method)
-    pin_list = _pins(pins, method, n_vertices)
-    return Parameterization(**solver.solve(method, pin_list, _tolerance(tolerance), _progress(progress)))
+    soft = _soft_pins(soft_pins, method)
+    pin_list = _pins(pins, method, soft, n_vertices)
+    return Parameterization(**solver.solve(method, pin_list, soft, _tolerance(tolerance), _progress(progress)))
 
 
 def _check_options(**options: object) -> None:
@@ -379,13 +422,47 @@ def _indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: 
     return flat.reshape(shape) if columns is not None else flat
 
 
-def _pins(pins: Pins | None, method: str, n_vertices: int) -> list[tuple[int, float, float]]:
+def _flag(value: object, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} must be True or False, not {value!r}.")
+    return bool(value)
+
+
+def _soft_pins(strength: float, method: str) -> float:
+    if not (isinstance(strength, numbers.Real) and 0.0 <= strength <= SOFT_PINS_LIMIT):
+        raise ValueError(f"soft_pins must lie between 0 and {SOFT_PINS_LIMIT:g}, not {strength!r}.")
+    if strength > 0.0 and method != "spectral":
+        raise ValueError(f"soft_pins need the method 'spectral', not '{method}'.")
+    return float(strength)
+
+
+def _corner_pins(
+    pinned_corners: npt.ArrayLike | None, corner_uv: npt.ArrayLike | None, n_corners: int
+) -> tuple[npt.NDArray[np.bool_] | None, npt.NDArray[np.float64] | None]:
+    if pinned_corners is None:
+        return None, None
+    pinned = np.asarray(pinned_corners)
+    if pinned.dtype != np.bool_ or pinned.shape != (n_corners,):
+        raise ValueError(
+            f"pinned_corners must be {n_corners} booleans, one per corner, not {pinned.dtype} of shape {pinned.shape}."
+        )
+    if not pinned.any():
+        return None, None
+    if corner_uv is None:
+        raise ValueError("pinned_corners need corner_uv, the positions of the pins.")
+    uv = _floats(corner_uv, "corner_uv", 2)
+    if len(uv) != n_corners:
+        raise ValueError(f"corner_uv has {len(uv)} rows, but there are {n_corners} corners.")
+    return np.ascontiguousarray(pinned), uv
+
+
+def _pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: int) -> list[tuple[int, float, float]]:
     if pins is None:
         return []
     if not isinstance(pins, Mapping):
         raise ValueError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
-    if pins and method != "lscm":
-        raise ValueError(f"pins need the method 'lscm'; '{method}' solves without any.")
+    if pins and method != "lscm" and not soft_pins:
+        raise ValueError(f"pins need the method 'lscm', or soft_pins with 'spectral'; '{method}' solves without any.")
     result = []
     for vertex, position in pins.items():
         try:
