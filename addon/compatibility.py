@@ -6,7 +6,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
-from bmesh.types import BMesh, BMFace, BMLayerItem, BMLoop
+import numpy as np
+from bmesh.types import BMesh, BMLayerItem, BMLoop
 
 # From 5.0 the UV selection belongs to the mesh; before, to each UV map.
 _UV_SELECTION_ON_MESH = hasattr(BMLoop, "uv_select_vert")
@@ -88,17 +89,39 @@ def mesh_selection_only(bm: BMesh) -> Iterator[None]:
         bm.uv_select_sync_valid = before
 
 
-def has_selected_uv(face: BMFace, layer: BMLayerItem) -> bool:
-    """Return whether a corner of `face` is selected in the UV editor, sync selection being off."""
+def selected_uv_corners(bm: BMesh, layer: BMLayerItem) -> np.ndarray:
+    """Return which corners are selected in the UV editor, sync selection being off, (C,) bool."""
+    loops = (loop for face in bm.faces for loop in face.loops)
     if _UV_SELECTION_ON_MESH:
-        return any(loop.uv_select_vert for loop in face.loops)
-    return any(loop[layer].select for loop in face.loops)
+        return np.fromiter((loop.uv_select_vert for loop in loops), dtype=bool)
+    return np.fromiter((loop[layer].select for loop in loops), dtype=bool)
 
 
-def bounding_box_packing() -> dict[str, str]:
-    """Return the arguments that make `bpy.ops.uv.pack_islands` pack bounding boxes, as Blender's own Unwrap does.
+def selected_corners(bm: BMesh, layer: BMLayerItem, use_sync: bool) -> np.ndarray:
+    """Return which corners are selected in the UV editor, with or without sync selection, (C,) bool."""
+    if use_sync and not (_UV_SELECTION_ON_MESH and bm.uv_select_sync_valid):
+        return np.fromiter((loop.vert.select for face in bm.faces for loop in face.loops), dtype=bool)
+    return selected_uv_corners(bm, layer)
 
-    That is all that 3.4 can do. The default from 4.0, exact shapes, takes seconds for a cube's six faces.
+
+def pinned_corners(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return which corners are pinned in the active UV map of `mesh`, which is not in edit mode, (C,) bool."""
+    pinned = np.zeros(len(mesh.loops), dtype=bool)
+    uv_map = mesh.uv_layers.active
+    # From 3.5 the pins are an attribute of their own, which is missing where nothing was ever pinned.
+    if not hasattr(uv_map, "pin"):
+        uv_map.data.foreach_get("pin_uv", pinned)
+    elif len(uv_map.pin):
+        uv_map.pin.foreach_get("value", pinned)
+    return pinned
+
+
+def packing_options(margin_method: str) -> dict[str, str]:
+    """Return arguments for `bpy.ops.uv.pack_islands`, as far as it has them in this version.
+
+    Bounding boxes are packed, as Blender's own Unwrap does. That is all that 3.4 can do. The default from 4.0, exact
+    shapes, takes seconds for a cube's six faces.
     """
-    has_shapes = "shape_method" in bpy.ops.uv.pack_islands.get_rna_type().properties
-    return {"shape_method": "AABB"} if has_shapes else {}
+    known = bpy.ops.uv.pack_islands.get_rna_type().properties
+    options = {"shape_method": "AABB", "margin_method": margin_method}
+    return {name: value for name, value in options.items() if name in known}

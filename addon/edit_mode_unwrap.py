@@ -9,6 +9,7 @@ import numpy as np
 
 from . import mesh_io, packing
 from .core import reporting, unwrapping
+from .core.unwrapping import Solution
 from .mesh_io import EditMesh
 
 
@@ -20,19 +21,30 @@ class Settings:
         options: what the solver does.
         keep_in_place: fit every island into its former bounds instead of packing all.
         margin: space between packed islands.
+        correct_aspect: map without distortion on the image of the active face, whatever its shape.
+        use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
     """
 
-    options: unwrapping.Options
+    options: unwrapping.Options = unwrapping.Options()
     keep_in_place: bool = False
-    margin: float = 0.001
+    margin: packing.Margin = packing.Margin()
+    correct_aspect: bool = True
+    use_subsurf: bool = False
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What an unwrap did: totals over all meshes, and how many islands could not be kept in place."""
+    """What an unwrap did.
+
+    Attributes:
+        summary: totals over all meshes.
+        without_bounds: number of islands that could not be kept in place.
+        notes: what the user should know about the objects.
+    """
 
     summary: reporting.Summary
     without_bounds: int = 0
+    notes: tuple[str, ...] = ()
 
 
 def unwrap(
@@ -46,7 +58,7 @@ def unwrap(
         NativeModuleError: `spectral_conformal` cannot be imported.
         PackingError: Blender's packer did not run; nothing changed.
     """
-    edit_meshes = read(context)
+    edit_meshes = read(context, settings)
     if not edit_meshes:
         return None
     return write(context, settings, edit_meshes, solve(edit_meshes, settings, progress))
@@ -63,7 +75,16 @@ def solve(
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
     """
-    return unwrapping.solve_all([edit_mesh.polygons for edit_mesh in edit_meshes], settings.options, progress)
+    subdivisions = [edit_mesh.subdivision for edit_mesh in edit_meshes]
+    meshes = [
+        edit_mesh.polygons if subdivision is None else subdivision.mesh
+        for edit_mesh, subdivision in zip(edit_meshes, subdivisions)
+    ]
+    solutions = unwrapping.solve_all(meshes, settings.options, progress)
+    return [
+        solution if subdivision is None else subdivision.on_coarse(solution)
+        for solution, subdivision in zip(solutions, subdivisions)
+    ]
 
 
 def write(
@@ -79,37 +100,48 @@ def write(
     """
     summary = reporting.summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     if summary.solved == 0:
-        return Outcome(summary)
+        return Outcome(summary, notes=_notes(edit_meshes, settings))
     placement = unwrapping.place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
     solved = [
-        (edit_mesh, uv, solution.solved_corners)
+        (edit_mesh, uv, solution)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
     _write(context, solved, None if settings.keep_in_place else settings.margin)
-    return Outcome(summary, placement.without_bounds)
+    return Outcome(summary, placement.without_bounds, _notes(edit_meshes, settings))
 
 
-def read(context: bpy.types.Context) -> list[EditMesh]:
+def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:
+    """Return what Blender's own Unwrap would report about the objects."""
+    worlds = [edit_mesh.edit_object.matrix_world for edit_mesh in edit_meshes]
+    scales = [tuple(world.to_3x3().col[axis].length for axis in range(3)) for world in worlds]
+    notes = [reporting.object_scale(scales, [world.is_negative for world in worlds])]
+    if settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes):
+        notes.append(reporting.NO_LEADING_SUBSURF)
+    return tuple(filter(None, notes))
+
+
+def read(context: bpy.types.Context, settings: Settings, all_visible: bool = False) -> list[EditMesh]:
     """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap.
 
-    Called from the UV editor without sync selection, only faces with a selected UV count.
+    Called from the UV editor without sync selection, only faces with a selected UV count. With `all_visible` the
+    selection does not count at all.
     """
-    by_uv_selection = (
+    by_uv_selection = not all_visible and (
         context.area is not None
         and context.area.type == "IMAGE_EDITOR"
         and not context.scene.tool_settings.use_uv_select_sync
     )
     edit_meshes = [
-        mesh_io.read(edit_object, by_uv_selection)
+        mesh_io.read(edit_object, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
         for edit_object in context.objects_in_mode_unique_data
-        if edit_object.data.total_face_sel
+        if all_visible or edit_object.data.total_face_sel
     ]
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
 
 def read_again(
-    context: bpy.types.Context, _settings: Settings, edit_meshes: Sequence[EditMesh]
+    context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh]
 ) -> list[EditMesh] | None:
     """Read what an earlier `read` returned once more; None if anything in it has changed or gone since.
 
@@ -117,7 +149,7 @@ def read_again(
     """
     if context.mode != "EDIT_MESH":
         return None
-    now = read(context)
+    now = read(context, settings)
     same = len(now) == len(edit_meshes) and all(
         new.edit_object == old.edit_object and new.polygons.equals(old.polygons) for new, old in zip(now, edit_meshes)
     )
@@ -126,22 +158,29 @@ def read_again(
 
 def _write(
     context: bpy.types.Context,
-    solved: Sequence[tuple[EditMesh, np.ndarray, np.ndarray]],
-    margin: float | None,
+    solved: Sequence[tuple[EditMesh, np.ndarray, Solution]],
+    margin: packing.Margin | None,
 ) -> None:
-    """Write the UVs, each (C, 2), at the solved corners, each (C,) bool, and pack unless `margin` is None."""
+    """Write the UVs, each (C, 2), at the solved corners, and pack the charts without pins unless `margin` is None."""
     added = [edit_mesh.mesh for edit_mesh, _, _ in solved if mesh_io.ensure_uv_map(edit_mesh.mesh)]
-    for edit_mesh, uv, corners in solved:
-        mesh_io.write_uv(edit_mesh, uv, corners)
+    for edit_mesh, uv, solution in solved:
+        mesh_io.write_uv(edit_mesh, uv, solution.solved_corners)
     if margin is None:
         return
-    faces = [np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]) for edit_mesh, _, corners in solved]
+    movable = [solution.solved_corners & ~solution.pinned_corners for _, _, solution in solved]
+    to_pack = [
+        (edit_mesh, np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]))
+        for (edit_mesh, _, _), corners in zip(solved, movable)
+        if corners.any()
+    ]
+    if not to_pack:
+        return
     try:
-        packing.pack(context, [edit_mesh for edit_mesh, _, _ in solved], faces, margin)
+        packing.pack(context, *zip(*to_pack), margin)
     except packing.PackingError:
-        for edit_mesh, _, corners in solved:
+        for edit_mesh, _, solution in solved:
             if edit_mesh.mesh in added:
                 edit_mesh.mesh.uv_layers.remove(edit_mesh.mesh.uv_layers.active)
             else:
-                mesh_io.write_uv(edit_mesh, edit_mesh.polygons.uv, corners)
+                mesh_io.write_uv(edit_mesh, edit_mesh.polygons.uv, solution.solved_corners)
         raise

@@ -8,22 +8,34 @@ import bpy
 from . import names
 
 
-def _draw_in_viewport(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+def _draw_in_viewport(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.separator()
+    self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
     self.layout.operator(names.UNWRAP_OPERATOR)
+    self.layout.operator(names.SELECT_FAILED_OPERATOR)
 
 
 def _draw_in_uv_editor(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     # Newer versions draw the UV editor's Unwrap menu inside the viewport's menu, which has its own entry.
     if context.area.type == "IMAGE_EDITOR":
         self.layout.separator()
+        self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         self.layout.operator(names.UNWRAP_OPERATOR)
 
 
+def _draw_in_select_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator(names.SELECT_FAILED_OPERATOR)
+
+
 def _entries() -> list[tuple[type, Callable]]:
-    """Return the menus of this Blender version that list unwrap operators, each with its draw function."""
+    """Return the menus of this Blender version that get entries, each with its draw function."""
     uv_editor = getattr(bpy.types, names.UV_EDITOR_UNWRAP_MENU, None) or getattr(bpy.types, names.UV_EDITOR_MENU)
-    return [(getattr(bpy.types, names.VIEWPORT_UNWRAP_MENU), _draw_in_viewport), (uv_editor, _draw_in_uv_editor)]
+    return [
+        (getattr(bpy.types, names.VIEWPORT_UNWRAP_MENU), _draw_in_viewport),
+        (uv_editor, _draw_in_uv_editor),
+        (getattr(bpy.types, names.UV_EDITOR_SELECT_MENU), _draw_in_select_menu),
+    ]
 
 
 def register() -> None:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Edit-mode meshes to arrays, and UV coordinates back."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import compress
 
 import bmesh
@@ -9,23 +9,36 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem
 
-from . import compatibility, names
+from . import active_image, compatibility, names, subdivision_surface
 from .core.polygon_mesh import PolygonMesh
+from .core.subdivision import Subdivision, subdivision
 
 
 @dataclass
 class EditMesh:
-    """A mesh in edit mode and its arrays."""
+    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is to be solved in its stead."""
 
     edit_object: bpy.types.Object
     mesh: bpy.types.Mesh
     polygons: PolygonMesh
+    subdivision: Subdivision | None = None
 
 
-def read(edit_object: bpy.types.Object, by_uv_selection: bool) -> EditMesh:
-    """Read the mesh of an object in edit mode.
+def read(
+    edit_object: bpy.types.Object,
+    by_uv_selection: bool = False,
+    all_visible: bool = False,
+    correct_aspect: bool = False,
+    use_subsurf: bool = False,
+) -> EditMesh:
+    """Read the mesh of an object in edit mode. The faces to unwrap are the selected visible ones.
 
-    The faces to unwrap are the selected visible ones; `by_uv_selection` leaves only those with a selected UV.
+    Args:
+        edit_object: the object.
+        by_uv_selection: unwrap only faces with a selected UV; their unselected UVs are pins.
+        all_visible: unwrap all visible faces, selected or not.
+        correct_aspect: heed the aspect of the image that the active face shows.
+        use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
     """
     mesh = edit_object.data
     bm = bmesh.from_edit_mesh(mesh)
@@ -33,19 +46,36 @@ def read(edit_object: bpy.types.Object, by_uv_selection: bool) -> EditMesh:
     copy = bpy.data.meshes.new(names.TEMPORARY_MESH)
     try:
         bm.to_mesh(copy)
-        polygons = _read_arrays(copy)
+        polygons = _read_arrays(copy, all_visible)
+        layer = bm.loops.layers.uv.active
+        if layer is not None and len(polygons.selected_faces):
+            polygons = replace(polygons, pinned_corners=compatibility.pinned_corners(copy))
+            if by_uv_selection:
+                _restrict_to_selected_uvs(polygons, compatibility.selected_uv_corners(bm, layer))
+        if correct_aspect:
+            polygons = replace(polygons, aspect=active_image.aspect(edit_object, bm))
+        subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
         bpy.data.meshes.remove(copy)
-    layer = bm.loops.layers.uv.active
-    if by_uv_selection and layer is not None:
-        selected = polygons.selected_faces
-        bm.faces.ensure_lookup_table()
-        for face in np.flatnonzero(selected).tolist():
-            selected[face] = compatibility.has_selected_uv(bm.faces[face], layer)
-    return EditMesh(edit_object, mesh, polygons)
+    return EditMesh(edit_object, mesh, polygons, subdivided)
 
 
-def _read_arrays(mesh: bpy.types.Mesh) -> PolygonMesh:
+def _restrict_to_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarray) -> None:
+    """Leave only faces with a selected UV to unwrap, and pin the UVs that are not selected."""
+    polygons.selected_faces[:] &= np.logical_or.reduceat(selected_corners, polygons.face_offsets[:-1])
+    polygons.pinned_corners[:] |= ~selected_corners
+
+
+def _subdivide(copy: bpy.types.Mesh, edit_object: bpy.types.Object, polygons: PolygonMesh) -> Subdivision | None:
+    """Subdivide `copy`, the mesh of `polygons`; None if the object's modifiers do not ask for it."""
+    modifier = subdivision_surface.leading_modifier(edit_object)
+    if modifier is None or not polygons.selected_faces.any():
+        return None
+    with subdivision_surface.subdivided(copy, modifier) as (mesh, face_of_face):
+        return subdivision(polygons, _read_arrays(mesh), face_of_face)
+
+
+def _read_arrays(mesh: bpy.types.Mesh, all_visible: bool = False) -> PolygonMesh:
     def attribute(elements: bpy.types.bpy_prop_collection, name: str, dtype: type, columns: int = 1) -> np.ndarray:
         values = np.empty(len(elements) * columns, dtype=dtype)
         elements.foreach_get(name, values)
@@ -58,7 +88,8 @@ def _read_arrays(mesh: bpy.types.Mesh) -> PolygonMesh:
         face_offsets=np.append(attribute(mesh.polygons, "loop_start", np.int32), np.int32(len(mesh.loops))),
         corner_vertices=attribute(mesh.loops, "vertex_index", np.int32),
         seam_edges=edges[attribute(mesh.edges, "use_seam", bool)],
-        selected_faces=attribute(mesh.polygons, "select", bool) & ~attribute(mesh.polygons, "hide", bool),
+        selected_faces=(all_visible | attribute(mesh.polygons, "select", bool))
+        & ~attribute(mesh.polygons, "hide", bool),
         uv=None if uv_map is None else attribute(uv_map.data, "uv", np.float32, 2).astype(np.float64),
     )
 

@@ -3,6 +3,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 
 import bmesh
 import bpy
@@ -12,12 +13,20 @@ from . import compatibility, mesh_io
 from .mesh_io import EditMesh
 
 
+@dataclass(frozen=True)
+class Margin:
+    """Space between islands, and what it is measured by: an identifier of `names.MARGIN_METHOD_ITEMS`."""
+
+    size: float = 0.001
+    method: str = "SCALED"
+
+
 class PackingError(RuntimeError):
     """Blender's packer did not run; the message says what to do."""
 
 
 def pack(
-    context: bpy.types.Context, edit_meshes: Sequence[EditMesh], faces: Sequence[np.ndarray], margin: float
+    context: bpy.types.Context, edit_meshes: Sequence[EditMesh], faces: Sequence[np.ndarray], margin: Margin
 ) -> None:
     """Pack the islands of the given selected `faces`, one (F,) bool per mesh, into the UV tile; leave all others.
 
@@ -39,11 +48,11 @@ def pack(
         _run_packer(margin)
 
 
-def _run_packer(margin: float) -> None:
+def _run_packer(margin: Margin) -> None:
     try:
         # Rotating, the packer looks at pixels of the active image, and skews islands where that is not square.
         status = bpy.ops.uv.pack_islands(
-            "EXEC_DEFAULT", margin=margin, rotate=False, **compatibility.bounding_box_packing()
+            "EXEC_DEFAULT", margin=margin.size, rotate=False, **compatibility.packing_options(margin.method)
         )
         reason = "it was cancelled"
     except RuntimeError as error:

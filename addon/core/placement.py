@@ -114,6 +114,41 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
     return result, placed
 
 
+def to_former_area(
+    uv: np.ndarray, former: np.ndarray, chart: np.ndarray, pinned: np.ndarray, face_offsets: np.ndarray
+) -> np.ndarray:
+    """Scale every chart about its pin, to the area that it has in `former` (C, 2) where that is positive.
+
+    Every chart has one pin: its corners that are `pinned` (C,) have one place in `former`, the same as in `uv`. The
+    corners of face f are face_offsets[f] to face_offsets[f + 1] - 1. Returns a copy of `uv`, (C, 2) float64.
+    """
+    result = np.array(uv, dtype=np.float64)
+    number = chart.max() + 1
+    area, former_area = (_areas(points, chart, face_offsets, number) for points in (result, former))
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        scale = np.sqrt(former_area / area)
+    scale[~(np.isfinite(scale) & (scale > 0.0))] = 1.0
+    pins = np.flatnonzero(pinned & (chart >= 0))
+    pin = np.zeros((number, 2))
+    pin[chart[pins]] = former[pins]
+    corners = np.flatnonzero(chart >= 0)
+    centre = pin[chart[corners]]
+    result[corners] = centre + (result[corners] - centre) * scale[chart[corners], None]
+    return result
+
+
+def _areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
+    """Return the area of each of `number` charts, the areas of its faces added up, (number,)."""
+    first, end = face_offsets[:-1], face_offsets[1:]
+    following = np.arange(1, len(uv) + 1)
+    following[end - 1] = first
+    # Relative to the face's first corner, so that a small face far from the origin keeps its digits.
+    local = uv - np.repeat(uv[first], end - first, axis=0)
+    cross = local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0]
+    inside = chart[first] >= 0
+    return np.bincount(chart[first][inside], np.abs(np.add.reduceat(cross, first))[inside] / 2.0, minlength=number)
+
+
 def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
     """Return the largest factors by which boxes of `size` (K, 2) still fit into `room` (K, 2)."""
     return np.divide(room, size, out=np.full_like(size, np.inf), where=size > 0.0).min(axis=1)

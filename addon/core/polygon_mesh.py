@@ -17,6 +17,8 @@ class PolygonMesh:
         seam_edges: (S, 2) int32, vertex pairs.
         selected_faces: (F,) bool, the faces to unwrap.
         uv: (C, 2) float64, the map before; None where the mesh has no UV map.
+        pinned_corners: (C,) bool, the corners whose place in `uv` is to be kept; None for none.
+        aspect: width over height of the image that the map is for.
     """
 
     vertices: np.ndarray
@@ -25,10 +27,23 @@ class PolygonMesh:
     seam_edges: np.ndarray
     selected_faces: np.ndarray
     uv: np.ndarray | None = None
+    pinned_corners: np.ndarray | None = None
+    aspect: float = 1.0
 
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""
         return np.repeat(np.arange(len(self.selected_faces)), np.diff(self.face_offsets))
+
+    def isotropic_uv(self) -> np.ndarray | None:
+        """Return `uv` in coordinates in which a square of the image is a square and areas are those of `uv`."""
+        return None if self.uv is None else self.uv * self._isotropy()
+
+    def from_isotropic_uv(self, uv: np.ndarray) -> np.ndarray:
+        """Return the coordinates for the image, given those that `isotropic_uv` speaks of, both (C, 2)."""
+        return uv / self._isotropy()
+
+    def _isotropy(self) -> np.ndarray:
+        return np.array([self.aspect**0.5, self.aspect**-0.5])
 
     def equals(self, other: "PolygonMesh") -> bool:
         """Return whether everything is the same; NaN equals NaN."""

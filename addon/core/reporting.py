@@ -10,6 +10,12 @@ from dataclasses import dataclass
 
 from .unwrapping import Solution
 
+# Blender's own sentence where use_subsurf_data has no effect.
+NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
+# Differences of scale that Blender's own Unwrap passes over.
+_EVEN_SCALE = 1e-4
+_PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -22,6 +28,7 @@ class Summary:
         flipped: number of faces with a flipped triangle.
         failures: how many charts failed for each reason.
         remedies: how many charts were solved after each repair or change of method.
+        pinned: how many charts with two or more pins were solved by each method.
         refused: why meshes were refused as a whole, one "name: reason" each.
     """
 
@@ -31,6 +38,7 @@ class Summary:
     flipped: int
     failures: Counter[str]
     remedies: Counter[str]
+    pinned: Counter[str]
     refused: tuple[str, ...]
 
     @property
@@ -51,6 +59,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         flipped=sum(chart.flipped for chart in solved),
         failures=Counter(chart.message for chart in charts if chart.status != "solved"),
         remedies=Counter(chart.message for chart in solved if chart.message),
+        pinned=Counter(chart.method for chart in solved if getattr(chart, "n_pins", 0) > 1),
         refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
     )
 
@@ -81,6 +90,36 @@ def remedies(summary: Summary) -> str:
     if not summary.remedies:
         return ""
     return f"{_count(sum(summary.remedies.values()), 'island')} needed a remedy: {_grouped(summary.remedies)}"
+
+
+def pinned(summary: Summary) -> str:
+    """Return how charts with two or more pins were solved; empty if there were none."""
+    ways = Counter({_PINNED_METHODS.get(method, method): count for method, count in summary.pinned.items()})
+    return f"{_count(sum(summary.pinned.values()), 'island')} with pins: solved by {_grouped(ways)}" if ways else ""
+
+
+def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequence[bool]) -> str:
+    """Return Blender's own sentence about the first object whose scale along its axes is uneven or negative."""
+    for (x, y, z), is_negative in zip(scales, negative):
+        if abs(x - y) >= _EVEN_SCALE or abs(y - z) >= _EVEN_SCALE:
+            return "Object has non-uniform scale, unwrap will operate on a non-scaled version of the mesh"
+        if is_negative:
+            return "Object has negative scale, unwrap will operate on a non-flipped version of the mesh"
+    return ""
+
+
+def count_failed(solutions: Sequence[Solution]) -> tuple[int, int]:
+    """Return the numbers of failed charts and of their faces; a mesh refused as a whole counts as one chart."""
+    charts = sum(chart.status != "solved" for solution in solutions for chart in solution.charts)
+    faces = sum(int(solution.failed_faces.sum()) for solution in solutions)
+    return charts + sum(bool(solution.error) for solution in solutions), faces
+
+
+def selected_failed(islands: int, faces: int) -> str:
+    """Return what Select Failed Islands says."""
+    if faces == 0:
+        return "No islands failed, selection unchanged"
+    return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
 
 
 def without_bounds(count: int) -> str:

@@ -20,6 +20,8 @@ class Options:
     method: str = "spectral"
     weights: str = "uniform"
     boundary: str = "length"
+    fill_holes: bool = False
+    soft_pins: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -30,18 +32,26 @@ class Solution:
         uv: (C, 2) float64, meaningful where `chart_of_corner` is not -1.
         chart_of_corner: (C,) intp, index into `charts` of the solved chart; -1 where the map must not change.
         charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them.
+        failed_faces: (F,) bool, the faces of failed charts.
         error: why the whole mesh was refused; empty if it was not.
     """
 
     uv: np.ndarray
     chart_of_corner: np.ndarray
     charts: Sequence[Any]
+    failed_faces: np.ndarray
     error: str = ""
 
     @property
     def solved_corners(self) -> np.ndarray:
         """(C,) bool, the corners that get new coordinates."""
         return self.chart_of_corner >= 0
+
+    @property
+    def pinned_corners(self) -> np.ndarray:
+        """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
+        pinned = np.array([getattr(chart, "n_pins", 0) > 0 for chart in self.charts] + [False])
+        return pinned[self.chart_of_corner]
 
 
 def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None) -> Solution:
@@ -65,13 +75,30 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
             method=options.method,
             weights=options.weights,
             boundary=options.boundary,
+            **_pins(mesh, options),
+            **({"fill_holes": True} if options.fill_holes else {}),
             progress=progress,
         )
     except ValueError as error:
         corners = len(mesh.corner_vertices)
-        return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), str(error))
+        return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), mesh.selected_faces, str(error))
     chart_of_corner = result.chart_of_face[mesh.face_of_corner()]
-    return Solution(result.uv, np.where(result.solved_corners, chart_of_corner, -1), result.charts)
+    failed = np.array([chart.status != "solved" for chart in result.charts] + [False])
+    return Solution(
+        result.uv, np.where(result.solved_corners, chart_of_corner, -1), result.charts, failed[result.chart_of_face]
+    )
+
+
+def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
+    if mesh.uv is None or mesh.pinned_corners is None:
+        return {}
+    finite = np.isfinite(mesh.uv).all(axis=1)
+    pinned = mesh.pinned_corners & finite & mesh.selected_faces[mesh.face_of_corner()]
+    if not pinned.any():
+        return {}
+    corner_uv = np.where(finite[:, None], mesh.isotropic_uv(), 0.0)
+    return {"corner_uv": corner_uv, "pinned_corners": pinned, "soft_pins": options.soft_pins}
 
 
 def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
@@ -87,6 +114,15 @@ def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progres
 def _part(progress: Progress, start: float, length: float) -> Progress:
     """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
     return lambda fraction, phase: progress(start + length * fraction, phase)
+
+
+def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
+    """Return the solution's map, (C, 2) float64, with charts that have one pin scaled about it to their former area."""
+    single = np.array([getattr(chart, "n_pins", 0) == 1 for chart in solution.charts] + [False])
+    chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
+    if mesh.uv is None or mesh.pinned_corners is None or (chart < 0).all():
+        return np.array(solution.uv, dtype=np.float64)
+    return placement.to_former_area(solution.uv, mesh.isotropic_uv(), chart, mesh.pinned_corners, mesh.face_offsets)
 
 
 @dataclass(frozen=True)
@@ -105,26 +141,29 @@ class Placement:
 def place(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], keep_in_place: bool) -> Placement:
     """Place the solved charts of all meshes in one UV plane.
 
-    With `keep_in_place` every chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
+    Charts with pins stay where the solver put them; one with a single pin is scaled about it to its former area. With
+    `keep_in_place` every other chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
     charts without a former extent, the charts stand side by side in the unit square, to a common scale.
     """
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     chart_counts = [len(solution.charts) for solution in solutions]
     first_chart = np.concatenate([[0], np.cumsum(chart_counts)])
-    uv = np.concatenate([solution.uv for solution in solutions]).astype(np.float64)
+    uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
     chart = np.concatenate(
         [
             np.where(solution.solved_corners, solution.chart_of_corner + first, -1)
             for solution, first in zip(solutions, first_chart)
         ]
     )
+    former = np.concatenate(
+        [np.zeros((count, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, count in zip(meshes, corner_counts)]
+    )
+    chart = np.where(np.concatenate([solution.pinned_corners for solution in solutions]), -1, chart)
     without_bounds = 0
     if keep_in_place:
-        former = np.concatenate(
-            [np.zeros((count, 2)) if mesh.uv is None else mesh.uv for mesh, count in zip(meshes, corner_counts)]
-        )
         uv, kept = placement.into_former_bounds(uv, former, chart)
         without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
         chart = np.where(kept, -1, chart)
     uv = placement.side_by_side(uv, chart)
-    return Placement(np.split(uv, np.cumsum(corner_counts)[:-1]), without_bounds)
+    placed = np.split(uv, np.cumsum(corner_counts)[:-1])
+    return Placement([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, placed)], without_bounds)

@@ -3,9 +3,13 @@
 
 import bpy
 
+from .select_failed import UV_OT_spectral_select_failed
 from .unwrap import UV_OT_spectral_unwrap
 
-_CLASSES = (UV_OT_spectral_unwrap,)
+_CLASSES = (
+    UV_OT_spectral_unwrap,
+    UV_OT_spectral_select_failed,
+)
 
 
 def register() -> None:

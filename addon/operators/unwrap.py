@@ -5,12 +5,12 @@ import time
 from typing import ClassVar
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import edit_mode_unwrap, names, progress
 from ..core import reporting, unwrapping
 from ..core.native import NativeModuleError
-from ..packing import PackingError
+from ..packing import Margin, PackingError
 from ..solving import UnwrapInThread
 
 # A solve shorter than this ends within the click that started it.
@@ -31,6 +31,32 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         name="Boundary", description="How much each boundary vertex counts", items=names.BOUNDARY_ITEMS
     )
     placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=names.PLACEMENT_ITEMS)
+    fill_holes: BoolProperty(
+        name="Fill Holes",
+        description="Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
+    )
+    use_subsurf_data: BoolProperty(
+        name="Use Subdivision Surface",
+        description="Map UVs taking vertex position after Subdivision Surface modifier has been applied",
+    )
+    soft_pins: BoolProperty(
+        name="Soft Pins",
+        description="Let pinned UVs attract the islands of the spectral method instead of holding them",
+    )
+    soft_pin_strength: FloatProperty(
+        name="Strength",
+        description="How strongly soft pins attract",
+        default=1.0,
+        min=1e-6,
+        soft_min=0.01,
+        soft_max=100.0,
+    )
+    correct_aspect: BoolProperty(
+        name="Correct Aspect", description="Map UVs taking image aspect ratio into account", default=True
+    )
+    margin_method: EnumProperty(
+        name="Margin Method", description="What the margin is measured by", items=names.MARGIN_METHOD_ITEMS
+    )
     margin: FloatProperty(
         name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
     )
@@ -56,11 +82,21 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         row = layout.row()
         row.active = self.method == "SPECTRAL"
         row.prop(self, "boundary")
+        layout.prop(self, "fill_holes")
         layout.separator()
-        layout.prop(self, "placement")
+        layout.prop(self, "use_subsurf_data")
+        layout.separator()
+        layout.prop(self, "soft_pins")
         row = layout.row()
-        row.active = self.placement == names.PACK
-        row.prop(self, "margin")
+        row.active = self.soft_pins
+        row.prop(self, "soft_pin_strength")
+        layout.separator()
+        layout.prop(self, "correct_aspect")
+        layout.prop(self, "placement")
+        column = layout.column()
+        column.active = self.placement == names.PACK
+        column.prop(self, "margin_method")
+        column.prop(self, "margin")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Unwrap with the operator's settings and report the result; Blender waits."""
@@ -77,7 +113,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         """Unwrap as `execute` does, but solve in a thread, so that Blender's windows live and Esc cancels."""
         if bpy.app.background:
             return self.execute(context)
-        edit_meshes = edit_mode_unwrap.read(context)
+        edit_meshes = edit_mode_unwrap.read(context, self._settings())
         if not edit_meshes:
             return self._report(None, 0.0)
         running = UnwrapInThread(self._settings(), edit_meshes)
@@ -123,9 +159,17 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
 
     def _settings(self) -> edit_mode_unwrap.Settings:
         return edit_mode_unwrap.Settings(
-            unwrapping.Options(self.method.lower(), self.weights.lower(), self.boundary.lower()),
+            unwrapping.Options(
+                self.method.lower(),
+                self.weights.lower(),
+                self.boundary.lower(),
+                fill_holes=self.fill_holes,
+                soft_pins=self.soft_pin_strength if self.soft_pins else 0.0,
+            ),
             keep_in_place=self.placement == names.KEEP,
-            margin=self.margin,
+            margin=Margin(self.margin, self.margin_method),
+            correct_aspect=self.correct_aspect,
+            use_subsurf=self.use_subsurf_data,
         )
 
     def _report(self, outcome: edit_mode_unwrap.Outcome | None, seconds: float) -> set[str]:
@@ -136,7 +180,9 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         summary = outcome.summary
         # Blender shows the last report in the status bar, all of them in the Info editor.
         reports = (
+            *(("INFO", note) for note in outcome.notes),
             ("INFO", reporting.remedies(summary)),
+            ("INFO", reporting.pinned(summary)),
             ("INFO", reporting.information(summary, seconds) if summary.solved else ""),
             ("WARNING", reporting.without_bounds(outcome.without_bounds)),
             ("WARNING", reporting.failures(summary)),

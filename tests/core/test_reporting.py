@@ -19,7 +19,7 @@ def failed(message):
 
 
 def summary(*charts, error=""):
-    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), charts, error)
+    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), charts, np.zeros(0, dtype=bool), error)
     return reporting.summarize([solution], ["Object"])
 
 

@@ -8,7 +8,7 @@ import addon_utils
 import pytest
 
 ADDON = "spectral_unwrap"
-MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap")
+MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select")
 
 
 def _entries():
@@ -25,7 +25,10 @@ def test_operator_properties_are_described_as_blender_does():
     assert operator.name == "Spectral Unwrap"
     assert not operator.description.endswith(".")
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
-    assert set(properties) == {"method", "weights", "boundary", "placement", "margin"}
+    assert set(properties) == {
+        *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
+        *("correct_aspect", "placement", "margin_method", "margin"),
+    }
     described = [
         *properties.values(),
         *(item for prop in properties.values() for item in getattr(prop, "enum_items", ())),
@@ -39,7 +42,35 @@ def test_defaults():
     operator = bpy.ops.uv.spectral_unwrap.get_rna_type()
     defaults = {prop.identifier: prop.default for prop in operator.properties if prop.identifier != "rna_type"}
     assert defaults.pop("margin") == pytest.approx(0.001)
-    assert defaults == {"method": "SPECTRAL", "weights": "UNIFORM", "boundary": "LENGTH", "placement": "PACK"}
+    assert defaults == {
+        "method": "SPECTRAL",
+        "weights": "UNIFORM",
+        "boundary": "LENGTH",
+        "fill_holes": False,
+        "use_subsurf_data": False,
+        "soft_pins": False,
+        "soft_pin_strength": 1.0,
+        "correct_aspect": True,
+        "placement": "PACK",
+        "margin_method": "SCALED",
+    }
+
+
+def test_shared_properties_are_named_as_in_blenders_own_operator():
+    ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
+    for name in ("fill_holes", "correct_aspect", "use_subsurf_data", "margin_method", "margin"):
+        ours_, theirs_ = ours.properties[name], theirs.properties[name]
+        assert ours_.name == theirs_.name
+        if theirs_.type == "ENUM":
+            items = [[(item.identifier, item.name) for item in prop.enum_items] for prop in (ours_, theirs_)]
+            assert items[0] == items[1]
+
+
+def test_select_failed_is_described():
+    operator = bpy.ops.uv.spectral_select_failed.get_rna_type()
+    assert operator.name == "Select Failed Islands"
+    assert operator.description
+    assert not operator.description.endswith(".")
 
 
 def test_menus_and_operator_come_and_go_with_the_add_on():

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The image that the active face shows, of which Blender's Correct Aspect takes the aspect."""
+
+from collections.abc import Sequence
+
+import bpy
+from bmesh.types import BMesh, BMFace
+
+_IMAGE_NODES = frozenset({"TEX_IMAGE", "TEX_ENVIRONMENT"})
+
+
+def aspect(edit_object: bpy.types.Object, bm: BMesh) -> float:
+    """Return width over height of the image of the active face's material; 1 without an image."""
+    face = _active_face(bm)
+    slots = edit_object.material_slots
+    if face is None or face.material_index >= len(slots) or slots[face.material_index].material is None:
+        return 1.0
+    tree = slots[face.material_index].material.node_tree
+    image = _active_image(tree) if tree else None
+    if image is None or min(image.size) < 1:
+        return 1.0
+    width, height = (size * stretch for size, stretch in zip(image.size, image.display_aspect))
+    return width / height
+
+
+def _active_face(bm: BMesh) -> BMFace | None:
+    """Return the active face, else the one selected last, else any selected one, as Blender does."""
+    if bm.faces.active is not None:
+        return bm.faces.active
+    history: Sequence[object] = [element for element in bm.select_history if isinstance(element, BMFace)]
+    return history[-1] if history else next((face for face in bm.faces if face.select), None)
+
+
+def _active_image(tree: bpy.types.NodeTree) -> bpy.types.Image | None:
+    """Return the image of the active texture node, else of the one shown in texture display, else of any."""
+    nodes = [node for node in tree.nodes if node.type in _IMAGE_NODES]
+    active = [node for node in nodes if node == tree.nodes.active]
+    shown = [node for node in nodes if getattr(node, "show_texture", False)]
+    return next((node.image for node in (*active, *shown, *reversed(nodes))), None)
