@@ -8,10 +8,16 @@ import bpy
 from . import names
 
 
+def _draw_unwrap(layout: bpy.types.UILayout) -> None:
+    # Blender's menu leaves its layout set to execute operators, which would freeze the window during a long solve.
+    layout.operator_context = "INVOKE_REGION_WIN"
+    layout.operator(names.UNWRAP_OPERATOR)
+
+
 def _draw_in_viewport(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.separator()
     self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
-    self.layout.operator(names.UNWRAP_OPERATOR)
+    _draw_unwrap(self.layout)
     self.layout.operator(names.SELECT_FAILED_OPERATOR)
 
 
@@ -20,7 +26,7 @@ def _draw_in_uv_editor(self: bpy.types.Menu, context: bpy.types.Context) -> None
     if context.area.type == "IMAGE_EDITOR":
         self.layout.separator()
         self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
-        self.layout.operator(names.UNWRAP_OPERATOR)
+        _draw_unwrap(self.layout)
 
 
 def _draw_in_select_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
