@@ -20,7 +20,7 @@ native = importlib.import_module("spectral_unwrap.core.native")
 def started():
     """Start to unwrap in a thread what is in edit mode."""
     settings = edit_mode_unwrap.Settings(unwrapping.Options())
-    return solving.UnwrapInThread(settings, edit_mode_unwrap.read(bpy.context))
+    return solving.UnwrapInThread(settings, edit_mode_unwrap.read(bpy.context, settings))
 
 
 def printed(capfd):
