@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import menus, operators
+from . import live_unwrap, menus, operators
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
 # blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).
@@ -17,12 +17,14 @@ bl_info = {
 
 
 def register() -> None:
-    """Add the operators and menu entries to Blender."""
+    """Add the operators, live unwrapping and menu entries to Blender."""
     operators.register()
+    live_unwrap.register()
     menus.register()
 
 
 def unregister() -> None:
     """Remove everything that `register` added."""
     menus.unregister()
+    live_unwrap.unregister()
     operators.unregister()

@@ -129,6 +129,10 @@ class PinnedChart:
 
     def _solved(self, now: np.ndarray) -> np.ndarray | None:
         pins = self.corners[self.pinned]
+        places = now[pins] * self._isotropy
+        corners = len(self._mesh.corner_vertices)
+        corner_uv, pinned = np.zeros((corners, 2)), np.zeros(corners, dtype=bool)
+        corner_uv[pins], pinned[pins] = places, True
         try:
             result = native.spectral_conformal().unwrap(
                 self._mesh.vertices,
@@ -136,17 +140,15 @@ class PinnedChart:
                 self._mesh.corner_vertices,
                 seam_edges=self._mesh.seam_edges,
                 selected_faces=self._faces,
-                method="lscm",
-                pins=dict(
-                    zip(self._mesh.corner_vertices[pins].tolist(), map(tuple, (now[pins] * self._isotropy).tolist()))
-                ),
+                corner_uv=corner_uv,
+                pinned_corners=pinned,
             )
         except ValueError:
             return None
         if not result.solved_corners[self.corners].all() or len(result.charts) != 1:
             return None
         uv = result.uv[self.corners].astype(np.float64)
-        self._places = [*self._places, _complex(now[pins] * self._isotropy)][-_MOST_SAMPLES:]
+        self._places = [*self._places, _complex(places)][-_MOST_SAMPLES:]
         self._maps = [*self._maps, _complex(uv)][-_MOST_SAMPLES:]
         return uv / self._isotropy
 

@@ -173,9 +173,6 @@ def test_closed_island_is_left_alone_in_silence(capfd):
     move(cube, 5, (0.5, 0.0))
     others = np.array([loop.vert.index != 5 for face in scenes.edit_mesh(cube).faces for loop in face.loops])
     np.testing.assert_array_equal(scenes.read_uv(cube)[others], before[others])
-    mark_seams(cube, [(0, 1)])
-    module("live_unwrap").look()
-    np.testing.assert_array_equal(scenes.read_uv(cube)[others], before[others])
     assert "could not" not in capfd.readouterr().out
 
 
@@ -184,25 +181,23 @@ def cylinder_seam(segments=24, rows=6):
 
 
 @pytest.mark.parametrize("placement", ["PACK", "KEEP"])
-def test_map_follows_a_marked_seam_with_the_last_settings(placement):
+def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement):
     cylinder = scenes.cylinder(closed_seam=False)
     other = scenes.grid(3, 3, offset=(9.0, 0.0, 0.0), name="Other")
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
     settings = module("edit_mode_unwrap").Settings(keep_in_place=placement == "KEEP")
-    module("live_unwrap")._settings = lambda: settings
+    monkeypatch.setattr(module("live_unwrap"), "_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
-    state, other_uv = scenes.state(cylinder), scenes.read_uv(other)
+    other_uv = scenes.read_uv(other)
     turn_on()
     mark_seams(cylinder, cylinder_seam())
+    state = scenes.state(cylinder)
     module("live_unwrap").look()
     stretches = scenes.stretches(cylinder)
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
     assert np.array_equal(scenes.read_uv(other), other_uv) == (placement == "KEEP")
-    after = scenes.state(cylinder)
-    assert [name for name in after if after[name] != state[name]] == ["seams"] or "seam" in str(
-        [name for name in after if after[name] != state[name]]
-    )
+    assert scenes.state(cylinder) == state
     # Seen once, a change is not followed again.
     followed = scenes.read_uv(cylinder)
     scenes.write_uv(cylinder, followed * 0.5)

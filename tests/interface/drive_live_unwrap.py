@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: drags a pin and marks a seam by mouse and keyboard, Live Spectral Unwrap on.
+
+blender --factory-startup --python drive_live_unwrap.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import addon_utils  # noqa: E402 - found only now
+import bmesh  # noqa: E402
+import bpy  # noqa: E402
+import numpy as np  # noqa: E402
+from session import area_of, override, point_at, run, screenshot, uv, xdotool  # noqa: E402
+
+COLUMNS, ROWS = 24, 12
+
+
+def open_cylinder():
+    """Put half a bent cylinder, pinned at two corners, into edit mode in the UV Editing workspace."""
+    bpy.context.preferences.view.show_splash = False
+    xdotool("search", "--onlyvisible", "--class", "blender", "windowfocus")
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces["UV Editing"]
+    yield
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=COLUMNS, y_subdivisions=ROWS)
+        bpy.ops.object.mode_set(mode="EDIT")
+        mesh = bpy.context.edit_object.data
+        bm = bmesh.from_edit_mesh(mesh)
+        for vertex in bm.verts:
+            vertex.co.z = 0.3 * np.sin(3.0 * vertex.co.x) * np.cos(2.0 * vertex.co.y)
+        layer = bm.loops.layers.uv.active
+        for loop in corners(bm):
+            place = loop[layer].uv
+            place *= 0.5
+            place.x += 0.25
+            place.y += 0.25
+        for loop in corners(bm):
+            x, y = loop.vert.co.xy
+            loop[layer].select = loop[layer].select_edge = False
+            if abs(y) > 0.999 and abs(x) > 0.999:
+                loop[layer].pin_uv = True
+                loop[layer].select = x > 0.0 and y > 0.0
+        bmesh.update_edit_mesh(mesh)
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Pin corners")
+    with override("IMAGE_EDITOR"):
+        bpy.ops.image.view_all(fit_view=True)
+    yield
+
+
+def corners(bm):
+    return [loop for face in bm.faces for loop in face.loops]
+
+
+def pins_and_others():
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    layer = bm.loops.layers.uv.active
+    pinned = np.array([loop[layer].pin_uv for loop in corners(bm)])
+    return uv()[pinned], uv()[~pinned]
+
+
+def drag(*ways):
+    """Start to drag the selected pin, and move the mouse in several steps; return the map after each."""
+    point_at("IMAGE_EDITOR", 0.6, 0.6)
+    yield
+    xdotool("key", "g")
+    yield
+    maps = []
+    for x, y in ways:
+        point_at("IMAGE_EDITOR", x, y)
+        yield
+        maps.append(pins_and_others())
+    return maps
+
+
+def steps():
+    yield from open_cylinder()
+    bpy.context.scene.spectral_unwrap_live = True
+    yield
+    before = uv()
+
+    # Everything follows while the mouse moves.
+    (pins, first), (_, second), (moved, third) = yield from drag((0.65, 0.65), (0.7, 0.6), (0.75, 0.75))
+    screenshot("live_pin_dragged")
+    assert np.abs(moved - pins).max() > 0.03, "the pin does not move"
+    assert np.abs(first - second).max() > 0.005
+    assert np.abs(second - third).max() > 0.005
+    assert np.mean(np.abs(second - third).max(axis=1) > 1e-4) > 0.9, "the map does not follow"
+
+    # Esc puts everything back.
+    xdotool("key", "Escape")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), before)
+
+    # Confirmed, undone and redone.
+    yield from drag((0.65, 0.65), (0.72, 0.7))
+    xdotool("click", 1)
+    yield
+    yield
+    after = uv()
+    assert not np.allclose(after, before, atol=0.01)
+    screenshot("live_pin_moved")
+    xdotool("key", "ctrl+z")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    xdotool("key", "ctrl+shift+z")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), after)
+
+    # A confirmed drag is the start of the next.
+    yield from drag((0.65, 0.5), (0.7, 0.45))
+    assert not np.allclose(uv(), after, atol=0.01)
+    xdotool("key", "Escape")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), after)
+
+    # A seam across separates two islands, which are unwrapped and packed.
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    layer = bm.loops.layers.uv.active
+    for loop in corners(bm):
+        loop[layer].pin_uv = False
+    bmesh.update_edit_mesh(bpy.context.edit_object.data)
+    with override("VIEW_3D"):
+        bpy.ops.mesh.select_mode(type="EDGE")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+        middle = sorted(bm.verts, key=lambda vertex: abs(vertex.co.x))[0].co.x
+        for edge in bm.edges:
+            edge.select = all(abs(vertex.co.x - middle) < 1e-4 for vertex in edge.verts)
+        bmesh.update_edit_mesh(bpy.context.edit_object.data)
+        bpy.ops.ed.undo_push(message="Select")
+    yield
+    before = uv()
+    point_at("VIEW_3D")
+    xdotool("key", "ctrl+e")
+    yield
+    # The Edge menu's entry with this letter.
+    xdotool("key", "m")
+    yield
+    screenshot("live_edge_menu")
+    yield
+    marked = [edge for edge in bmesh.from_edit_mesh(bpy.context.edit_object.data).edges if edge.seam]
+    assert marked, "no seam is marked"
+    with override("IMAGE_EDITOR"):
+        bpy.ops.image.view_all(fit_view=True)
+    yield
+    screenshot("live_seam_marked")
+    followed = uv()
+    assert not np.allclose(followed, before, atol=0.01)
+    for _ in range(2):
+        xdotool("key", "ctrl+z")
+        yield
+        yield
+    np.testing.assert_array_equal(uv(), before)
+    assert not any(edge.seam for edge in bmesh.from_edit_mesh(bpy.context.edit_object.data).edges)
+    for _ in range(2):
+        xdotool("key", "ctrl+shift+z")
+        yield
+        yield
+    np.testing.assert_array_equal(uv(), followed)
+    # Where everything rests, nothing is left to do.
+    look = sys.modules["spectral_unwrap.live_unwrap"]
+    last = look._state.last_look
+    for _ in range(3):
+        yield
+    assert look._state.last_look == last, "the add-on looks for changes where there are none"
+    assert area_of("IMAGE_EDITOR")
+
+
+addon_utils.enable("spectral_unwrap", default_set=True)
+run(steps())

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mouse, keyboard, screenshots and the verdict, for scripts that drive Blender from inside, with a window.
+
+The steps are a generator; Blender's event loop runs at each `yield`. The verdict is "passed" or a traceback.
+"""
+
+import subprocess
+import sys
+import traceback
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+SCREENSHOTS, VERDICT = (Path(path) for path in sys.argv[sys.argv.index("--") + 1 :])
+PAUSE = 0.7  # seconds between steps; software rendering takes up to half of it
+
+
+def xdotool(*words):
+    subprocess.run(["xdotool", *map(str, words)], check=True)
+
+
+def screenshot(name):
+    subprocess.run(["import", "-window", "root", str(SCREENSHOTS / f"{name}.png")], check=True)
+
+
+def area_of(kind):
+    return next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == kind)
+
+
+def override(kind):
+    area = area_of(kind)
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    return bpy.context.temp_override(window=bpy.context.window_manager.windows[0], area=area, region=region)
+
+
+def point_at(kind, x=0.5, y=0.5):
+    """Move the mouse to a place in an editor, `x` to the right and `y` upwards, each from 0 to 1."""
+    area, window = area_of(kind), bpy.context.window_manager.windows[0]
+    xdotool("mousemove", int(area.x + x * area.width), int(window.height - area.y - y * area.height))
+
+
+def uv():
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    layer = bm.loops.layers.uv.active
+    return np.array([loop[layer].uv for face in bm.faces for loop in face.loops])
+
+
+def run(sequence):
+    """Carry out the steps, one after the other, and quit."""
+
+    def advance():
+        try:
+            next(sequence)
+            return PAUSE
+        except StopIteration:
+            VERDICT.write_text("passed")
+        except BaseException:  # noqa: BLE001 - whatever happened goes to the test that waits for the verdict
+            screenshot("failed")
+            VERDICT.write_text(traceback.format_exc())
+        bpy.ops.wm.quit_blender()
+        return None
+
+    bpy.app.timers.register(advance, first_interval=3.0)
