@@ -59,7 +59,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         flipped=sum(chart.flipped for chart in solved),
         failures=Counter(chart.message for chart in charts if chart.status != "solved"),
         remedies=Counter(chart.message for chart in solved if chart.message),
-        pinned=Counter(chart.method for chart in solved if getattr(chart, "n_pins", 0) > 1),
+        pinned=Counter(chart.method for chart in solved if chart.n_pins > 1),
         refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
     )
 

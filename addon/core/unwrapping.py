@@ -50,7 +50,7 @@ class Solution:
     @property
     def pinned_corners(self) -> np.ndarray:
         """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
-        pinned = np.array([getattr(chart, "n_pins", 0) > 0 for chart in self.charts] + [False])
+        pinned = np.array([chart.n_pins > 0 for chart in self.charts] + [False])
         return pinned[self.chart_of_corner]
 
 
@@ -76,7 +76,7 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
             weights=options.weights,
             boundary=options.boundary,
             **_pins(mesh, options),
-            **({"fill_holes": True} if options.fill_holes else {}),
+            fill_holes=options.fill_holes,
             progress=progress,
         )
     except ValueError as error:
@@ -93,12 +93,10 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
     if mesh.uv is None or mesh.pinned_corners is None:
         return {}
-    finite = np.isfinite(mesh.uv).all(axis=1)
-    pinned = mesh.pinned_corners & finite & mesh.selected_faces[mesh.face_of_corner()]
+    pinned = mesh.pinned_corners & np.isfinite(mesh.uv).all(axis=1) & mesh.selected_faces[mesh.face_of_corner()]
     if not pinned.any():
         return {}
-    corner_uv = np.where(finite[:, None], mesh.isotropic_uv(), 0.0)
-    return {"corner_uv": corner_uv, "pinned_corners": pinned, "soft_pins": options.soft_pins}
+    return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": pinned, "soft_pins": options.soft_pins}
 
 
 def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
@@ -118,7 +116,7 @@ def _part(progress: Progress, start: float, length: float) -> Progress:
 
 def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
     """Return the solution's map, (C, 2) float64, with charts that have one pin scaled about it to their former area."""
-    single = np.array([getattr(chart, "n_pins", 0) == 1 for chart in solution.charts] + [False])
+    single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
     chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
     if mesh.uv is None or mesh.pinned_corners is None or (chart < 0).all():
         return np.array(solution.uv, dtype=np.float64)

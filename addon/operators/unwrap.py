@@ -49,6 +49,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         default=1.0,
         min=1e-6,
         soft_min=0.01,
+        max=1e4,
         soft_max=100.0,
     )
     correct_aspect: BoolProperty(
@@ -86,8 +87,10 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         layout.separator()
         layout.prop(self, "use_subsurf_data")
         layout.separator()
-        layout.prop(self, "soft_pins")
-        row = layout.row()
+        column = layout.column()
+        column.active = self.method == "SPECTRAL"
+        column.prop(self, "soft_pins")
+        row = column.row()
         row.active = self.soft_pins
         row.prop(self, "soft_pin_strength")
         layout.separator()
@@ -164,7 +167,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
                 self.weights.lower(),
                 self.boundary.lower(),
                 fill_holes=self.fill_holes,
-                soft_pins=self.soft_pin_strength if self.soft_pins else 0.0,
+                soft_pins=self.soft_pin_strength if self.soft_pins and self.method == "SPECTRAL" else 0.0,
             ),
             keep_in_place=self.placement == names.KEEP,
             margin=Margin(self.margin, self.margin_method),

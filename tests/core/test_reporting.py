@@ -9,13 +9,24 @@ from spectral_unwrap.core import reporting
 from spectral_unwrap.core.unwrapping import Solution
 
 
-def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0):
-    return SimpleNamespace(status="solved", message="", area=area, mean_qc=mean_qc, max_qc=max_qc, flipped=flipped)
+def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, method="spectral", n_pins=0):
+    return SimpleNamespace(
+        status="solved",
+        message="",
+        area=area,
+        mean_qc=mean_qc,
+        max_qc=max_qc,
+        flipped=flipped,
+        method=method,
+        n_pins=n_pins,
+    )
 
 
 def failed(message):
     nan = float("nan")
-    return SimpleNamespace(status="failed", message=message, area=nan, mean_qc=nan, max_qc=nan, flipped=0)
+    return SimpleNamespace(
+        status="failed", message=message, area=nan, mean_qc=nan, max_qc=nan, flipped=0, method="", n_pins=0
+    )
 
 
 def summary(*charts, error=""):
@@ -59,6 +70,28 @@ def test_remedies_are_told():
     charts = [solved(), solved(), solved()]
     charts[0].message = charts[1].message = "3 faces were turned."
     assert reporting.remedies(summary(*charts)) == "2 islands needed a remedy: 3 faces were turned"
+
+
+def test_pins_tell_how_islands_were_solved():
+    assert reporting.pinned(summary(solved(), solved(n_pins=1))) == ""
+    charts = [solved(method="lscm", n_pins=2), solved(method="lscm", n_pins=5), solved()]
+    assert reporting.pinned(summary(*charts)) == "2 islands with pins: solved by pinned least squares (LSCM)"
+    soft = reporting.pinned(summary(solved(n_pins=3)))
+    assert soft == "1 island with pins: solved by the spectral method, pins attracting softly"
+
+
+def test_object_scale_is_told_as_blender_does():
+    assert reporting.object_scale([(1.0, 1.0, 1.0), (2.0, 2.0, 2.0)], [False, False]) == ""
+    assert reporting.object_scale([(1.0, 1.0, 1.0)], [True]).startswith("Object has negative scale, ")
+    uneven = reporting.object_scale([(2.0, 2.0, 2.0), (1.0, 1.1, 1.0)], [False, True])
+    assert uneven.startswith("Object has non-uniform scale, ")
+
+
+def test_selecting_failed_islands_is_counted():
+    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), [failed("closed")], np.array([True, False, True]))
+    assert reporting.count_failed([solution, solution]) == (2, 4)
+    assert reporting.selected_failed(2, 4) == "Selected 4 faces of 2 failed islands"
+    assert reporting.selected_failed(0, 0) == "No islands failed, selection unchanged"
 
 
 def test_refused_meshes_are_named():

@@ -201,6 +201,43 @@ def set_uv_flags(edited, corners):
             face.uv_select = all(loop.uv_select_vert for loop in face.loops)
 
 
+def pin(edited, corners):
+    """Pin exactly these corners, given as indices or (C,) bool, in the active UV map."""
+    flags = np.zeros(len(read_uv(edited)), dtype=bool)
+    flags[corners] = True
+    bm = edit_mesh(edited)
+    layer = bm.loops.layers.uv.active
+    for loop, flag in zip((loop for face in bm.faces for loop in face.loops), flags.tolist()):
+        loop[layer].pin_uv = flag
+    bmesh.update_edit_mesh(edited.data)
+
+
+def pins(edited):
+    """Return which corners are pinned, (C,) bool."""
+    bm = edit_mesh(edited)
+    layer = bm.loops.layers.uv.active
+    return np.array([loop[layer].pin_uv for face in bm.faces for loop in face.loops])
+
+
+def bumpy_grid(columns=6, rows=4, name="Bumpy grid", **options):
+    """A grid that is not flat, so that no two methods map it alike."""
+    new = grid(columns, rows, name=name, **options)
+    for vertex in new.data.vertices:
+        vertex.co.z = 0.8 * np.sin(vertex.co.x) * np.cos(0.7 * vertex.co.y)
+    return new
+
+
+def show_image(shown, width, height):
+    """Give an object, not in edit mode, a material with an image of this size."""
+    material = bpy.data.materials.new("Material")
+    if material.node_tree is None:
+        material.use_nodes = True
+    texture = material.node_tree.nodes.new("ShaderNodeTexImage")
+    texture.image = bpy.data.images.new("Image", width, height)
+    material.node_tree.nodes.active = texture
+    shown.data.materials.append(material)
+
+
 def state(edited):
     """Return all that an unwrap must not change: everything but the active UV map's coordinates."""
     bm = edit_mesh(edited)
@@ -224,5 +261,13 @@ def state(edited):
         | {"mesh_select_mode": tuple(tool_settings.mesh_select_mode)},
         "vertex groups": [[dict(v[layer].items()) for v in bm.verts] for layer in bm.verts.layers.deform.values()],
         "shape keys": [[tuple(v[layer]) for v in bm.verts] for layer in bm.verts.layers.shape.values()],
-        "meshes": sorted(mesh.name for mesh in bpy.data.meshes),
+        "pins": [pins(edited).tolist()] if edited.data.uv_layers else [],
+        "data blocks": {
+            kind: sorted(block.name for block in getattr(bpy.data, kind)) for kind in ("meshes", "objects", "scenes")
+        },
+        "view layer": (
+            bpy.context.view_layer.objects.active.name,
+            sorted(selected.name for selected in bpy.context.selected_objects),
+            bpy.context.mode,
+        ),
     }

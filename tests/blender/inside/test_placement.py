@@ -112,13 +112,7 @@ def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
 def test_image_that_is_not_square_does_not_skew_the_islands():
     # Blender's packer works in pixels of the active face's image.
     cylinder = scenes.cylinder()
-    material = bpy.data.materials.new("Material")
-    if material.node_tree is None:
-        material.use_nodes = True
-    texture = material.node_tree.nodes.new("ShaderNodeTexImage")
-    texture.image = bpy.data.images.new("Image", 1024, 256)
-    material.node_tree.nodes.active = texture
-    cylinder.data.materials.append(material)
+    scenes.show_image(cylinder, 1024, 256)
     scenes.edit(cylinder)
     bm = scenes.edit_mesh(cylinder)
     bm.faces.active = bm.faces[0]
