@@ -49,6 +49,7 @@ class _Drag:
 
     operator: int
     start: np.ndarray
+    chart_of_face: np.ndarray
     charts: dict[int, _Chart | None] = field(default_factory=dict)
     seconds: float = 0.0
     last_motion: float = 0.0
@@ -99,7 +100,7 @@ def is_on(scene: bpy.types.Scene) -> bool:
 def look() -> None:
     """Look for changes of pins and seams in the meshes in edit mode, and follow them. Blender calls this by a timer."""
     scene = bpy.context.scene
-    if not is_on(scene) or _state.is_busy or _state.is_undoing:
+    if not is_on(scene) or _state.is_busy or _state.is_undoing or any(w.is_late for w in _state.watches.values()):
         return
     start = time.perf_counter()
     with _guarded():
@@ -199,39 +200,39 @@ def _follow_pins(watch: _Watch, scene: bpy.types.Scene, is_resting: bool = False
     drag = watch.drag
     operator = _last_operator_address()
     if drag is None or drag.operator != watch.operator:
-        drag = watch.drag = _Drag(watch.operator, watch.polygons.uv.copy())
+        polygons = watch.polygons
+        chart_of_face = live.chart_of_face(polygons, polygons.selected_faces)
+        drag = watch.drag = _Drag(watch.operator, polygons.uv.copy(), chart_of_face)
     watch.polygons.uv[watch.pins] = places
     drag.last_motion = time.perf_counter()
+    _add_charts(watch, drag, watch.pins[moved], scene)
     if drag.seconds > _SLOW and not is_resting:
         watch.is_late = True
         _call_after(_rest, _REST)
         return
-    _add_charts(watch, drag, watch.pins[moved], scene)
     start = time.perf_counter()
     written = [_write(watch, drag, chart) for chart in drag.charts.values() if chart]
     watch.is_late = False
     if any(written):
         bmesh.update_edit_mesh(watch.edit_object.data, loop_triangles=False, destructive=False)
-        if operator != drag.operator or is_resting:
+        if operator != drag.operator:
             # The transform has ended, and the map is not in its undo step.
             _call_after(_push_undo_step, 0.0)
     drag.seconds = time.perf_counter() - start
-    watch.operator = operator if is_resting else watch.operator
 
 
 def _add_charts(watch: _Watch, drag: _Drag, moved: np.ndarray, scene: bpy.types.Scene) -> None:
     """Add the charts of the `moved` corners to the drag."""
     polygons = watch.polygons
     face = polygons.face_of_corner()
-    chart_of_face = live.chart_of_face(polygons, polygons.selected_faces)
-    fresh = set(chart_of_face[face[moved]].tolist()) - set(drag.charts) - {-1}
+    fresh = set(drag.chart_of_face[face[moved]].tolist()) - set(drag.charts) - {-1}
     if not fresh:
         return
     layer = watch.bm.loops.layers.uv.active
     selected = compatibility.selected_corners(watch.bm, layer, scene.tool_settings.use_uv_select_sync)
     watch.bm.faces.ensure_lookup_table()
     for number in fresh:
-        faces = chart_of_face == number
+        faces = drag.chart_of_face == number
         if selected[faces[face]].all():
             drag.charts[number] = None
             continue
@@ -319,12 +320,14 @@ def _rest() -> float | None:
     scene = bpy.context.scene
     with _guarded():
         for watch in _state.watches.values():
-            if not watch.is_late or not watch.fits():
+            watch.is_late &= watch.fits()
+            if not watch.is_late:
                 continue
             wait = watch.drag.last_motion + _REST - time.perf_counter()
             if wait > 0.0:
                 return wait
             _follow_pins(watch, scene, is_resting=True)
+    _call_after(look, 0.0)
     return None
 
 
@@ -383,6 +386,11 @@ def _before_undo(*_arguments: object) -> None:
 
 
 @persistent
+def _before_load(*_arguments: object) -> None:
+    _state.watches.clear()
+
+
+@persistent
 def _after_undo_or_load(*_arguments: object) -> None:
     _state.is_undoing = False
     _state.watches.clear()
@@ -400,7 +408,7 @@ _HANDLERS = (
     ("depsgraph_update_post", _on_depsgraph_update),
     ("undo_pre", _before_undo),
     ("redo_pre", _before_undo),
-    ("load_pre", _before_undo),
+    ("load_pre", _before_load),
     ("undo_post", _after_undo_or_load),
     ("redo_post", _after_undo_or_load),
     ("load_post", _after_undo_or_load),

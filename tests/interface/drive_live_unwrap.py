@@ -128,6 +128,7 @@ def steps():
     for loop in corners(bm):
         loop[layer].pin_uv = False
     bmesh.update_edit_mesh(bpy.context.edit_object.data)
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
     with override("VIEW_3D"):
         bpy.ops.mesh.select_mode(type="EDGE")
         bpy.ops.mesh.select_all(action="DESELECT")

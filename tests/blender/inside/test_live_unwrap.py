@@ -19,8 +19,17 @@ def turn_on():
     bpy.context.scene.spectral_unwrap_live = True
 
 
+def prepare_pins(edited):
+    """Turn sync selection off and make the layer of the pins, which 5.0 does not make by itself."""
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
+    layer = edited.data.uv_layers.active
+    if hasattr(layer, "pin_ensure"):
+        layer.pin_ensure()
+
+
 def edit_with_pins(edited, pins):
     """Enter edit mode, unwrap, deselect all UVs and pin all corners of the vertices `pins`."""
+    prepare_pins(edited)
     scenes.edit(edited)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     scenes.set_uv_flags(edited, np.zeros(len(scenes.read_uv(edited)), dtype=bool))
@@ -159,6 +168,7 @@ def test_island_moved_as_a_whole_is_left_alone():
 
 def test_closed_island_is_left_alone_in_silence(capfd):
     cube = scenes.cube()
+    prepare_pins(cube)
     scenes.edit(cube)
     scenes.set_uv_flags(cube, np.zeros(24, dtype=bool))
     bm = scenes.edit_mesh(cube)
@@ -235,6 +245,23 @@ def test_what_undo_changes_is_not_followed():
     others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
     move(grid, 8, (0.1, 0.0))
+    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8]), atol=2e-5)
+
+
+def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
+    grid = bumpy_grid()
+    edit_with_pins(grid, [0, 8])
+    turn_on()
+    live = module("live_unwrap")
+    monkeypatch.setattr(live, "_SLOW", -1.0)
+    before = scenes.read_uv(grid)
+    for _ in range(3):
+        move(grid, 8, (0.1, 0.1))
+    live.look()
+    others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
+    monkeypatch.setattr(live, "_REST", 0.0)
+    assert live._rest() is None
     np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8]), atol=2e-5)
 
 
