@@ -38,11 +38,13 @@ def subdivided(
             setattr(copy, setting, getattr(modifier, setting))
         scene.view_layers[0].update()
         evaluated = carrier.evaluated_get(scene.view_layers[0].depsgraph)
-        result = evaluated.to_mesh()
-        face_of_face = np.empty(len(result.polygons), dtype=np.int32)
-        result.attributes[names.ORIGINAL_FACE_ATTRIBUTE].data.foreach_get("value", face_of_face)
-        yield result, face_of_face
-        evaluated.to_mesh_clear()
+        try:
+            result = evaluated.to_mesh()
+            face_of_face = np.empty(len(result.polygons), dtype=np.int32)
+            result.attributes[names.ORIGINAL_FACE_ATTRIBUTE].data.foreach_get("value", face_of_face)
+            yield result, face_of_face
+        finally:
+            evaluated.to_mesh_clear()
     finally:
         bpy.data.objects.remove(carrier)
         bpy.data.scenes.remove(scene)

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hole filling, image aspect, subdivision, object scale and margins; compared with Blender's own Unwrap."""
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def extents(edited):
+    """Return width and height of the map."""
+    return np.ptp(scenes.read_uv(edited), axis=0)
+
+
+def normalized(uv):
+    """Return a map without its place, size and orientation: its pairwise distances over their root mean square."""
+    distance = np.linalg.norm(uv[:, None] - uv[None, :], axis=2)
+    return distance / np.sqrt((distance**2).mean())
+
+
+def ring():
+    """A bumpy grid of 6 x 6 faces without the middle four."""
+    new = scenes.bumpy_grid(6, 6)
+    scenes.edit(new)
+    scenes.select_faces(new, [14, 15, 20, 21])
+    bpy.ops.mesh.delete(type="FACE")
+    bpy.ops.mesh.select_all(action="SELECT")
+    return new
+
+
+def test_filled_holes_change_the_map_and_nothing_else():
+    grid = ring()
+    state = scenes.state(grid)
+    maps = []
+    for fill_holes in (False, True, True):
+        assert bpy.ops.uv.spectral_unwrap(fill_holes=fill_holes) == {"FINISHED"}
+        maps.append(normalized(scenes.read_uv(grid)))
+    assert np.abs(maps[0] - maps[1]).max() > 1e-4
+    np.testing.assert_allclose(maps[1], maps[2], atol=1e-5)
+    assert scenes.state(grid) == state
+
+
+def test_filled_holes_keep_the_symmetry():
+    # Mirrored in x about the middle: so must the map be.
+    grid = ring()
+    for vertex in scenes.edit_mesh(grid).verts:
+        vertex.co.z = 0.5 * np.cos(vertex.co.x - 3.0) * np.cos(0.7 * vertex.co.y)
+    assert bpy.ops.uv.spectral_unwrap(fill_holes=True) == {"FINISHED"}
+    positions, distance = scenes.corner_positions(grid), normalized(scenes.read_uv(grid))
+    corner = {tuple(np.round(position[:2], 3)): i for i, position in enumerate(positions)}
+    mirrored = [corner[tuple(np.round((6.0 - x, y), 3))] for x, y, _ in positions]
+    np.testing.assert_allclose(distance, distance[np.ix_(mirrored, mirrored)], atol=1e-4)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1024, 512), (256, 1024)])
+@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+def test_aspect_of_the_image_is_corrected_as_in_blender(placement, width, height):
+    cylinder = scenes.cylinder()
+    scenes.show_image(cylinder, width, height)
+    scenes.edit(cylinder)
+    before = scenes.read_uv(cylinder)
+    ratios = {}
+    for correct in (False, True):
+        scenes.write_uv(cylinder, before)
+        assert bpy.ops.uv.unwrap(method="CONFORMAL", correct_aspect=correct) == {"FINISHED"}
+        theirs = extents(cylinder)
+        scenes.write_uv(cylinder, before)
+        assert bpy.ops.uv.spectral_unwrap(correct_aspect=correct, placement=placement) == {"FINISHED"}
+        image = (width, height) if correct else (1, 1)
+        ours, theirs = sorted(extents(cylinder) * image), sorted(theirs * image)
+        ratios[correct] = ours[1] / ours[0], theirs[1] / theirs[0]
+        # The texture lies on the surface without distortion.
+        uv = scenes.read_uv(cylinder) * image
+        scenes.write_uv(cylinder, uv / max(image))
+        assert scenes.quasi_conformal(cylinder)[0].max() < 1.001
+    for ours, theirs in ratios.values():
+        assert ours == pytest.approx(theirs, rel=1e-3)
+
+
+def test_image_of_a_face_without_material_slot_does_not_count():
+    cylinder = scenes.cylinder()
+    scenes.show_image(cylinder, 1024, 256)
+    scenes.edit(cylinder)
+    for face in scenes.edit_mesh(cylinder).faces:
+        face.material_index = 3
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert scenes.quasi_conformal(cylinder)[0].max() < 1.001
+
+
+def subdivided_grid(levels=2, first=True):
+    """A coarse bumpy grid with a Subdivision Surface modifier, first or after another modifier; in edit mode."""
+    new = scenes.bumpy_grid(3, 3)
+    for vertex in new.data.vertices:
+        vertex.co.z *= 2.0
+    if not first:
+        new.modifiers.new("Triangulate", "TRIANGULATE")
+    new.modifiers.new("Subdivision", "SUBSURF").levels = levels
+    scenes.edit(new)
+    return new
+
+
+@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+def test_subdivided_surface_is_mapped_as_in_blender(reports, placement):
+    grid = subdivided_grid()
+    before, state = scenes.read_uv(grid), scenes.state(grid)
+    coarse_and_fine = []
+    for use in (False, True):
+        scenes.write_uv(grid, before)
+        assert bpy.ops.uv.spectral_unwrap(method="LSCM", use_subsurf_data=use, placement=placement) == {"FINISHED"}
+        coarse_and_fine.append(normalized(scenes.read_uv(grid)))
+    assert scenes.state(grid) == state
+    assert ("Info", "Subdivision Surface modifier needs to be first to work with unwrap") not in reports()
+    scenes.write_uv(grid, before)
+    assert bpy.ops.uv.unwrap(method="CONFORMAL", use_subsurf_data=True) == {"FINISHED"}
+    theirs = normalized(scenes.read_uv(grid))
+    assert np.abs(coarse_and_fine[1] - theirs).max() < np.abs(coarse_and_fine[0] - theirs).max() / 2.0
+
+
+def test_subdivided_surface_with_pins_hidden_faces_and_seams():
+    grid = subdivided_grid()
+    scenes.write_uv(grid, scenes.corner_positions(grid)[:, :2] * 0.1)
+    before = scenes.read_uv(grid)
+    bm = scenes.edit_mesh(grid)
+    bm.faces[8].hide_set(True)
+    seam = next(edge for edge in bm.edges if {vertex.index for vertex in edge.verts} == {1, 5})
+    seam.seam = True
+    corners = np.zeros(len(before), dtype=bool)
+    corners[[0, 14]] = True
+    scenes.pin(grid, corners)
+    assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+    after = scenes.read_uv(grid)
+    np.testing.assert_array_equal(after[corners], before[corners])
+    np.testing.assert_array_equal(after[32:], before[32:])
+    # The pins hold their whole vertices.
+    held = np.isclose(after[:32], before[:32], atol=1e-6).all(axis=1)
+    assert {tuple(position) for position in scenes.corner_positions(grid)[:32][held]} == {
+        tuple(position) for position in scenes.corner_positions(grid)[corners]
+    }
+    # The two faces at the seam have it twice.
+    assert np.abs(after[1] - after[4]).max() > 1e-4
+
+
+@pytest.mark.parametrize("make", [lambda: subdivided_grid(levels=0), lambda: subdivided_grid(first=False)])
+def test_subdivision_that_is_not_first_is_told_as_in_blender(reports, make):
+    grid = make()
+    reports()
+    assert bpy.ops.uv.unwrap(use_subsurf_data=True) == {"FINISHED"}
+    theirs = {report for report in reports() if "Subdivision" in report[1]}
+    assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+    assert {report for report in reports() if "Subdivision" in report[1]} == theirs
+    assert len(theirs) == 1
+    with_option = normalized(scenes.read_uv(grid))
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_allclose(with_option, normalized(scenes.read_uv(grid)), atol=1e-5)
+
+
+@pytest.mark.parametrize("scale", [(1, 1, 1), (2, 2, 2), (1, 1, 2), (1, 1, -1), (-1, -1, 1)])
+def test_object_scale_is_told_as_in_blender_and_has_no_effect(reports, scale):
+    grid = scenes.bumpy_grid()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    unscaled = scenes.read_uv(grid)
+    grid.scale = scale
+    bpy.context.view_layer.update()
+    reports()
+    assert bpy.ops.uv.unwrap() == {"FINISHED"}
+    theirs = [report for report in reports() if report[1].startswith("Object has")]
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert [report for report in reports() if report[1].startswith("Object has")] == theirs
+    assert len(theirs) == (scale not in {(1, 1, 1), (2, 2, 2), (-1, -1, 1)})
+    np.testing.assert_allclose(scenes.read_uv(grid), unscaled, atol=1e-5)
+
+
+def test_margin_method_reaches_the_packer():
+    sizes = []
+    for method in ("SCALED", "ADD", "FRACTION"):
+        cube = scenes.cube(all_seams=True)
+        scenes.edit(cube)
+        assert bpy.ops.uv.spectral_unwrap(margin=0.05, margin_method=method) == {"FINISHED"}
+        sizes.append(scenes.stretches(cube).mean())
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert len({round(size, 4) for size in sizes}) > 1
+
+
+def test_second_call_without_arguments_uses_the_defaults():
+    grid = ring()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    default = normalized(scenes.read_uv(grid))
+    assert bpy.ops.uv.spectral_unwrap(fill_holes=True, method="LSCM") == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_allclose(normalized(scenes.read_uv(grid)), default, atol=1e-5)
