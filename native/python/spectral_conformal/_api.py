@@ -142,9 +142,7 @@ class Solver:
 
         Arguments and errors are those of `parameterize`.
         """
-        self._n_vertices, self._native = _assemble(
-            vertices, triangles, weights, boundary, factorization, fill_holes
-        )
+        self._n_vertices, self._native = _assemble(vertices, triangles, weights, boundary, factorization, fill_holes)
         self._native.factorize(_progress(progress))
 
     def solve(
@@ -187,8 +185,8 @@ def parameterize(
             map is solved free and moved onto it; without any, the two farthest boundary vertices are held. For
             "spectral" together with `soft_pins`.
         soft_pins: for "spectral", strength of a force in B that pulls the pinned vertices towards a similar image of
-            their positions, as a fraction of the boundary's total mass; the map then comes with the similarity that fits
-            it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: no force.
+            their positions, as a fraction of the boundary's total mass; the map then comes with the similarity that
+            fits it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: no force.
         fill_holes: close every boundary loop but the longest by virtual triangles, which keep the holes' shape. They
             count in the eigenvalue and in no measure of the map.
         tolerance: relative residual at which the eigenvalue iteration stops, between 1e-14 and 1e-3.
