@@ -57,7 +57,7 @@ def main() -> None:
     for blender in blenders.all_blenders():
         with tempfile.TemporaryDirectory() as folder:
             environment = blenders.make_profile(Path(folder), blender.bundles_module)
-            separator = [] if blender.name == "bpy" else ["--"]
+            separator = [] if blender.python else ["--"]
             command = [*blender.script_command(Path(__file__)), *separator, "--one", side]
             output = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
             print(*(line for line in output.splitlines() if line.startswith("Blender 3") or "CONFORMAL" in line))
