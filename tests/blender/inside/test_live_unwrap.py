@@ -8,7 +8,6 @@ import bpy
 import numpy as np
 import pytest
 import scenes
-import spectral_unwrap  # noqa: F401 - the test below reaches for its modules
 
 
 def module(name):
