@@ -13,7 +13,7 @@ def fill(values, count):
     return np.random.default_rng(count).integers(0, 2, count).astype(values)
 
 
-def written_mesh(smooth_angle=True):
+def written_mesh():
     """A grid in object mode with attributes of every domain, custom normals, two materials and sharp edges."""
     grid = scenes.bumpy_grid(4, 4)
     mesh = grid.data
@@ -28,7 +28,7 @@ def written_mesh(smooth_angle=True):
     for name in ("First", "Second"):
         mesh.materials.append(bpy.data.materials.new(name))
     mesh.polygons.foreach_set("material_index", np.arange(len(mesh.polygons), dtype=np.int32) % 2)
-    if smooth_angle and hasattr(mesh, "use_auto_smooth"):
+    if hasattr(mesh, "use_auto_smooth"):
         mesh.use_auto_smooth = True
     for edge in mesh.edges:
         edge.use_edge_sharp = edge.index % 3 == 0
