@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: an artist cancels a long solve, then lets one finish.
+
+blender --factory-startup --python drive_long_solve.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import importlib
+import sys
+import threading
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import driving as drive  # noqa: E402 - found only now
+from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
+
+SIZE = 600  # faces along a side: 361201 vertices
+
+
+def open_landscape():
+    """Put a grid with hills into edit mode; its solve takes seconds."""
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=SIZE, y_subdivisions=SIZE)
+        mesh = bpy.context.object.data
+        points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+        mesh.vertices.foreach_get("co", points)
+        x, y, _ = points.reshape(-1, 3).T
+        points[2::3] = 0.15 * np.sin(7.0 * x) * np.cos(5.0 * y) + 0.02 * np.sin(31.0 * x + 23.0 * y)
+        mesh.vertices.foreach_set("co", points)
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.mesh.select_mode(type="FACE")
+        bpy.ops.ed.undo_push(message="Landscape")
+    yield
+
+
+def solving():
+    """Return whether a solve runs, wanted or not."""
+    return any(thread.name == "spectral_unwrap" for thread in threading.enumerate())
+
+
+def unwrap_by_mouse():
+    """Click Spectral Unwrap in the viewport's UV menu, and wait until its solve runs."""
+    drive.point_at_header("VIEW_3D", drive.UV_MENU)
+    xdotool("click", 1)
+    yield
+    yield from drive.click_below(drive.HEADER_TO_SPECTRAL_UNWRAP)
+    yield from drive.until(solving)
+    point_at("VIEW_3D")
+    yield
+
+
+def view():
+    return area_of("VIEW_3D").spaces.active.region_3d.view_distance
+
+
+def steps():
+    operator = importlib.import_module("spectral_unwrap.operators.unwrap").UV_OT_spectral_unwrap
+    history = bpy.context.window_manager.operators
+    yield from drive.open_uv_editing()
+    yield from open_landscape()
+    before, done = uv(), list(history)
+
+    yield from unwrap_by_mouse()
+    assert operator._running is not None
+    assert not bpy.ops.uv.spectral_unwrap.poll()
+    # Keys do nothing, the wheel moves the view.
+    view_before = view()
+    xdotool("key", "x", "key", "Tab", "key", "a", "click", 4)
+    yield from drive.until(lambda: view() != view_before)
+    screenshot("solving")
+    assert bpy.context.mode == "EDIT_MESH"
+    assert operator._running is not None
+    xdotool("key", "Escape")
+    yield
+    assert operator._running is None
+    screenshot("cancelled")
+    yield from drive.until(lambda: not solving())
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    assert list(history) == done
+
+    yield from unwrap_by_mouse()
+    yield from drive.until(lambda: operator._running is None)
+    yield
+    after = uv()
+    assert drive.last_operator()
+    assert len(history) == len(done) + 1
+    assert np.isfinite(after).all()
+    assert not np.array_equal(after, before)
+    yield from drive.show_uvs()
+    screenshot("solved")
+    xdotool("key", "ctrl+z")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    xdotool("key", "ctrl+shift+z")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), after)
+
+
+drive.run(steps())

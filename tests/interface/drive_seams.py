@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: an artist cuts a cylinder open and unwraps it, by mouse and keyboard.
+
+blender --factory-startup --python drive_seams.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import driving as drive  # noqa: E402 - found only now
+from session import override, point_at, screenshot, uv, xdotool  # noqa: E402
+
+
+def seams():
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    return [sorted(vertex.index for vertex in edge.verts) for edge in bm.edges if edge.seam]
+
+
+def open_cylinder():
+    """Put a cylinder without ends into edit mode, seen from the front, edges to be selected, none is."""
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_cylinder_add(vertices=16, end_fill_type="NOTHING")
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.ed.undo_push(message="Cylinder")
+    yield
+    point_at("VIEW_3D")
+    xdotool("key", "2")
+    yield
+
+
+def check_undo_and_redo(before, after):
+    """Press the keys of undo and redo, which must change the UVs exactly from `after` to `before` and back."""
+    point_at("VIEW_3D")
+    xdotool("key", "ctrl+z")
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    xdotool("key", "ctrl+shift+z")
+    yield
+    np.testing.assert_array_equal(uv(), after)
+
+
+def steps():
+    yield from drive.open_uv_editing()
+    yield from open_cylinder()
+    before = uv()
+
+    drive.point_at_vertices(8, 9)
+    xdotool("click", 1)
+    yield
+    # Higher up, so that the whole menu has room below the mouse.
+    xdotool("mousemove_relative", "--", 0, -200)
+    xdotool("key", "u")
+    yield
+    yield
+    yield from drive.click_below(drive.UNWRAP_TO_MARK_SEAM, "mark_seam")
+    assert seams() == [[8, 9]], seams()
+
+    point_at("VIEW_3D")
+    xdotool("key", "a")
+    yield
+    drive.point_at_header("VIEW_3D", drive.UV_MENU)
+    xdotool("click", 1)
+    yield
+    yield from drive.click_below(drive.HEADER_TO_SPECTRAL_UNWRAP, "uv_menu")
+    yield
+    assert drive.last_operator().properties.placement == "PACK"
+    packed = uv()
+    # Cut along its side, the cylinder becomes a rectangle: 16 chords of radius 1 by a height of 2.
+    np.testing.assert_allclose(np.ptp(packed, axis=0), [1.0, 2.0 / (32.0 * np.sin(np.pi / 16.0))], atol=0.01)
+    yield from drive.show_uvs()
+
+    yield from drive.open_adjust_last_operation()
+    screenshot("seam_unwrapped")
+    drive.point_at_setting("placement")
+    xdotool("click", 1)
+    yield
+    yield from drive.click_below(drive.PACK_TO_KEEP_IN_PLACE, "choose_placement")
+    yield
+    assert drive.last_operator().properties.placement == "KEEP"
+    kept = uv()
+    assert not np.array_equal(kept, packed)
+    screenshot("placement_chosen")
+    yield from check_undo_and_redo(before, kept)
+
+    xdotool("key", "F3")
+    yield
+    xdotool("type", "--delay", "60", "spectral")
+    yield
+    screenshot("search")
+    count = len(bpy.context.window_manager.operators)
+    xdotool("key", "Return")
+    yield
+    yield
+    assert len(bpy.context.window_manager.operators) == count + 1
+    # The settings are remembered.
+    assert drive.last_operator().properties.placement == "KEEP"
+    yield from check_undo_and_redo(kept, uv())
+
+
+drive.run(steps())

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an artist does with mouse and keyboard, for the drivers that run inside Blender."""
+
+import sys
+import time
+from pathlib import Path
+
+import addon_utils
+import bmesh
+import bpy
+from bpy_extras import view3d_utils
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import session  # noqa: E402 - found only now
+from session import area_of, override, xdotool  # noqa: E402
+
+# Places in pixels, at Blender's default size of the interface. The menu that U opens has its entry Unwrap below the
+# mouse when it is opened for the first time.
+UV_MENU = 555  # in the viewport's header
+UNWRAP_TO_MARK_SEAM = 225
+HEADER_TO_SPECTRAL_UNWRAP = 351  # in the UV menu
+PACK_TO_KEEP_IN_PLACE = -44  # in the list of placements
+
+# Rows of Adjust Last Operation, counted from 0 at the bottom.
+ROWS = {"margin": 0, "margin_method": 1, "placement": 2}
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def region_of(kind, region_kind="WINDOW"):
+    return next(region for region in area_of(kind).regions if region.type == region_kind)
+
+
+def _move_mouse(x, y):
+    """Move the mouse to a place in the window, in Blender's coordinates."""
+    xdotool("mousemove", int(x), int(window().height - y))
+
+
+def point_at_header(kind, x):
+    """Move the mouse `x` pixels from the left end of an editor's header."""
+    region = region_of(kind, "HEADER")
+    _move_mouse(region.x + x, region.y + region.height // 2)
+
+
+def point_at_vertices(*indices):
+    """Move the mouse to the middle of some vertices of the edited mesh in the viewport."""
+    area, region = area_of("VIEW_3D"), region_of("VIEW_3D")
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    bm.verts.ensure_lookup_table()
+    middle = bpy.context.edit_object.matrix_world @ (
+        sum((bm.verts[i].co for i in indices[1:]), bm.verts[indices[0]].co.copy()) / len(indices)
+    )
+    place = view3d_utils.location_3d_to_region_2d(region, area.spaces.active.region_3d, middle)
+    _move_mouse(region.x + place.x, region.y + place.y)
+
+
+def point_at_setting(name):
+    """Move the mouse to the field of a setting in Adjust Last Operation in the viewport."""
+    region = region_of("VIEW_3D", "HUD")
+    _move_mouse(region.x + int(0.7 * region.width), region.y + 20 + 22 * ROWS[name])
+
+
+def open_adjust_last_operation():
+    """Click the heading of Adjust Last Operation, which stands alone while the panel is closed."""
+    region = region_of("VIEW_3D", "HUD")
+    _move_mouse(region.x + int(0.7 * region.width), region.y + 20)
+    yield
+    xdotool("click", 1)
+    yield
+    yield
+
+
+def click_below(pixels, picture=None):
+    """Click that far below the mouse; `picture` names a screenshot of what is about to be clicked."""
+    xdotool("mousemove_relative", "--", 0, pixels)
+    yield
+    if picture:
+        session.screenshot(picture)
+    xdotool("click", 1)
+    yield
+
+
+def last_operator():
+    """Return the last operator, which must be the add-on's."""
+    operator = bpy.context.window_manager.operators[-1]
+    assert operator.bl_idname == "UV_OT_spectral_unwrap", operator.bl_idname
+    return operator
+
+
+def until(condition, seconds=40.0):
+    """Let Blender go on until `condition()` holds."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        yield
+
+
+def open_uv_editing():
+    """Show the UV Editing workspace of a file without meshes."""
+    bpy.context.preferences.view.show_splash = False
+    # Without a window manager nobody gives Blender the focus; without it, reports are not shown.
+    xdotool("search", "--onlyvisible", "--class", "blender", "windowfocus")
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    window().workspace = bpy.data.workspaces["UV Editing"]
+    yield
+
+
+def show_uvs():
+    with override("IMAGE_EDITOR"):
+        bpy.ops.image.view_all(fit_view=True)
+    yield
+
+
+def run(steps):
+    """Enable the add-on, drive Blender through the generator `steps` and quit."""
+    assert addon_utils.enable("spectral_unwrap", default_set=True)
+    session.run(steps)
