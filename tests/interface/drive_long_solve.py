@@ -77,9 +77,9 @@ def steps():
     xdotool("key", "Escape")
     yield
     assert operator._running is None
-    screenshot("cancelled")
     yield from drive.until(lambda: not solving())
     yield
+    screenshot("cancelled")
     np.testing.assert_array_equal(uv(), before)
     assert list(history) == done
 
