@@ -49,7 +49,7 @@ def test_defaults():
         "fill_holes": False,
         "use_subsurf_data": False,
         "soft_pins": False,
-        "soft_pin_strength": 1.0,
+        "soft_pin_strength": 100.0,
         "correct_aspect": True,
         "placement": "PACK",
         "margin_method": "SCALED",
