@@ -151,7 +151,7 @@ def _watch(edit_mesh: mesh_io.EditMesh) -> _Watch:
 def _settings() -> edit_mode_unwrap.Settings:
     """Return the settings with which the operator was used last."""
     properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-    return UV_OT_spectral_unwrap._settings(properties) if properties else edit_mode_unwrap.Settings()
+    return UV_OT_spectral_unwrap.settings(properties) if properties else edit_mode_unwrap.Settings()
 
 
 def _same_topology(one: PolygonMesh, other: PolygonMesh) -> bool:

@@ -105,7 +105,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         start = time.perf_counter()
         try:
             with progress.blocking(context) as report_progress:
-                outcome = edit_mode_unwrap.unwrap(context, self._settings(), report_progress)
+                outcome = edit_mode_unwrap.unwrap(context, self.settings(), report_progress)
         except (NativeModuleError, PackingError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -115,10 +115,10 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         """Unwrap as `execute` does, but solve in a thread, so that Blender's windows live and Esc cancels."""
         if bpy.app.background:
             return self.execute(context)
-        edit_meshes = edit_mode_unwrap.read(context, self._settings())
+        edit_meshes = edit_mode_unwrap.read(context, self.settings())
         if not edit_meshes:
             return self._report(None, 0.0)
-        running = UnwrapInThread(self._settings(), edit_meshes)
+        running = UnwrapInThread(self.settings(), edit_meshes)
         if running.worker.wait(_SECONDS_BEFORE_MODAL):
             return self._write(context, running)
         type(self)._running = running
@@ -159,7 +159,8 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
             return {"CANCELLED"}
         return self._report(outcome, solved.seconds)
 
-    def _settings(self) -> edit_mode_unwrap.Settings:
+    def settings(self) -> edit_mode_unwrap.Settings:
+        """Return the settings that the properties make."""
         return edit_mode_unwrap.Settings(
             unwrapping.Options(
                 self.method.lower(),

@@ -3,76 +3,26 @@
 
     blender --factory-startup --python drive_blender.py -- <folder for the screenshots> <file for the verdict>
 
-Keys and clicks are real ones, sent by xdotool to the X server. The steps are a generator; Blender's event loop runs at
-each `yield`. The verdict is "passed" or a traceback.
+Keys and clicks are real ones, sent by xdotool to the X server. See session.py.
 """
 
-import subprocess
 import sys
-import traceback
 from pathlib import Path
 
-import addon_utils
 import bmesh
 import bpy
 import numpy as np
 
-SCREENSHOTS, VERDICT = (Path(path) for path in sys.argv[sys.argv.index("--") + 1 :])
-PAUSE = 0.7  # seconds between steps; software rendering takes up to half of it
+sys.path.append(str(Path(__file__).resolve().parent))
 
-
-def xdotool(*words):
-    subprocess.run(["xdotool", *map(str, words)], check=True)
-
-
-def screenshot(name):
-    subprocess.run(["import", "-window", "root", str(SCREENSHOTS / f"{name}.png")], check=True)
-
-
-def area_of(kind):
-    return next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == kind)
-
-
-def override(kind):
-    area = area_of(kind)
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    return bpy.context.temp_override(window=bpy.context.window_manager.windows[0], area=area, region=region)
-
-
-def point_at(kind, x=0.5, y=0.5):
-    """Move the mouse to a place in an editor, `x` to the right and `y` upwards, each from 0 to 1."""
-    area, window = area_of(kind), bpy.context.window_manager.windows[0]
-    xdotool("mousemove", int(area.x + x * area.width), int(window.height - area.y - y * area.height))
-
-
-def point_at_adjust_last_operation(row):
-    """Move the mouse to the field in a row, counted from 0 at the bottom, of Adjust Last Operation in the viewport."""
-    region = next(region for region in area_of("VIEW_3D").regions if region.type == "HUD")
-    window = bpy.context.window_manager.windows[0]
-    xdotool("mousemove", region.x + int(0.7 * region.width), window.height - region.y - 20 - 22 * row)
-
-
-def uv():
-    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
-    layer = bm.loops.layers.uv.active
-    return np.array([loop[layer].uv for face in bm.faces for loop in face.loops])
-
-
-def last_operator():
-    """Return the last operator, which must be the add-on's."""
-    operator = bpy.context.window_manager.operators[-1]
-    assert operator.bl_idname == "UV_OT_spectral_unwrap", operator.bl_idname
-    return operator
+import driving  # noqa: E402 - found only now
+from driving import last_operator, point_at_setting  # noqa: E402
+from session import override, point_at, screenshot, uv, xdotool  # noqa: E402
 
 
 def open_suzanne():
     """Put Suzanne into edit mode in the UV Editing workspace, with a seam down the back of her head."""
-    bpy.context.preferences.view.show_splash = False
-    # Without a window manager nobody gives Blender the focus; without it, reports are not shown.
-    xdotool("search", "--onlyvisible", "--class", "blender", "windowfocus")
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces["UV Editing"]
-    yield
+    yield from driving.open_uv_editing()
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_monkey_add()
         bpy.ops.object.mode_set(mode="EDIT")
@@ -86,16 +36,17 @@ def open_suzanne():
     yield
 
 
-def choose_from_menu(picture=None):
-    """Open the unwrap menu with U and choose the add-on's entry by keyboard: its last.
+def choose_from_menu(picture=None, from_the_end=1):
+    """Open the unwrap menu with U and choose the add-on's entry, counted from the last one, by keyboard.
 
     `picture` names the screenshot of a menu opened for the first time. Later Blender opens it at the entry chosen last.
     """
     xdotool("key", "u")
     yield
     if picture:
-        xdotool("key", "Up")
-        yield
+        for _ in range(from_the_end):
+            xdotool("key", "Up")
+            yield
         screenshot(picture)
     xdotool("key", "Return")
     yield
@@ -107,23 +58,17 @@ def steps():
     before = uv()
 
     point_at("VIEW_3D")
-    yield from choose_from_menu("menu_in_viewport")
+    yield from choose_from_menu("menu_in_viewport", from_the_end=2)
     assert last_operator().properties.placement == "PACK"
     unwrapped = uv()
     assert np.isfinite(unwrapped).all()
     assert not np.array_equal(unwrapped, before)
-    with override("IMAGE_EDITOR"):
-        bpy.ops.image.view_all(fit_view=True)
-    yield
+    yield from driving.show_uvs()
     screenshot("unwrapped")
 
-    point_at_adjust_last_operation(0)
-    yield
-    xdotool("click", 1)
-    yield
-    yield
+    yield from driving.open_adjust_last_operation()
     screenshot("adjust_last_operation")
-    point_at_adjust_last_operation(1)
+    point_at_setting("placement")
     yield
     # Over a list, Ctrl and the wheel choose the next entry.
     xdotool("keydown", "ctrl", "click", 5, "keyup", "ctrl")
@@ -165,23 +110,4 @@ def steps():
     screenshot("nothing_selected")
 
 
-def run():
-    sequence = steps()
-
-    def advance():
-        try:
-            next(sequence)
-            return PAUSE
-        except StopIteration:
-            VERDICT.write_text("passed")
-        except BaseException:  # noqa: BLE001 - whatever happened goes to the test that waits for the verdict
-            screenshot("failed")
-            VERDICT.write_text(traceback.format_exc())
-        bpy.ops.wm.quit_blender()
-        return None
-
-    bpy.app.timers.register(advance, first_interval=3.0)
-
-
-addon_utils.enable("spectral_unwrap", default_set=True)
-run()
+driving.run(steps())

@@ -31,14 +31,16 @@ def display():
         server.wait()
 
 
-def test_unwrap_undo_and_redo_by_mouse_and_keyboard(display, tmp_path):
+# One at a time: each is the only program on its screen, and counts on a pace that two would slow down.
+@pytest.mark.parametrize("driver", sorted(path.name for path in HERE.glob("drive_*.py")))
+def test_by_mouse_and_keyboard(driver, display, tmp_path):
     SCREENSHOTS.mkdir(parents=True, exist_ok=True)
     verdict = tmp_path / "verdict.txt"
     environment = blenders.make_profile(tmp_path, bundles_module=True)
     result = subprocess.run(
         [
             *(blenders.system_blender(), "--factory-startup", "--window-geometry", "0", "0", *map(str, SIZE)),
-            *("--python", str(HERE / "drive_blender.py"), "--", str(SCREENSHOTS), str(verdict)),
+            *("--python", str(HERE / driver), "--", str(SCREENSHOTS), str(verdict)),
         ],
         env={**environment, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"},
         stdout=subprocess.PIPE,
