@@ -10,6 +10,13 @@ Complex BoundaryForm::barycentre(const ComplexVector& z) const {
   return sum / total();
 }
 
+void BoundaryForm::add_applied(const ComplexVector& z, double factor, ComplexVector& result) const {
+  const Complex mean = barycentre(z);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    result[vertices[i]] += factor * mass[static_cast<Eigen::Index>(i)] * (z[vertices[i]] - mean);
+  }
+}
+
 double BoundaryForm::value(const ComplexVector& z) const {
   const Complex centre = barycentre(z);
   double result = 0;

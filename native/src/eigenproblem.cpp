@@ -176,11 +176,7 @@ class AttractedOperator {
   Eigen::Index cols() const { return rows(); }
   void apply(const ComplexVector& z, ComplexVector& result) const {
     result.setZero(z.size());
-    const Complex barycentre = form_.barycentre(z);
-    for (std::size_t i = 0; i < form_.vertices.size(); ++i) {
-      const int v = form_.vertices[i];
-      result[v] = form_.mass[static_cast<Eigen::Index>(i)] * (z[v] - barycentre);
-    }
+    form_.add_applied(z, 1, result);
     attraction_.subtract(z, result);
   }
   double value(const ComplexVector& z) const { return form_.value(z) - attraction_.value(z); }

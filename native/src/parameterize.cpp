@@ -75,10 +75,7 @@ double largest_diagonal(const HermitianMatrix& matrix) {
 double eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, const ComplexVector& z,
                       ComplexVector& r) {
   const double lambda = energy.apply(z, r) / form.value(z);
-  const Complex barycentre = form.barycentre(z);
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-    r[form.vertices[i]] -= lambda * form.mass[i] * (z[form.vertices[i]] - barycentre);
-  }
+  form.add_applied(z, -lambda, r);
   return lambda;
 }
 

@@ -81,12 +81,7 @@ def steps():
     point_at("VIEW_3D")
     yield
 
-    xdotool("key", "ctrl+z")
-    yield
-    np.testing.assert_array_equal(uv(), before)
-    xdotool("key", "ctrl+shift+z")
-    yield
-    np.testing.assert_array_equal(uv(), unwrapped)
+    yield from driving.check_undo_and_redo(before, unwrapped)
 
     point_at("IMAGE_EDITOR")
     xdotool("key", "a")

@@ -7,24 +7,21 @@ blender --factory-startup --python drive_live_unwrap.py -- <folder for the scree
 import sys
 from pathlib import Path
 
+import bmesh
+import bpy
+import numpy as np
+
 sys.path.append(str(Path(__file__).resolve().parent))
 
-import addon_utils  # noqa: E402 - found only now
-import bmesh  # noqa: E402
-import bpy  # noqa: E402
-import numpy as np  # noqa: E402
-from session import area_of, override, point_at, run, screenshot, uv, xdotool  # noqa: E402
+import driving as drive  # noqa: E402 - found only now
+from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
 
 COLUMNS, ROWS = 24, 12
 
 
 def open_cylinder():
     """Put half a bent cylinder, pinned at two corners, into edit mode in the UV Editing workspace."""
-    bpy.context.preferences.view.show_splash = False
-    xdotool("search", "--onlyvisible", "--class", "blender", "windowfocus")
-    bpy.data.objects.remove(bpy.data.objects["Cube"])
-    bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces["UV Editing"]
-    yield
+    yield from drive.open_uv_editing()
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=COLUMNS, y_subdivisions=ROWS)
         bpy.ops.object.mode_set(mode="EDIT")
@@ -105,14 +102,7 @@ def steps():
     after = uv()
     assert not np.allclose(after, before, atol=0.01)
     screenshot("live_pin_moved")
-    xdotool("key", "ctrl+z")
-    yield
-    yield
-    np.testing.assert_array_equal(uv(), before)
-    xdotool("key", "ctrl+shift+z")
-    yield
-    yield
-    np.testing.assert_array_equal(uv(), after)
+    yield from drive.check_undo_and_redo(before, after)
 
     # A confirmed drag is the start of the next.
     yield from drag((0.65, 0.5), (0.7, 0.45))
@@ -176,5 +166,4 @@ def steps():
     assert area_of("IMAGE_EDITOR")
 
 
-addon_utils.enable("spectral_unwrap", default_set=True)
-run(steps())
+drive.run(steps())

@@ -8,6 +8,7 @@ from pathlib import Path
 import addon_utils
 import bmesh
 import bpy
+import numpy as np
 from bpy_extras import view3d_utils
 
 sys.path.append(str(Path(__file__).resolve().parent))
@@ -88,6 +89,18 @@ def last_operator():
     operator = bpy.context.window_manager.operators[-1]
     assert operator.bl_idname == "UV_OT_spectral_unwrap", operator.bl_idname
     return operator
+
+
+def check_undo_and_redo(before, after):
+    """Press the keys of undo and redo, which must change the UVs exactly from `after` to `before` and back."""
+    xdotool("key", "ctrl+z")
+    yield
+    yield
+    np.testing.assert_array_equal(session.uv(), before)
+    xdotool("key", "ctrl+shift+z")
+    yield
+    yield
+    np.testing.assert_array_equal(session.uv(), after)
 
 
 def until(condition, seconds=40.0):

@@ -28,6 +28,9 @@ TEST_CASE("value is the quadratic form of Eq. 7 and does not see a constant") {
     const Eigen::MatrixXd matrix = stored(form, z.size());
     CHECK((matrix * Eigen::VectorXd::Ones(z.size())).norm() < 1e-12);
     CHECK(form.value(z) == doctest::Approx(z.dot(matrix * z).real()).epsilon(1e-12));
+    ComplexVector applied = z;
+    form.add_applied(z, -2, applied);
+    CHECK(difference(applied, z - 2 * (matrix * z)) < 1e-13);
     CHECK(form.value((z.array() + Complex(1e6, -3e5)).matrix()) == doctest::Approx(form.value(z)).epsilon(1e-9));
     CHECK(form.value(ComplexVector::Constant(z.size(), Complex(0.7, 0.1))) < 1e-28);
   }

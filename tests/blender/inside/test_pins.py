@@ -32,6 +32,16 @@ def area(uv):
     return np.abs(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum() / 2.0
 
 
+def grid_with_moved_pin(offset):
+    """A bumpy grid in edit mode with three pins, one of them moved by `offset`; its UVs and the pinned corners."""
+    grid = scenes.bumpy_grid()
+    scenes.edit(grid)
+    uv = positions_as_uv(grid)
+    uv[at_vertex(grid, 34)] += offset
+    scenes.write_uv(grid, uv)
+    return grid, scenes.read_uv(grid), pinned_by(grid, [0, 6, 34])
+
+
 @pytest.fixture
 def uv_editor():
     bpy.context.scene.tool_settings.use_uv_select_sync = False
@@ -42,13 +52,7 @@ def uv_editor():
 
 @pytest.mark.parametrize("placement", ["PACK", "KEEP"])
 def test_pins_hold_exactly_and_the_rest_is_blenders_lscm(reports, placement):
-    grid = scenes.bumpy_grid()
-    scenes.edit(grid)
-    before = positions_as_uv(grid)
-    before[at_vertex(grid, 34)] += (0.05, 0.02)
-    scenes.write_uv(grid, before)
-    before = scenes.read_uv(grid)
-    corners = pinned_by(grid, [0, 6, 34])
+    grid, before, corners = grid_with_moved_pin((0.05, 0.02))
     state = scenes.state(grid)
     reports()
     assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
@@ -65,13 +69,7 @@ def test_pins_hold_exactly_and_the_rest_is_blenders_lscm(reports, placement):
 
 
 def test_soft_pins_attract(reports):
-    grid = scenes.bumpy_grid()
-    scenes.edit(grid)
-    before = positions_as_uv(grid)
-    before[at_vertex(grid, 34)] += (0.1, 0.1)
-    scenes.write_uv(grid, before)
-    before = scenes.read_uv(grid)
-    corners = pinned_by(grid, [0, 6, 34])
+    grid, before, corners = grid_with_moved_pin((0.1, 0.1))
     reports()
     offsets = []
     for strength in (0.01, 100.0):
