@@ -16,6 +16,7 @@
 
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/factorization.h"
+#include "spectral_conformal/metric.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/unwrap.h"
 
@@ -27,6 +28,7 @@ namespace {
 template <class T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 using PinList = std::vector<std::tuple<int, double, double>>;
+using ExtenderList = std::vector<std::tuple<int, int, double>>;
 
 /// A mesh that refers to the arrays it was made from and keeps them alive.
 struct MeshArrays {
@@ -102,6 +104,11 @@ sc::FactorizationBackend backend_named(const std::string& name) {
                                          "factorization");
 }
 
+sc::PatchOptions patch_options(const std::string& weights, const std::string& boundary, const std::string& backend,
+                               bool fill_holes, double area_blend) {
+  return {weights_named(weights), boundary_named(boundary), backend_named(backend), fill_holes, area_blend};
+}
+
 /// Takes the GIL for the call; None and anything true go on. Python's exceptions pass through, and Ctrl-C is heard even
 /// where there is nothing to call.
 sc::Progress progress_of(const py::object& callable) {
@@ -121,6 +128,45 @@ sc::Pins pins_of(const PinList& list) {
   sc::Pins pins;
   for (const auto& [vertex, u, v] : list) pins[vertex] = sc::Complex(u, v);
   return pins;
+}
+
+std::vector<sc::VertexExtender> extenders_of(const ExtenderList& list) {
+  std::vector<sc::VertexExtender> extenders;
+  for (const auto& [from, to, strength] : list) extenders.push_back({from, to, strength});
+  return extenders;
+}
+
+/// Corner k of triangle t.
+Eigen::Vector3d corner(const Array<double>& vertices, const Array<int>& triangles, py::ssize_t t, int k) {
+  return Eigen::Map<const Eigen::Vector3d>(vertices.data(triangles.at(t, k), 0));
+}
+
+Eigen::Matrix<double, 2, 3> frame_of(const Array<double>& vertices, const Array<int>& triangles, py::ssize_t t) {
+  return sc::tangent_frame(corner(vertices, triangles, t, 0), corner(vertices, triangles, t, 1),
+                           corner(vertices, triangles, t, 2));
+}
+
+/// Tensors of space from a metric (F, 2, 2) in the frames of the triangles' first sides, or (n, 3, 3) as it is.
+std::vector<sc::SpaceMetric> space_metric(const Array<double>& vertices, const Array<int>& triangles,
+                                          const std::optional<Array<double>>& metric) {
+  std::vector<sc::SpaceMetric> result;
+  if (!metric) return result;
+  result.reserve(static_cast<std::size_t>(metric->shape(0)));
+  for (py::ssize_t t = 0; t < metric->shape(0); ++t) {
+    if (metric->shape(1) == 3) {
+      result.emplace_back(Eigen::Map<const Eigen::Matrix3d>(metric->data(t, 0, 0)));
+    } else {
+      const auto frame = frame_of(vertices, triangles, t);
+      result.emplace_back(frame.transpose() * Eigen::Map<const Eigen::Matrix2d>(metric->data(t, 0, 0)) * frame);
+    }
+  }
+  return result;
+}
+
+void set_metric(Array<double>& metric, py::ssize_t t, const sc::TriangleMetric& g) {
+  metric.mutable_at(t, 0, 0) = g.xx;
+  metric.mutable_at(t, 0, 1) = metric.mutable_at(t, 1, 0) = g.xy;
+  metric.mutable_at(t, 1, 1) = g.yy;
 }
 
 py::array_t<double> real_view(const sc::ComplexVector& z) {
@@ -143,51 +189,83 @@ py::array_t<bool> copy(const std::vector<bool>& values) {
   return result;
 }
 
+/// A factor has work space of its own, so threads take turns. Waits without the GIL; the thread whose turn it is must
+/// not come again (from its progress function).
+class Turns {
+ public:
+  class Turn {
+   public:
+    explicit Turn(Turns& turns) : turns_(turns) {
+      if (turns.owner_ == std::this_thread::get_id()) {
+        throw std::runtime_error("This solver is solving already; its progress function must not call it again.");
+      }
+      {
+        const py::gil_scoped_release unlocked;
+        turns.mutex_.lock();
+      }
+      turns.owner_ = std::this_thread::get_id();
+    }
+    ~Turn() {
+      turns_.owner_ = std::thread::id();
+      turns_.mutex_.unlock();
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    Turns& turns_;
+  };
+
+ private:
+  std::mutex mutex_;
+  std::atomic<std::thread::id> owner_{};
+};
+
 /// A Solver on a mesh's one patch, which maps between the mesh's vertices and the chart's.
 class PatchSolver {
  public:
-  PatchSolver(const Array<double>& vertices, const Array<int>& triangles, const std::string& weights,
-              const std::string& boundary, const std::string& backend, bool fill_holes)
+  PatchSolver(const Array<double>& vertices, const Array<int>& triangles, const std::optional<Array<double>>& metric,
+              const sc::PatchOptions& options)
       : n_vertices_(vertices.shape(0)) {
     const MeshArrays arrays = triangle_mesh(vertices, triangles);
     const sc::PolygonMesh mesh = arrays.view();
-    const auto weights_value = weights_named(weights);
-    const auto boundary_value = boundary_named(boundary);
-    const auto backend_value = backend_named(backend);
+    const std::vector<sc::SpaceMetric> tensors = space_metric(vertices, triangles, metric);
     const py::gil_scoped_release unlocked;
     const auto start = std::chrono::steady_clock::now();
     const sc::Chart chart = sc::single_patch(mesh);
     charts_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     vertices_ = chart.vertices;
-    solver_ = std::make_unique<sc::Solver>(chart, chart.positions(mesh), weights_value, boundary_value, backend_value,
-                                           fill_holes);
+    solver_ = std::make_unique<sc::Solver>(chart, chart.positions(mesh), options,
+                                           sc::chart_metric(mesh, chart, tensors.empty() ? nullptr : tensors.data()));
   }
 
   void factorize(const py::object& progress) {
     const sc::Progress callback = progress_of(progress);
-    const Turn turn(*this);
+    const Turns::Turn turn(turns_);
     const py::gil_scoped_release unlocked;
     solver_->factorize(callback);
   }
 
-  py::dict solve(const std::string& method, const PinList& pin_list, double soft_pins, double tolerance,
-                 const py::object& progress) {
+  py::dict solve(const std::string& method, const PinList& pin_list, double soft_pins, const ExtenderList& extenders,
+                 double hole_rigidity, double tolerance, const py::object& progress) {
     const sc::Progress callback = progress_of(progress);
-    const auto method_value = method_named(method);
-    sc::Pins pins;
-    for (const auto& [vertex, position] : pins_of(pin_list)) {
-      const auto place = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
-      if (place == vertices_.end() || *place != vertex) {
-        throw sc::InvalidMesh("Vertex " + std::to_string(vertex) + " is pinned, but no triangle uses it.");
-      }
-      pins[static_cast<int>(place - vertices_.begin())] = position;
+    sc::SolveOptions options;
+    options.method = method_named(method);
+    options.tolerance = tolerance;
+    options.soft_pins = soft_pins;
+    options.hole_rigidity = hole_rigidity;
+    for (const auto& [from, to, strength] : extenders) {
+      options.extenders.push_back(
+          {{chart_vertex(from, "has an extender")}, {chart_vertex(to, "has an extender")}, strength});
     }
+    sc::Pins pins;
+    for (const auto& [vertex, position] : pins_of(pin_list)) pins[chart_vertex(vertex, "is pinned")] = position;
     sc::Parameterization solution;
     sc::ComplexVector z;
     {
-      const Turn turn(*this);
+      const Turns::Turn turn(turns_);
       const py::gil_scoped_release unlocked;
-      solution = solver_->solve({method_value, tolerance, soft_pins}, pins, callback);
+      solution = solver_->solve(options, pins, callback);
       z = sc::ComplexVector::Zero(n_vertices_);
       for (std::size_t v = 0; v < vertices_.size(); ++v) z[vertices_[v]] = solution.z[static_cast<Eigen::Index>(v)];
     }
@@ -206,33 +284,15 @@ class PatchSolver {
   }
 
  private:
-  /// The factor has work space of its own, so threads take turns. Waits without the GIL; the thread whose turn it is
-  /// must not come again (from its progress function).
-  class Turn {
-   public:
-    explicit Turn(PatchSolver& solver) : solver_(solver) {
-      if (solver.owner_ == std::this_thread::get_id()) {
-        throw std::runtime_error("This Solver is solving already; its progress function must not call it again.");
-      }
-      {
-        const py::gil_scoped_release unlocked;
-        solver.mutex_.lock();
-      }
-      solver.owner_ = std::this_thread::get_id();
+  int chart_vertex(int vertex, const char* role) const {
+    const auto place = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
+    if (place == vertices_.end() || *place != vertex) {
+      throw sc::InvalidMesh("Vertex " + std::to_string(vertex) + " " + role + ", but no triangle uses it.");
     }
-    ~Turn() {
-      solver_.owner_ = std::thread::id();
-      solver_.mutex_.unlock();
-    }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    return static_cast<int>(place - vertices_.begin());
+  }
 
-   private:
-    PatchSolver& solver_;
-  };
-
-  std::mutex mutex_;
-  std::atomic<std::thread::id> owner_{};
+  Turns turns_;
   Eigen::Index n_vertices_;
   double charts_seconds_ = 0;
   std::vector<int> vertices_;
@@ -263,25 +323,7 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
   return result;
 }
 
-py::dict unwrap(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
-                std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
-                const std::string& method, const std::string& weights, const std::string& boundary,
-                const PinList& pin_list, const std::optional<Array<bool>>& pinned_corners,
-                const std::optional<Array<double>>& corner_uv, double soft_pins, bool fill_holes, double tolerance,
-                const std::string& backend, const py::object& progress) {
-  const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
-  const sc::PolygonMesh mesh = arrays.view();
-  const sc::ParameterizeOptions options{
-      method_named(method),  weights_named(weights), boundary_named(boundary), tolerance, fill_holes, soft_pins,
-      backend_named(backend)};
-  sc::CornerPins corner_pins;
-  if (pinned_corners && corner_uv) corner_pins = {pinned_corners->data(), corner_uv->data()};
-  const sc::Progress callback = progress_of(progress);
-  sc::Unwrap unwrapped;
-  {
-    const py::gil_scoped_release unlocked;
-    unwrapped = sc::unwrap(mesh, options, pins_of(pin_list), corner_pins, callback);
-  }
+py::dict result_of(const sc::Unwrap& unwrapped) {
   py::array_t<double> uv({static_cast<py::ssize_t>(unwrapped.uv.rows()), static_cast<py::ssize_t>(2)});
   std::copy_n(unwrapped.uv.data(), unwrapped.uv.size(), uv.mutable_data());
   py::list charts;
@@ -295,7 +337,128 @@ py::dict unwrap(const Array<double>& vertices, const Array<int>& face_offsets, c
                            py::arg("n_vertices") = chart.n_vertices, py::arg("area") = chart.area));
   }
   return py::dict(py::arg("uv") = uv, py::arg("solved_corners") = copy(unwrapped.solved_corners),
-                  py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts);
+                  py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts,
+                  py::arg("unused_extenders") = copy(unwrapped.unused_extenders));
+}
+
+/// A mesh to unwrap and its options, with the arrays they refer to.
+struct UnwrapArguments {
+  MeshArrays arrays;
+  std::optional<Array<bool>> pinned_corners;
+  std::optional<Array<double>> corner_uv;
+  std::vector<sc::SpaceMetric> metric;
+  sc::UnwrapOptions options;
+
+  UnwrapArguments(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
+                  std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
+                  const std::string& method, const PinList& pins, std::optional<Array<bool>> pinned,
+                  std::optional<Array<double>> uv, double soft_pins, const std::optional<Array<double>>& face_metric,
+                  const sc::PatchOptions& patch)
+      : arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)},
+        pinned_corners(std::move(pinned)),
+        corner_uv(std::move(uv)) {
+    if (face_metric) {
+      // A metric (F, 2, 2) comes with triangles only.
+      const bool in_space = face_metric->shape(1) == 3;
+      metric = space_metric(
+          vertices, in_space ? corner_vertices : Array<int>(Array<int>(corner_vertices).reshape({-1, 3})), face_metric);
+      options.metric = metric.data();
+    }
+    options.patch = patch;
+    options.solve.method = method_named(method);
+    options.solve.soft_pins = soft_pins;
+    options.vertex_pins = pins_of(pins);
+    if (pinned_corners && corner_uv) options.corner_pins = {pinned_corners->data(), corner_uv->data()};
+  }
+};
+
+py::dict unwrap(UnwrapArguments& arguments, const ExtenderList& extenders, double hole_rigidity, double tolerance,
+                const py::object& progress) {
+  arguments.options.extenders = extenders_of(extenders);
+  arguments.options.solve.hole_rigidity = hole_rigidity;
+  arguments.options.solve.tolerance = tolerance;
+  const sc::PolygonMesh mesh = arguments.arrays.view();
+  const sc::Progress callback = progress_of(progress);
+  sc::Unwrap unwrapped;
+  {
+    const py::gil_scoped_release unlocked;
+    unwrapped = sc::unwrap(mesh, arguments.options, callback);
+  }
+  return result_of(unwrapped);
+}
+
+/// An Unwrapper with the arrays of its mesh.
+class MeshUnwrapper {
+ public:
+  explicit MeshUnwrapper(const UnwrapArguments& arguments) : arguments_(arguments) {
+    // The copies refer to the same arrays, but to a metric of their own.
+    if (arguments_.options.metric != nullptr) arguments_.options.metric = arguments_.metric.data();
+    const py::gil_scoped_release unlocked;
+    unwrapper_ = std::make_unique<sc::Unwrapper>(arguments_.arrays.view(), arguments_.options);
+  }
+
+  py::dict solve(const ExtenderList& extenders, double hole_rigidity, double tolerance, const py::object& progress) {
+    const sc::Progress callback = progress_of(progress);
+    sc::Unwrap unwrapped;
+    {
+      const Turns::Turn turn(turns_);
+      const py::gil_scoped_release unlocked;
+      unwrapped = unwrapper_->solve(extenders_of(extenders), hole_rigidity, tolerance, callback);
+    }
+    return result_of(unwrapped);
+  }
+
+ private:
+  Turns turns_;
+  UnwrapArguments arguments_;
+  std::unique_ptr<sc::Unwrapper> unwrapper_;
+};
+
+py::array_t<double> metric_from_uv(const Array<double>& vertices, const Array<int>& triangles,
+                                   const Array<double>& uv) {
+  const py::ssize_t n = triangles.shape(0);
+  Array<double> metric({n, py::ssize_t{2}, py::ssize_t{2}});
+  for (py::ssize_t t = 0; t < n; ++t) {
+    const auto image = [&](int k) {
+      const int v = triangles.at(t, k);
+      return sc::Complex(uv.at(v, 0), uv.at(v, 1));
+    };
+    const sc::TriangleShape shape = sc::lay_out(corner(vertices, triangles, t, 0), corner(vertices, triangles, t, 1),
+                                                corner(vertices, triangles, t, 2));
+    set_metric(
+        metric, t,
+        shape.clamped ? sc::TriangleMetric{} : sc::metric_of_map(shape, image(1) - image(0), image(2) - image(0)));
+  }
+  return metric;
+}
+
+py::array_t<double> metric_from_direction(const Array<double>& vertices, const Array<int>& triangles,
+                                          const Array<double>& directions, const Array<double>& ratios) {
+  const py::ssize_t n = triangles.shape(0);
+  Array<double> metric({n, py::ssize_t{2}, py::ssize_t{2}});
+  for (py::ssize_t t = 0; t < n; ++t) {
+    const Eigen::Map<const Eigen::Vector3d> direction(directions.data(t, 0));
+    set_metric(metric, t, sc::metric_along(direction, ratios.at(t), frame_of(vertices, triangles, t)));
+  }
+  return metric;
+}
+
+sc::TriangleMetric metric_at(const Array<double>& metric, py::ssize_t t) {
+  return {metric.at(t, 0, 0), metric.at(t, 0, 1), metric.at(t, 1, 1)};
+}
+
+py::array_t<double> blend_metric(const Array<double>& metric, double amount) {
+  Array<double> result({metric.shape(0), py::ssize_t{2}, py::ssize_t{2}});
+  for (py::ssize_t t = 0; t < metric.shape(0); ++t) set_metric(result, t, sc::blend(metric_at(metric, t), amount));
+  return result;
+}
+
+/// The first metric that is not positive definite, or -1.
+py::ssize_t first_not_positive_definite(const Array<double>& metric) {
+  for (py::ssize_t t = 0; t < metric.shape(0); ++t) {
+    if (!sc::is_positive_definite(metric_at(metric, t))) return t;
+  }
+  return -1;
 }
 
 py::dict build_info() {
@@ -309,12 +472,25 @@ PYBIND11_MODULE(_native, module) {
   py::register_local_exception<sc::InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
   py::register_local_exception<sc::SolveFailure>(module, "SolveError", PyExc_RuntimeError);
   py::register_local_exception<sc::Cancelled>(module, "Cancelled", PyExc_Exception);
+  py::class_<sc::PatchOptions>(module, "PatchOptions", py::module_local()).def(py::init(&patch_options));
   py::class_<PatchSolver>(module, "Solver", py::module_local())
-      .def(py::init<const Array<double>&, const Array<int>&, const std::string&, const std::string&, const std::string&,
-                    bool>())
+      .def(py::init<const Array<double>&, const Array<int>&, const std::optional<Array<double>>&,
+                    const sc::PatchOptions&>())
       .def("factorize", &PatchSolver::factorize)
       .def("solve", &PatchSolver::solve);
+  py::class_<UnwrapArguments>(module, "UnwrapArguments", py::module_local())
+      .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, std::optional<Array<int>>,
+                    std::optional<Array<bool>>, const std::string&, const PinList&, std::optional<Array<bool>>,
+                    std::optional<Array<double>>, double, const std::optional<Array<double>>&,
+                    const sc::PatchOptions&>());
+  py::class_<MeshUnwrapper>(module, "Unwrapper", py::module_local())
+      .def(py::init<const UnwrapArguments&>())
+      .def("solve", &MeshUnwrapper::solve);
   module.def("distortion", &distortion);
   module.def("unwrap", &unwrap);
+  module.def("metric_from_uv", &metric_from_uv);
+  module.def("metric_from_direction", &metric_from_direction);
+  module.def("blend_metric", &blend_metric);
+  module.def("first_not_positive_definite", &first_not_positive_definite);
   module.def("build_info", &build_info);
 }

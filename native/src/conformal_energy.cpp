@@ -9,7 +9,6 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
                                  Weights weights, std::size_t n_virtual)
     : triangles_(std::move(triangles)), coverage_(std::move(coverage)), weights_(weights), n_virtual_(n_virtual) {
   shapes_.resize(triangles_.size());
-  double covered = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     shapes_[t] = lay_out(positions.row(a), positions.row(b), positions.row(c));
@@ -17,10 +16,28 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
     if (shapes_[t].clamped) ++clamped_triangles_;
     area_ += coverage_[t] * (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c))
                                                 : shapes_[t].area());
-    covered += coverage_[t];
+    covered_ += coverage_[t];
   }
-  if (weights_ == Weights::inverse_area && covered > 0) weight_unit_ = area_ / covered;
+  weigh();
   assemble(static_cast<int>(positions.rows()));
+}
+
+ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights) : ConformalEnergy(like) {
+  weights_ = weights;
+  weigh();
+  assemble(n_vertices());
+}
+
+void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
+  if (stretched_.empty()) stretched_ = shapes_;
+  for (std::size_t t = 0; t < metric.size(); ++t) {
+    if (!shapes_[t].clamped) stretched_[t] = stretched(stretched_[t], metric[t]);
+  }
+  assemble(n_vertices());
+}
+
+void ConformalEnergy::weigh() {
+  weight_unit_ = weights_ == Weights::inverse_area && covered_ > 0 ? area_ / covered_ : 1;
 }
 
 double ConformalEnergy::weight(std::size_t triangle) const {
@@ -43,7 +60,7 @@ void ConformalEnergy::assemble(int n_vertices) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& triangle = triangles_[t];
-    const TriangleShape& s = shapes_[t];
+    const TriangleShape& s = energy_shape(t);
     const double half_weight = 0.5 * weight(t);
     const double double_area = s.x1 * s.y2;
     // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
@@ -112,7 +129,8 @@ double ConformalEnergy::value(const ComplexVector& z) const {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     // z^H L z = 2 w E_C = 4 w |T| |f_zbar|^2 = w |4 |T| f_zbar|^2 / (4 |T|)
-    sum += weight(t) * std::norm(shapes_[t].antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * shapes_[t].area());
+    const TriangleShape& s = energy_shape(t);
+    sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
   return sum;
 }
@@ -131,7 +149,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    const TriangleShape& s = shapes_[t];
+    const TriangleShape& s = energy_shape(t);
     const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
     const double scale = weight(t) / (4 * s.area());
     sum += scale * std::norm(part);

@@ -6,34 +6,16 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
 #include "spectral_conformal/errors.h"
+#include "spectral_conformal/start_vector.h"
 
 namespace spectral_conformal {
 namespace {
 
 constexpr int dense_limit = 24;
-constexpr double pi = 3.14159265358979323846;
-
-/// Deterministic numbers in (-1, 1) (SplitMix64, Steele et al. 2014): the same on every platform.
-class PseudoRandom {
- public:
-  explicit PseudoRandom(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    std::uint64_t x = (state_ += 0x9e3779b97f4a7c15ULL);
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    x ^= x >> 31;
-    return static_cast<double>(x >> 11) * 0x1.0p-52 - 1.0;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// The operator T of solve_eigenproblem on the vertices that carry mass.
 class ReducedOperator {
@@ -100,24 +82,6 @@ class ReducedOperator {
   mutable int solves_ = 0;
 };
 
-/// A circle run through in proportion to the mass passed, blurred by noise so that no symmetry of the patch can make it
-/// orthogonal to the eigenvector.
-ComplexVector start_vector(const BoundaryForm& form, unsigned start) {
-  PseudoRandom random(start + 1);
-  ComplexVector y(form.mass.size());
-  const double noise = start == 0 ? 0.05 : 1.0;
-  double passed = 0;
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const double angle = 2 * pi * passed / form.total();
-    const double real = random.next();
-    const double imaginary = random.next();
-    y[i] = (start == 0 ? std::polar(1.0, angle) : Complex(0)) + noise * Complex(real, imaginary);
-    y[i] *= std::sqrt(form.mass[i]);
-    passed += form.mass[i];
-  }
-  return y;
-}
-
 /// All of T, column by column.
 ComplexVector dense_eigenvector(const ReducedOperator& op) {
   const Eigen::Index n = op.complex_size();
@@ -164,33 +128,6 @@ class AreaOperator {
  private:
   const ConformalEnergy& energy_;
   const HermitianMatrix& matrix_;
-};
-
-/// B = B^ - Q.
-class AttractedOperator {
- public:
-  using Scalar = double;
-  AttractedOperator(int n_vertices, const BoundaryForm& form, const PinAttraction& attraction)
-      : n_(n_vertices), form_(form), attraction_(attraction) {}
-  Eigen::Index rows() const { return 2 * n_; }
-  Eigen::Index cols() const { return rows(); }
-  void apply(const ComplexVector& z, ComplexVector& result) const {
-    result.setZero(z.size());
-    form_.add_applied(z, 1, result);
-    attraction_.subtract(z, result);
-  }
-  double value(const ComplexVector& z) const { return form_.value(z) - attraction_.value(z); }
-  void perform_op(const double* x, double* y) const {
-    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), n_);
-    ComplexVector out;
-    apply(in, out);
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), n_) = out;
-  }
-
- private:
-  Eigen::Index n_;
-  const BoundaryForm& form_;
-  const PinAttraction& attraction_;
 };
 
 class ShiftedOperator {
@@ -243,54 +180,6 @@ bool converges(Solver& solver, const EigenproblemOptions& options) {
   return solver.info() == Spectra::CompInfo::Successful;
 }
 
-/// B z = mu (L + s M) z, largest mu, for an indefinite B with the operations of AreaOperator (Spectra wants it
-/// mutable), accepted when the last correction is below `resolved` of the map.
-template <class Form>
-Eigenpair solve_indefinite(Factorization& factorization, const ConformalEnergy& energy, Form indefinite,
-                           const BoundaryForm& form, double shift, const EigenproblemOptions& options, double resolved,
-                           const Progress& progress) {
-  const Eigen::Index n = energy.n_vertices();
-  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
-  const ComplexVector on_boundary = start_vector(form, options.start);
-  ComplexVector start = ComplexVector::Zero(n);
-  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
-  Eigenpair result;
-  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
-  Spectra::SymGEigsSolver<Form, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(indefinite, shifted, 1,
-                                                                                            dimension);
-  ComplexVector smooth(n);
-  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
-  solver.init(reinterpret_cast<const double*>(smooth.data()));
-  const bool converged = converges(solver, options);
-  result.solves = shifted.solves();
-  if (!converged) return result;
-  const Eigen::VectorXd real = solver.eigenvectors(1);
-  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
-  result.mu = solver.eigenvalues()[0];
-  // z' = z - (L + s M)^-1 (L z - lambda B z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
-  // with the residual. Negative eigenvalues larger than mu make it grow instead.
-  constexpr int max_corrections = 30;
-  ComplexVector residual;
-  ComplexVector form_part;
-  ComplexVector change;
-  result.residual = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < max_corrections; ++k) {
-    const double lambda = energy.apply(result.vector, residual) / indefinite.value(result.vector);
-    indefinite.apply(result.vector, form_part);
-    residual -= lambda * form_part;
-    factorization.solve(residual, change);
-    change.array() -= change.mean();
-    ++result.solves;
-    const double relative = change.norm() / result.vector.norm();
-    if (!(relative < result.residual)) break;
-    result.residual = relative;
-    result.vector -= change;
-    if (relative < 0.01 * options.tolerance) break;
-  }
-  result.converged = result.residual < resolved && result.vector.allFinite() && indefinite.value(result.vector) > 0;
-  return result;
-}
-
 }  // namespace
 
 Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
@@ -330,15 +219,48 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress) {
-  return solve_indefinite(factorization, energy, AreaOperator(energy), form, shift, options, 1e-7, progress);
-}
-
-Eigenpair solve_attracted_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
-                                       const BoundaryForm& form, const PinAttraction& attraction, double shift,
-                                       const EigenproblemOptions& options, const Progress& progress) {
-  AttractedOperator attracted(energy.n_vertices(), form, attraction);
-  // A strong attraction leaves no corrections, only what Lanczos and the shift do: 1e-6 or so of the map.
-  return solve_indefinite(factorization, energy, attracted, form, shift, options, 1e-5, progress);
+  const Eigen::Index n = energy.n_vertices();
+  AreaOperator area(energy);  // Spectra wants it mutable
+  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
+  const ComplexVector on_boundary = start_vector(form, options.start);
+  ComplexVector start = ComplexVector::Zero(n);
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
+  Eigenpair result;
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
+  Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
+                                                                                                    dimension);
+  ComplexVector smooth(n);
+  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
+  solver.init(reinterpret_cast<const double*>(smooth.data()));
+  const bool converged = converges(solver, options);
+  result.solves = shifted.solves();
+  if (!converged) return result;
+  const Eigen::VectorXd real = solver.eigenvectors(1);
+  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  result.mu = solver.eigenvalues()[0];
+  // z' = z - (L + s M)^-1 (L z - lambda B z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
+  // with the residual. Negative eigenvalues larger than mu make it grow instead.
+  constexpr int max_corrections = 30;
+  constexpr double resolved = 1e-7;
+  ComplexVector residual;
+  ComplexVector form_part;
+  ComplexVector change;
+  result.residual = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < max_corrections; ++k) {
+    const double lambda = energy.apply(result.vector, residual) / area.value(result.vector);
+    area.apply(result.vector, form_part);
+    residual -= lambda * form_part;
+    factorization.solve(residual, change);
+    change.array() -= change.mean();
+    ++result.solves;
+    const double relative = change.norm() / result.vector.norm();
+    if (!(relative < result.residual)) break;
+    result.residual = relative;
+    result.vector -= change;
+    if (relative < 0.01 * options.tolerance) break;
+  }
+  result.converged = result.residual < resolved && result.vector.allFinite() && area.value(result.vector) > 0;
+  return result;
 }
 
 }  // namespace spectral_conformal

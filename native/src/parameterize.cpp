@@ -12,6 +12,7 @@
 #include "spectral_conformal/hole_filling.h"
 #include "spectral_conformal/pin_attraction.h"
 #include "spectral_conformal/placement.h"
+#include "spectral_conformal/start_vector.h"
 #include "spectral_conformal/turning_number.h"
 
 namespace spectral_conformal {
@@ -42,19 +43,6 @@ class Stopwatch {
   Clock::time_point last_;
 };
 
-/// What each attempt at the eigenproblem changes; the first one nearly always passes.
-struct Attempt {
-  double relative_shift;  ///< s as a part of the median of L_ii / M_ii over the vertices with mass
-  unsigned start;
-  int krylov_dimension;
-  double tolerance_factor;
-  const char* remedy;  ///< said when this attempt passes
-};
-constexpr Attempt attempts[] = {
-    {1e-12, 0, 6, 1.0, ""},
-    {1e-10, 1, 24, 0.1, "The first solve failed its checks and was repeated with a larger shift and another start. "},
-};
-
 /// The eigenvector must satisfy its reduced equation at least this well, whatever tolerance was asked for. On flat
 /// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift, which the corrections then take out.
 constexpr double residual_limit = 1e-3;
@@ -62,6 +50,10 @@ constexpr double residual_limit = 1e-3;
 constexpr double pinned_residual_limit = 1e-10;
 /// The corrections that follow must end below this change, relative to the map.
 constexpr double resolved = 1e-7;
+constexpr const char* unresolved =
+    "The triangles differ so much in size or shape that double precision does not resolve the map";
+/// Of the first attempt, which nearly always passes.
+constexpr double first_relative_shift = 1e-12;
 
 double largest_diagonal(const HermitianMatrix& matrix) {
   double largest = 0;
@@ -106,6 +98,15 @@ std::string repairs(const Chart& chart, int clamped) {
 }
 
 }  // namespace
+
+/// What each attempt at the eigenproblem changes; the first one nearly always passes.
+struct Solver::Attempt {
+  double relative_shift;  ///< s as a part of the median of L_ii / M_ii over the vertices with mass
+  unsigned start;
+  int krylov_dimension;
+  double tolerance_factor;
+  const char* remedy;  ///< said when this attempt passes
+};
 
 std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
@@ -162,9 +163,9 @@ Chart single_patch(const PolygonMesh& mesh) {
   return std::move(decomposition.charts.front());
 }
 
-Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, Weights weights,
-               BoundaryMeasure boundary, FactorizationBackend backend, bool fill_holes)
-    : n_vertices_(chart.n_vertices()), boundary_(boundary), backend_(backend) {
+Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
+               const std::vector<TriangleMetric>& metric)
+    : n_vertices_(chart.n_vertices()), options_(options) {
   Stopwatch watch(set_up_timings_);
   const std::string problem = why_not_a_disk(chart, positions);
   if (!problem.empty()) throw InvalidMesh(problem);
@@ -174,10 +175,16 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
   scale_ = (high - low).maxCoeff();
   positions_ = (positions.rowwise() - (low + 0.5 * (high - low))) / scale_;
   const int outer = outer_loop(chart.boundary_loops, positions_);
-  outer_ = chart.boundary_loops[static_cast<std::size_t>(outer)];
+  for (std::size_t i = 0; i < chart.boundary_loops.size(); ++i) {
+    if (static_cast<int>(i) == outer) {
+      outer_ = chart.boundary_loops[i];
+    } else {
+      inner_.push_back(chart.boundary_loops[i]);
+    }
+  }
   std::vector<std::array<int, 3>> triangles = chart.triangles;
   std::vector<double> coverage = chart.coverage;
-  if (fill_holes && chart.boundary_loops.size() > 1) {
+  if (options.fill_holes && !inner_.empty()) {
     const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, positions_);
     triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
     coverage.insert(coverage.end(), filling.coverage.begin(), filling.coverage.end());
@@ -185,9 +192,16 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
     positions_.bottomRows(filling.centres.rows()) = filling.centres;
   }
   const std::size_t n_virtual = triangles.size() - chart.triangles.size();
-  energy_ =
-      std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(coverage), weights, n_virtual);
-  form_ = boundary_form(outer_, positions_, boundary_);
+  energy_ = std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(coverage), options.weights,
+                                              n_virtual);
+  for (std::size_t t = 0; t < metric.size(); ++t) {
+    if (!is_positive_definite(metric[t]) && !energy_->shapes()[t].clamped) {
+      throw InvalidMesh("The metric of face " + std::to_string(chart.faces[chart.triangle_face[t]]) +
+                        " is not positive definite in double precision; both of its eigenvalues must be positive.");
+    }
+  }
+  if (!metric.empty()) energy_->stretch(metric);
+  form_ = boundary_form(outer_, positions_, options.boundary);
   if (form_.vertices.size() < 2) {
     throw InvalidMesh("The patch's longest boundary loop has no length; clean up its coincident vertices.");
   }
@@ -208,7 +222,7 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
   const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), median, ratios.end());
   const double unit = *median;
-  result.factorization = make_factorization(backend_, shifted.rows());
+  result.factorization = make_factorization(options_.backend, shifted.rows());
   report(progress, 0.0, "ordering");
   result.factorization->analyze(shifted);
   constexpr int max_raises = 4;
@@ -230,9 +244,15 @@ Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double re
 
 void Solver::factorize(const Progress& progress) {
   if (factor_.factorization) return;
+  blend_area(part(progress, 0.0, options_.area_blend > 0 ? 0.8 : 0.0));
   Stopwatch watch(set_up_timings_);
-  factor_ = factor_shifted(form_, attempts[0].relative_shift, progress);
+  factor_ = factor_shifted(form_, first_relative_shift, part(progress, options_.area_blend > 0 ? 0.8 : 0.0, 1.0));
   watch.lap("factorization");
+}
+
+bool SolveOptions::has_forces() const {
+  return hole_rigidity != 0 ||
+         std::any_of(extenders.begin(), extenders.end(), [](const Extender& e) { return e.strength != 0; });
 }
 
 Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& progress) {
@@ -240,8 +260,12 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   if (options.method != Method::lscm && pins.size() > 1 && !attracted) {
     throw std::invalid_argument("Several pins need the method 'lscm', or soft_pins with 'spectral'.");
   }
+  if (options.method != Method::spectral && options.has_forces()) {
+    throw std::invalid_argument("Extenders and hole rigidity need the method 'spectral'.");
+  }
   Parameterization result;
   if (options.method == Method::lscm) {
+    blend_area(part(progress, 0.0, 0.5));
     result = solve_pinned(pins, progress);
   } else {
     result = solve_with_remedies(options, attracted ? pins : Pins{}, progress);
@@ -260,8 +284,9 @@ Parameterization Solver::solve_with_remedies(const SolveOptions& options, const 
   try {
     return solve_eigenvector(options, attractors, progress);
   } catch (const SolveFailure& failure) {
-    if (options.method != Method::spectral) throw;
-    const bool by_length = boundary_ == BoundaryMeasure::length;
+    // With forces, the forces are what to change.
+    if (options.method != Method::spectral || options.has_forces()) throw;
+    const bool by_length = options_.boundary == BoundaryMeasure::length;
     const bool uniform = energy_->weights() == Weights::uniform;
     struct Remedy {
       Weights weights;
@@ -270,7 +295,7 @@ Parameterization Solver::solve_with_remedies(const SolveOptions& options, const 
     };
     const Remedy remedies[] = {{energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length,
                                 by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
-                               {uniform ? Weights::inverse_area : Weights::uniform, boundary_,
+                               {uniform ? Weights::inverse_area : Weights::uniform, options_.boundary,
                                 uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
     for (const Remedy& remedy : remedies) {
       try {
@@ -292,28 +317,111 @@ Solver::Solver(const Solver& like, Weights weights, BoundaryMeasure boundary)
     : positions_(like.positions_),
       n_vertices_(like.n_vertices_),
       scale_(like.scale_),
-      energy_(std::make_unique<ConformalEnergy>(like.positions_, like.energy_->triangles(), like.energy_->coverage(),
-                                                weights, like.energy_->n_virtual())),
+      energy_(std::make_unique<ConformalEnergy>(*like.energy_, weights)),
       outer_(like.outer_),
-      boundary_(boundary),
+      inner_(like.inner_),
+      options_(like.options_),
       form_(boundary_form(outer_, positions_, boundary)),
-      backend_(like.backend_) {}
+      is_blended_(like.is_blended_) {
+  options_.weights = weights;
+  options_.boundary = boundary;
+}
 
 double Solver::lambda_unit(Method method) const {
   if (method == Method::area) return 1;
   // positions_ = positions / scale_. Lengths, and with them M, are divided by scale_; L has weight_unit / |T|.
   const bool uniform = energy_->weights() == Weights::uniform;
   const double energy_unit = uniform ? 1 : energy_->weight_unit() * scale_ * scale_;
-  const double mass_unit = method != Method::fiedler && boundary_ == BoundaryMeasure::length ? 1 / scale_ : 1;
+  const double mass_unit = method != Method::fiedler && options_.boundary == BoundaryMeasure::length ? 1 / scale_ : 1;
   return mass_unit / energy_unit;
 }
 
-Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const Pins& attractors,
-                                           const Progress& progress) {
+ExtendedForm Solver::extended_form(const BoundaryForm& form, const SolveOptions& options,
+                                   const Pins& attractors) const {
+  ExtendedForm extended(form);
+  if (options.hole_rigidity != 0) {
+    for (const BoundaryLoop& loop : inner_) {
+      const BoundaryForm spread = boundary_form(loop, positions_, options_.boundary);
+      if (!spread.vertices.empty()) extended.add_spread(spread, options.hole_rigidity);
+    }
+  }
+  for (const Extender& extender : options.extenders) extended.add_extender(extender);
+  if (!attractors.empty()) extended.add_attraction(pin_attraction(attractors, form, options.soft_pins));
+  return extended;
+}
+
+void Solver::correct(const BoundaryForm& form, Factorization& factorization, Eigenvector& eigenvector) const {
+  // Inverse iteration on the residual, which is evaluated more accurately than the factor: takes out what rounding in
+  // the factor left. The first change tells how much that was.
+  ComplexVector r;
+  ComplexVector change;
+  constexpr int max_corrections = 12;
+  constexpr double negligible = 1e-10;
+  double relative_change = 0;
+  for (int k = 0; k < max_corrections; ++k) {
+    eigen_residual(*energy_, form, eigenvector.z, r);
+    factorization.solve(r, change);
+    change.array() -= change.mean();
+    ++eigenvector.solves;
+    eigenvector.z -= change;
+    relative_change = change.norm() / eigenvector.z.norm();
+    if (!(relative_change > negligible)) break;
+  }
+  eigenvector.lambda = eigen_residual(*energy_, form, eigenvector.z, r);
+  eigenvector.residual = r.norm() / (largest_diagonal(energy_->matrix()) * eigenvector.z.norm());
+  if (!(relative_change < resolved)) eigenvector.why_not = unresolved;
+}
+
+Solver::Eigenvector Solver::attempt(const SolveOptions& settings, const Pins& attractors, const BoundaryForm& form,
+                                    ShiftedFactor& factor, const Attempt& attempt, const Progress& progress) {
+  EigenproblemOptions options;
+  options.tolerance = settings.tolerance * attempt.tolerance_factor;
+  options.start = attempt.start;
+  options.krylov_dimension = attempt.krylov_dimension;
+  Eigenvector result;
+  const auto take = [&](Eigenpair&& pair) {
+    result.z = std::move(pair.vector);
+    result.solves = pair.solves;
+    result.residual = pair.residual;
+    if (!pair.converged || !(pair.residual < residual_limit))
+      result.why_not = "The eigenvalue iteration did not converge";
+    return result.why_not == nullptr;
+  };
+  Factorization& factorization = *factor.factorization;
+  if (settings.has_forces() || !attractors.empty()) {
+    const ExtendedForm extended = extended_form(form, settings, attractors);
+    const bool kept = &factor == &factor_;
+    ComplexVector circle = ComplexVector::Zero(static_cast<Eigen::Index>(extended.support().size()));
+    circle.head(form.mass.size()) =
+        start_vector(form, options.start).cwiseQuotient(form.mass.cwiseSqrt().cast<Complex>());
+    std::vector<ComplexVector> starts{circle};
+    if (kept && previous_.size() > 0) starts.push_back(extended.restrict(previous_));
+    RitzBasis fresh;
+    RitzBasis& basis = kept ? ritz_basis_ : fresh;
+    if (take(solve_extended_eigenproblem(factorization, *energy_, extended, options, starts, basis, progress))) {
+      result.lambda = energy_->value(result.z) / extended.value(extended.restrict(result.z));
+      if (!(result.residual < std::max(resolved, options.tolerance))) result.why_not = unresolved;
+    }
+  } else if (settings.method == Method::area) {
+    if (take(solve_area_eigenproblem(factorization, *energy_, form, factor.shift, options, progress))) {
+      result.lambda = energy_->value(result.z) / energy_->area_form(result.z);
+    }
+  } else if (take(solve_eigenproblem(factorization, form, options, progress))) {
+    correct(form, factorization, result);
+  }
+  return result;
+}
+
+Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const Pins& given, const Progress& progress) {
+  constexpr Attempt attempts[] = {
+      {first_relative_shift, 0, 6, 1.0, ""},
+      {1e-10, 1, 24, 0.1, "The first solve failed its checks and was repeated with a larger shift and another start. "},
+  };
   const Method method = settings.method;
   // With fewer than three pins a similarity always fits.
-  const bool attracted = attractors.size() > 2;
+  const Pins attractors = given.size() > 2 ? given : Pins{};
   const bool own_form = method == Method::fiedler;
+  if (own_form) blend_area(part(progress, 0.0, 0.3));
   const BoundaryForm identity = own_form ? identity_form(n_vertices_) : BoundaryForm{};
   const BoundaryForm& form = own_form ? identity : form_;
   Timings timings;
@@ -326,91 +434,58 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
       const bool factored = factor_.factorization != nullptr;
       factorize(part(progress, 0.0, 0.6));
       if (factored) report(progress, 0.6, "eigenproblem");
+      watch.restart();  // factorize() has its own time
     } else {
       own_factor = factor_shifted(form, attempt.relative_shift, part(progress, 0.0, 0.6));
+      watch.lap("factorization");
     }
     ShiftedFactor& factor = own_factor.factorization ? own_factor : factor_;
-    if (own_factor.factorization) {
-      watch.lap("factorization");
-    } else {
-      watch.restart();  // factorize() has its own time
-    }
-    EigenproblemOptions options;
-    options.tolerance = settings.tolerance * attempt.tolerance_factor;
-    options.start = attempt.start;
-    options.krylov_dimension = attempt.krylov_dimension;
-    const Progress eigen_progress = part(progress, 0.6, 0.95);
-    const PinAttraction attraction = attracted ? pin_attraction(attractors, form, settings.soft_pins) : PinAttraction{};
-    Eigenpair pair =
-        attracted ? solve_attracted_eigenproblem(*factor.factorization, *energy_, form, attraction, factor.shift,
-                                                 options, eigen_progress)
-        : method == Method::area
-            ? solve_area_eigenproblem(*factor.factorization, *energy_, form, factor.shift, options, eigen_progress)
-            : solve_eigenproblem(*factor.factorization, form, options, eigen_progress);
-    if (!pair.converged || !(pair.residual < residual_limit)) {
-      why = "The eigenvalue iteration did not converge";
+    Eigenvector eigenvector = this->attempt(settings, attractors, form, factor, attempt, part(progress, 0.6, 0.95));
+    if (eigenvector.why_not != nullptr) {
+      why = eigenvector.why_not;
       continue;
     }
     Parameterization result;
-    result.z = std::move(pair.vector);
-    result.iterations = pair.solves;
-    const double scale_of_residual = largest_diagonal(energy_->matrix());
-    double lambda = 0;
-    if (attracted || method == Method::area) {
-      const double form_value =
-          attracted ? form.value(result.z) - attraction.value(result.z) : energy_->area_form(result.z);
-      lambda = energy_->value(result.z) / form_value;
-      result.residual = pair.residual;
-    } else {
-      // Inverse iteration on the residual, which is evaluated more accurately than the factor: takes out what rounding
-      // in the factor left. The first change tells how much that was.
-      ComplexVector r;
-      ComplexVector change;
-      constexpr int max_corrections = 12;
-      constexpr double negligible = 1e-10;
-      double relative_change = 0;
-      for (int k = 0; k < max_corrections; ++k) {
-        eigen_residual(*energy_, form, result.z, r);
-        factor.factorization->solve(r, change);
-        change.array() -= change.mean();
-        ++result.iterations;
-        result.z -= change;
-        relative_change = change.norm() / result.z.norm();
-        if (!(relative_change > negligible)) break;
-      }
-      lambda = eigen_residual(*energy_, form, result.z, r);
-      result.residual = r.norm() / (scale_of_residual * result.z.norm());
-      if (!(relative_change < resolved)) {
-        why = "The triangles differ so much in size or shape that double precision does not resolve the map";
-        continue;
-      }
-    }
-    result.eigenvalue = lambda * lambda_unit(method);
+    result.iterations = eigenvector.solves;
+    result.residual = eigenvector.residual;
+    result.eigenvalue = eigenvector.lambda * lambda_unit(method);
     watch.lap("eigenproblem");
-    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
-    if (!result.z.allFinite() || !std::isfinite(lambda)) {
+    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), eigenvector.z);
+    if (!eigenvector.z.allFinite() || !std::isfinite(eigenvector.lambda)) {
       why = "The result is not finite";
       continue;
     }
-    result.z.conservativeResize(n_vertices_);
+    result.z = eigenvector.z.head(n_vertices_);
     if (!place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
       why = "The map has no positive area";
       continue;
     }
     const bool winds_once = std::abs(result.turning_number) == 1;
-    if (method == Method::spectral && !winds_once) {
+    // A strong attraction has such maps as its true optimum: the pair meets where the map branches.
+    if (method == Method::spectral && !winds_once && !settings.has_forces()) {
       why = winding(result.turning_number);
       continue;
     }
+    if (&factor == &factor_) previous_ = std::move(eigenvector.z);
     watch.lap("placement");
     result.message = attempt.remedy;
-    if (!winds_once) result.message += winding(result.turning_number) + ". ";
+    if (!winds_once) {
+      result.message += winding(result.turning_number) + (settings.has_forces() ? "; weaken the extenders. " : ". ");
+    }
     result.timings = set_up_timings_;
     result.timings.insert(result.timings.end(), timings.begin(), timings.end());
     return result;
   }
   throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",
-                     "add seams that make the patch flatter, or clean up degenerate faces.");
+                     settings.has_forces() ? "weaken or remove extenders, or lower the hole rigidity."
+                                           : "add seams that make the patch flatter, or clean up degenerate faces.");
+}
+
+void Solver::blend_area(const Progress& progress) {
+  if (is_blended_ || !(options_.area_blend > 0)) return;
+  // TODO
+  is_blended_ = true;
+  (void)progress;
 }
 
 Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress) {
@@ -441,7 +516,7 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
                         ? (positions_.row(pair[1]) - positions_.row(pair[0])).norm()
                         : 1.0;
   }
-  PinnedSolution solution = solve_lscm(*energy_, held, backend_, progress);
+  PinnedSolution solution = solve_lscm(*energy_, held, options_.backend, progress);
   result.z = std::move(solution.vector);
   result.residual = solution.residual;
   result.iterations = 1;

@@ -211,6 +211,36 @@ TEST_CASE("nearly degenerate triangles are clamped, counted and leave the matrix
   }
 }
 
+TEST_CASE("with the metric of a map the energy of that map vanishes, and its area does not change") {
+  const Patch patch(quads_and_triangles());
+  const ComplexVector flat = flat_map(patch.positions);
+  ComplexVector map = flat;
+  for (Complex& z : map) z = Complex(2 * z.real() + 0.3 * z.imag() + 0.02 * z.real() * z.imag(), 0.7 * z.imag());
+  for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+    ConformalEnergy energy = patch.energy(weights);
+    const double plain = energy.value(map);
+    const double area = energy.area_form(map);
+    std::vector<TriangleMetric> metric;
+    for (std::size_t t = 0; t < energy.triangles().size(); ++t) {
+      const auto& [a, b, c] = energy.triangles()[t];
+      metric.push_back(metric_of_map(energy.shapes()[t], map[b] - map[a], map[c] - map[a]));
+    }
+    energy.stretch(metric);
+    CHECK(energy.value(map) < 1e-26 * plain);
+    CHECK(energy.area_form(map) == area);
+    CHECK(energy.value(flat) > 1e-3 * plain);
+    const ComplexVector z = random_map(map.size());
+    CHECK(z.dot(dense(energy.matrix()) * z).real() == doctest::Approx(energy.value(z)).epsilon(1e-12));
+    // Other weights keep the metric.
+    const ConformalEnergy other(energy, Weights::uniform);
+    CHECK(other.value(map) < 1e-26 * plain);
+    // A second metric comes on top: the identity changes nothing.
+    energy.stretch(std::vector<TriangleMetric>(metric.size()));
+    CHECK(energy.value(z) == doctest::Approx(z.dot(dense(energy.matrix()) * z).real()).epsilon(1e-12));
+    CHECK(energy.value(map) < 1e-26 * plain);
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -144,43 +144,6 @@ TEST_CASE("B = A: agrees with the dense pencil") {
   }
 }
 
-TEST_CASE("attracting pins: agrees with the dense pencil") {
-  const Patch patch(bumpy_grid(7, 5));
-  const ConformalEnergy energy = patch.energy(Weights::uniform);
-  const Eigen::Index n = energy.n_vertices();
-  const BoundaryForm form = forms(patch).front();
-  const Pins pins{{0, {0, 0}}, {7, {8, 1}}, {20, {4, 5}}, {29, {3, 2}}, {47, {9, 6}}};
-  for (const double strength : {0.1, 10.0, 1000.0}) {
-    const PinAttraction attraction = pin_attraction(pins, form, strength);
-    Eigen::MatrixXcd indefinite(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const ComplexVector unit = ComplexVector::Unit(n, j);
-      ComplexVector column = ComplexVector::Zero(n);
-      const Complex barycentre = form.barycentre(unit);
-      for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-        const int v = form.vertices[i];
-        column[v] = form.mass[static_cast<Eigen::Index>(i)] * (unit[v] - barycentre);
-      }
-      attraction.subtract(unit, column);
-      indefinite.col(j) = column;
-    }
-    // 1 1^T makes L definite without touching what is orthogonal to the constants, which both forms ignore.
-    const Eigen::MatrixXcd definite = dense(energy.matrix()) + Eigen::MatrixXcd::Ones(n, n);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (indefinite + indefinite.adjoint()),
-                                                                            definite);
-    const double expected = 1 / solver.eigenvalues()[n - 1];
-    for (const auto backend : backends()) {
-      const Factored factored(energy.matrix(), form, backend, 1e-10);
-      const Eigenpair pair =
-          solve_attracted_eigenproblem(*factored.factorization, energy, form, attraction, factored.shift, {}, {});
-      REQUIRE(pair.converged);
-      const double lambda = energy.value(pair.vector) / (form.value(pair.vector) - attraction.value(pair.vector));
-      CHECK(lambda == doctest::Approx(expected).epsilon(1e-6));
-      CHECK(difference_up_to_similarity(pair.vector, solver.eigenvectors().col(n - 1)) < 1e-5);
-    }
-  }
-}
-
 TEST_CASE("iterations are bounded: what did not converge says so") {
   const Patch patch(perforated_grid(16, 16));
   const ConformalEnergy energy = patch.energy(Weights::uniform);

@@ -16,7 +16,7 @@ namespace {
 Solver solver(const Patch& patch, Weights weights = Weights::uniform,
               BoundaryMeasure boundary = BoundaryMeasure::length,
               FactorizationBackend backend = FactorizationBackend::automatic) {
-  return {patch.chart, patch.positions, weights, boundary, backend};
+  return {patch.chart, patch.positions, PatchOptions{weights, boundary, backend}};
 }
 
 Parameterization solve(const Patch& patch, Method method, Weights weights = Weights::uniform) {

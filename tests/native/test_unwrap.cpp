@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "meshes.h"
@@ -11,8 +12,9 @@
 namespace spectral_conformal::test {
 namespace {
 
-Unwrap unwrapped(const Mesh& mesh, const ParameterizeOptions& options = {}, const Pins& pins = {}) {
-  Unwrap result = unwrap(mesh.view(), options, pins, {}, {});
+Unwrap unwrapped(const Mesh& mesh, UnwrapOptions options = {}, const Pins& pins = {}) {
+  options.vertex_pins = pins;
+  Unwrap result = unwrap(mesh.view(), options, {});
   REQUIRE(result.uv.rows() == static_cast<Eigen::Index>(mesh.corners.size()));
   CHECK(result.uv.allFinite());
   for (int face = 0; face < mesh.n_faces(); ++face) {
@@ -35,6 +37,9 @@ double uv_area(const Mesh& mesh, const Unwrap& result, int face) {
   }
   return area;
 }
+
+/// How far two results lie apart, relative to their size.
+double difference_of(const Unwrap& a, const Unwrap& b) { return (a.uv - b.uv).norm() / b.uv.norm(); }
 
 bool says(const std::string& message, const char* what) { return message.find(what) != std::string::npos; }
 
@@ -111,13 +116,13 @@ TEST_CASE("every method and option reaches the solver") {
   const Mesh mesh = perforated_grid(7, 7);
   std::vector<double> eigenvalues;
   for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
-    ParameterizeOptions options;
-    options.method = method;
+    UnwrapOptions options;
+    options.solve.method = method;
     eigenvalues.push_back(unwrapped(mesh, options).charts[0].eigenvalue);
   }
-  ParameterizeOptions inverse, vertex;
-  inverse.weights = Weights::inverse_area;
-  vertex.boundary = BoundaryMeasure::vertex;
+  UnwrapOptions inverse, vertex;
+  inverse.patch.weights = Weights::inverse_area;
+  vertex.patch.boundary = BoundaryMeasure::vertex;
   eigenvalues.push_back(unwrapped(mesh, inverse).charts[0].eigenvalue);
   eigenvalues.push_back(unwrapped(mesh, vertex).charts[0].eigenvalue);
   std::sort(eigenvalues.begin(), eigenvalues.end());
@@ -129,14 +134,106 @@ TEST_CASE("pins go to the charts that have their vertices") {
   Mesh mesh = flat_grid(4, 3);
   Mesh second = bumpy_grid(3, 3);
   mesh.append(second);
-  ParameterizeOptions options;
-  options.method = Method::lscm;
+  UnwrapOptions options;
+  options.solve.method = Method::lscm;
   const Unwrap result = unwrapped(mesh, options, {{0, {5, 6}}, {4, {9, 6}}});
   for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
     if (mesh.corners[c] == 0) CHECK(result.uv.row(c) == Eigen::RowVector2d(5, 6));
     if (mesh.corners[c] == 4) CHECK(result.uv.row(c) == Eigen::RowVector2d(9, 6));
   }
   CHECK((result.charts[0].solved && result.charts[1].solved));
+}
+
+TEST_CASE("an extender acts where a chart has both vertices, on the barycentre of their copies") {
+  Mesh mesh = bumpy_grid(6, 5);
+  const int second = static_cast<int>(mesh.points.size());
+  mesh.append(bumpy_grid(4, 4));
+  UnwrapOptions options;
+  options.extenders = {{0, 41, 0.5}, {2, second + 3, 0.5}, {second, second + 24, 0.0}};
+  const Unwrap result = unwrapped(mesh, options);
+  CHECK(result.unused_extenders == std::vector<bool>{false, true, false});
+  const Unwrap plain = unwrapped(mesh);
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+    const bool in_second = mesh.corners[c] >= second;
+    const double change =
+        (result.uv.row(static_cast<Eigen::Index>(c)) - plain.uv.row(static_cast<Eigen::Index>(c))).norm();
+    if (in_second) CHECK(change == 0);
+  }
+  CHECK(difference_of(result, plain) > 1e-4);
+
+  // A ring cut open: both ends have a copy of vertex 0.
+  Mesh cut = ring(12, 0);
+  for (auto& point : cut.points) point.z() += 0.3 * point.x();
+  cut.seams = {{0, 1}};
+  UnwrapOptions pulled;
+  pulled.extenders = {{0, 12, 1.0}};
+  const Unwrap ring_map = unwrapped(cut, pulled);
+  REQUIRE(ring_map.charts.size() == 1);
+  CHECK(ring_map.charts[0].solved);
+  CHECK_FALSE(ring_map.unused_extenders[0]);
+}
+
+TEST_CASE("hard pins leave extenders without effect, soft ones do not") {
+  const Mesh mesh = bumpy_grid(6, 5);
+  UnwrapOptions options;
+  options.extenders = {{0, 41, 0.5}};
+  const Pins pins{{0, {0, 0}}, {6, {6, 0}}, {41, {6, 5}}};
+  CHECK(unwrapped(mesh, options, pins).unused_extenders[0]);
+  options.solve.soft_pins = 1;
+  CHECK_FALSE(unwrapped(mesh, options, pins).unused_extenders[0]);
+}
+
+TEST_CASE("an unwrapper solves again what unwrap solves afresh") {
+  Mesh mesh = perforated_grid(7, 7);
+  mesh.append(tetrahedron());
+  UnwrapOptions options;
+  const PolygonMesh view = mesh.view();
+  Unwrapper kept(view, options);
+  const double rigidity = 0.5;
+  for (const double strength : {0.0, 1.0, 0.3, -0.05}) {
+    options.extenders = {{0, 63, strength}, {7, 30, 0.1}};
+    options.solve.hole_rigidity = rigidity;
+    const Unwrap fresh = unwrapped(mesh, options);
+    const Unwrap again = kept.solve(options.extenders, rigidity, 1e-8, {});
+    REQUIRE(again.charts.size() == 2);
+    CHECK(again.charts[0].solved);
+    CHECK_FALSE(again.charts[1].solved);
+    CHECK(difference_of(again, fresh) < 1e-6);
+    CHECK(again.unused_extenders == fresh.unused_extenders);
+  }
+  const Progress stop = [](double, const char*) { return false; };
+  CHECK_THROWS_AS(kept.solve({}, 0, 1e-8, stop), Cancelled);
+  CHECK(kept.solve({}, 0, 1e-8, {}).charts[0].solved);
+}
+
+TEST_CASE("an attraction that makes the map wind twice fails and says what to do") {
+  // A flat square: the pair lies symmetrically, and the best map that brings it together is z^2.
+  const Mesh mesh = bumpy_grid(8, 8);
+  UnwrapOptions options;
+  options.extenders = {{20, 60, -1000}};
+  const Unwrap result = unwrapped(mesh, options);
+  CHECK_FALSE(result.charts[0].solved);
+  CHECK(says(result.charts[0].message, "weaken or remove extenders"));
+}
+
+TEST_CASE("a metric of faces is that of their triangles, whichever way they are wound") {
+  Mesh mesh = quad_grid(4, 3);
+  mesh.reverse(5);
+  std::vector<SpaceMetric> metric(static_cast<std::size_t>(mesh.n_faces()), SpaceMetric::Identity());
+  for (SpaceMetric& g : metric) g(0, 0) = 4;
+  UnwrapOptions options;
+  options.metric = metric.data();
+  const Unwrap result = unwrapped(mesh, options);
+  REQUIRE(result.charts[0].solved);
+  // Twice as long along x, so a map of 8 x 3, with the area of 4 x 3.
+  const Eigen::RowVector2d extent = result.uv.colwise().maxCoeff() - result.uv.colwise().minCoeff();
+  CHECK(extent.maxCoeff() == doctest::Approx(8 / std::sqrt(2.0)).epsilon(1e-9));
+  CHECK(extent.minCoeff() == doctest::Approx(3 / std::sqrt(2.0)).epsilon(1e-9));
+  CHECK(result.charts[0].mean_qc == doctest::Approx(2).epsilon(1e-9));
+  metric[3](0, 0) = -1;
+  const Unwrap refused = unwrapped(mesh, options);
+  CHECK_FALSE(refused.charts[0].solved);
+  CHECK(says(refused.charts[0].message, "The metric of face 3 is not positive definite"));
 }
 
 TEST_CASE("repairs are told, duplicates follow their twins") {
@@ -174,7 +271,7 @@ TEST_CASE("faces that are not selected stay out") {
   PolygonMesh view = mesh.view();
   const bool selected[] = {true, false, true};
   view.selected_faces = selected;
-  const Unwrap result = unwrap(view, {}, {}, {}, {});
+  const Unwrap result = unwrap(view, {}, {});
   CHECK(result.chart_of_face == std::vector<int>{0, -1, 1});
   CHECK(std::count(result.solved_corners.begin(), result.solved_corners.end(), true) == 8);
 }
@@ -183,14 +280,14 @@ TEST_CASE("an empty mesh has nothing to unwrap; arrays that do not describe a me
   CHECK(unwrapped({}).charts.empty());
   Mesh broken = quad_grid(1, 1);
   broken.corners[0] = 7;
-  CHECK_THROWS_AS(unwrap(broken.view(), {}, {}, {}, {}), InvalidMesh);
+  CHECK_THROWS_AS(unwrap(broken.view(), {}, {}), InvalidMesh);
 }
 
 TEST_CASE("progress rises from 0 to 1 over all charts and can stop it") {
   const Mesh mesh = mixed_components();
   double last = 0;
   int calls = 0;
-  unwrap(mesh.view(), {}, {}, {}, [&](double fraction, const char*) {
+  unwrap(mesh.view(), {}, [&](double fraction, const char*) {
     CHECK((fraction >= last && fraction <= 1));
     last = fraction;
     ++calls;
@@ -200,7 +297,7 @@ TEST_CASE("progress rises from 0 to 1 over all charts and can stop it") {
   for (const int stop_at : {1, calls / 2, calls}) {
     int call = 0;
     const Progress stop = [&](double, const char*) { return ++call < stop_at; };
-    CHECK_THROWS_AS(unwrap(mesh.view(), {}, {}, {}, stop), Cancelled);
+    CHECK_THROWS_AS(unwrap(mesh.view(), {}, stop), Cancelled);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "spectral_conformal/metric.h"
 #include "spectral_conformal/triangle_shape.h"
 #include "spectral_conformal/types.h"
 
@@ -18,6 +19,8 @@ enum class Weights {
 ///   L_ii += w cot t / 2,  L_jj += w cot t / 2,  L_ij -= w cot t / 2,  L_ji -= w cot t / 2    (Dirichlet, Eq. 3)
 ///   L_ij += i w / 2,      L_ji -= i w / 2                                                    (minus the area form)
 /// The inverse-area weights are relative to the mean area (w = mean / |T|), so that L keeps the same magnitude.
+/// A metric (section 4.3) makes it the quasi-conformal energy: the cotangents are those of the stretched triangles, the
+/// area form does not change.
 class ConformalEnergy {
  public:
   /// positions (V, 3) near unit scale; triangles counter-clockwise; coverage per triangle. The last `n_virtual`
@@ -25,6 +28,12 @@ class ConformalEnergy {
   /// Nearly degenerate triangles are clamped as lay_out does and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
                   std::vector<double> coverage, Weights weights, std::size_t n_virtual = 0);
+  /// The same patch and metric with other weights.
+  ConformalEnergy(const ConformalEnergy& like, Weights weights);
+
+  /// Stretches the triangles by a metric per triangle, on top of the metric they have: its frame is that of
+  /// energy_shape. Clamped triangles are left alone. Precondition: positive definite.
+  void stretch(const std::vector<TriangleMetric>& metric);
 
   const HermitianMatrix& matrix() const { return matrix_; }
   int n_vertices() const { return static_cast<int>(matrix_.rows()); }
@@ -46,20 +55,28 @@ class ConformalEnergy {
   /// Virtual ones included, at the end.
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   std::size_t n_virtual() const { return n_virtual_; }
+  /// In 3D, without the metric.
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
+  /// Stretched by the metric.
+  const TriangleShape& energy_shape(std::size_t triangle) const {
+    return stretched_.empty() ? shapes_[triangle] : stretched_[triangle];
+  }
   const std::vector<double>& coverage() const { return coverage_; }
 
  private:
+  void weigh();
   double weight(std::size_t triangle) const;
   void assemble(int n_vertices);
 
   std::vector<std::array<int, 3>> triangles_;
   std::vector<double> coverage_;
   std::vector<TriangleShape> shapes_;
+  std::vector<TriangleShape> stretched_;  ///< empty without a metric
   Weights weights_;
   std::size_t n_virtual_;
   double weight_unit_ = 1;
   double area_ = 0;
+  double covered_ = 0;  ///< coverage of all triangles, added up
   int clamped_triangles_ = 0;
   HermitianMatrix matrix_;
 };

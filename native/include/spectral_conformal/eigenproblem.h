@@ -3,7 +3,6 @@
 #include "spectral_conformal/boundary_form.h"
 #include "spectral_conformal/conformal_energy.h"
 #include "spectral_conformal/factorization.h"
-#include "spectral_conformal/pin_attraction.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
 
@@ -41,11 +40,5 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 /// by Lanczos in the inner product of L + s M on whole vectors, then inverse iterations that take the shift out.
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress);
-
-/// The same for B^ - Q of a PinAttraction, indefinite too. The corrections stop where a strong attraction would make
-/// them grow; `residual` is the relative size of the last one.
-Eigenpair solve_attracted_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
-                                       const BoundaryForm& form, const PinAttraction& attraction, double shift,
-                                       const EigenproblemOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -7,6 +7,7 @@
 #include "spectral_conformal/boundary_form.h"
 #include "spectral_conformal/charts.h"
 #include "spectral_conformal/conformal_energy.h"
+#include "spectral_conformal/extended_eigenproblem.h"
 #include "spectral_conformal/factorization.h"
 #include "spectral_conformal/lscm.h"
 #include "spectral_conformal/progress.h"
@@ -20,21 +21,23 @@ enum class Method {
   area       ///< B = A (section 3.3)
 };
 
-struct ParameterizeOptions {
-  Method method = Method::spectral;
+/// What is fixed when a Solver is made.
+struct PatchOptions {
   Weights weights = Weights::uniform;
   BoundaryMeasure boundary = BoundaryMeasure::length;
-  double tolerance = 1e-8;  ///< see EigenproblemOptions
-  bool fill_holes = false;  ///< see hole_filling.h
-  double soft_pins = 0;     ///< strength of pins as a soft force (see pin_attraction.h); 0: they are held exactly
   FactorizationBackend backend = FactorizationBackend::automatic;
+  bool fill_holes = false;  ///< see hole_filling.h
+  double area_blend = 0;    ///< 0: keep angles, 1: keep areas, see area_metric
 };
 
 /// What one solve of a Solver may vary.
 struct SolveOptions {
   Method method = Method::spectral;
-  double tolerance = 1e-8;
-  double soft_pins = 0;
+  double tolerance = 1e-8;               ///< see EigenproblemOptions
+  double soft_pins = 0;                  ///< strength of pins as a soft force (see pin_attraction.h); 0: held exactly
+  std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
+  double hole_rigidity = 0;  ///< beta of ExtendedForm::add_spread for every loop but the outer one; likewise
+  bool has_forces() const;   ///< whether extenders or hole rigidity change the form B
 };
 
 struct Parameterization {
@@ -61,12 +64,13 @@ Chart single_patch(const PolygonMesh& mesh);
 class Solver {
  public:
   /// chart: one disk-like patch; positions (V, 3) of its vertices. With `fill_holes` every loop but the outer one is
-  /// closed by virtual triangles. Throws InvalidMesh when why_not_a_disk says so.
-  Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, Weights weights, BoundaryMeasure boundary,
-         FactorizationBackend backend, bool fill_holes = false);
+  /// closed by virtual triangles. metric: one per triangle of the chart, in the frame of its first side, or empty for
+  /// the metric of space. Throws InvalidMesh when why_not_a_disk says so, or a metric is not positive definite.
+  Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
+         const std::vector<TriangleMetric>& metric = {});
 
-  /// Factors L + s M, raising s a hundredfold while rounding breaks the factorisation (bounded).
-  /// Throws SolveFailure. Called by solve where needed.
+  /// Blends the metric where that was asked for, and factors L + s M, raising s a hundredfold while rounding breaks the
+  /// factorisation (bounded). Throws SolveFailure. Called by solve where needed.
   void factorize(const Progress& progress = {});
 
   /// Without pins (for Method::lscm: two farthest boundary vertices) the map is placed (see placement.h), with its area
@@ -77,6 +81,8 @@ class Solver {
   /// a larger shift and another start, then (spectral) with the other boundary form and with the other weights;
   /// `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its equations; where its boundary
   /// winds round more than once, `message` says so. Throws SolveFailure when nothing passes.
+  /// Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them starts
+  /// from the maps of earlier solves.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
@@ -92,7 +98,21 @@ class Solver {
     std::unique_ptr<Factorization> factorization;
     double shift = 0;
   };
+  struct Attempt;
+  /// The eigenvector of one attempt before it is placed, virtual vertices included.
+  struct Eigenvector {
+    ComplexVector z;
+    double lambda = 0;
+    double residual = 0;
+    int solves = 0;
+    const char* why_not = nullptr;  ///< set where it failed
+  };
+  void blend_area(const Progress& progress);
   ShiftedFactor factor_shifted(const BoundaryForm& form, double relative_shift, const Progress& progress);
+  ExtendedForm extended_form(const BoundaryForm& form, const SolveOptions& options, const Pins& attractors) const;
+  Eigenvector attempt(const SolveOptions& options, const Pins& attractors, const BoundaryForm& form,
+                      ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
+  void correct(const BoundaryForm& form, Factorization& factorization, Eigenvector& eigenvector) const;
   Parameterization solve_with_remedies(const SolveOptions& options, const Pins& attractors, const Progress& progress);
   Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
@@ -103,11 +123,14 @@ class Solver {
   double scale_ = 1;     ///< input units per unit of positions_
   std::unique_ptr<ConformalEnergy> energy_;
   BoundaryLoop outer_;
-  BoundaryMeasure boundary_;
+  std::vector<BoundaryLoop> inner_;
+  PatchOptions options_;
   BoundaryForm form_;
-  FactorizationBackend backend_;
   ShiftedFactor factor_;
-  std::string repairs_;  ///< sentences, each with a space behind
+  bool is_blended_ = false;
+  RitzBasis ritz_basis_;    ///< of the last solve with forces and factor_
+  ComplexVector previous_;  ///< the map of the last solve with factor_; empty before
+  std::string repairs_;     ///< sentences, each with a space behind
   std::vector<std::pair<std::string, double>> set_up_timings_;
 };
 

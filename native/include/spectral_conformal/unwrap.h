@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "spectral_conformal/charts.h"
@@ -8,6 +9,28 @@
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal {
+
+/// An extender (section 4.2) between two mesh vertices. It acts in every chart that has copies of both; where a seam
+/// gives a vertex several copies in one chart, on their barycentre, so that symmetric meshes keep symmetric maps.
+struct VertexExtender {
+  int from = 0;
+  int to = 0;
+  double strength = 0;  ///< see Extender
+};
+
+/// The metric of each triangle of a chart from that of each mesh face; empty where `metric` is null.
+std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric);
+
+/// What an unwrap takes besides the mesh.
+struct UnwrapOptions {
+  PatchOptions patch;
+  SolveOptions solve;  ///< its extenders are not looked at
+  std::vector<VertexExtender> extenders;
+  Pins vertex_pins;
+  CornerPins corner_pins;
+  /// (n_faces,) symmetric positive definite on tangent vectors, or null: the metric of each face (section 4.3).
+  const SpaceMetric* metric = nullptr;
+};
 
 struct UnwrappedChart {
   /// Not a number: what a failed chart has no value for.
@@ -34,14 +57,34 @@ struct Unwrap {
   std::vector<bool> solved_corners;                              ///< (C,)
   std::vector<int> chart_of_face;                                ///< (n_faces,)
   std::vector<UnwrappedChart> charts;
+  /// (n extenders,) those without effect: no solved chart has both vertices as different ones, or it is held by its
+  /// pins.
+  std::vector<bool> unused_extenders;
 };
 
 /// Cuts a polygon mesh into charts and parameterises each. What one chart cannot do never stops the others: it is
 /// reported as failed; degenerate faces together make one failed chart, the last. Each chart is placed as by place().
 /// Pins are those of mesh vertices, on all of their copies, and of corners (which win). A chart with several is solved
-/// by pinned LSCM, or, with options.soft_pins, by the spectral method attracted by them; with one it is solved free and
+/// by pinned LSCM, or, with solve.soft_pins, by the spectral method attracted by them; with one it is solved free and
 /// moved onto the pin. Throws InvalidMesh for arrays that do not describe a mesh, and Cancelled.
-Unwrap unwrap(const PolygonMesh& mesh, const ParameterizeOptions& options, const Pins& vertex_pins,
-              const CornerPins& corner_pins, const Progress& progress);
+Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress);
+
+/// The same for several solves that differ in extenders, hole rigidity and tolerance: keeps the charts and their
+/// factors, and every solve starts from the maps of the last.
+class Unwrapper {
+ public:
+  /// The arrays of `mesh` and `options` must outlive this object. Throws InvalidMesh as unwrap does.
+  Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options);
+  ~Unwrapper();
+  Unwrapper(const Unwrapper&) = delete;
+  Unwrapper& operator=(const Unwrapper&) = delete;
+
+  Unwrap solve(const std::vector<VertexExtender>& extenders, double hole_rigidity, double tolerance,
+               const Progress& progress);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace spectral_conformal

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numbers
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Optional, get_args
 
@@ -19,6 +19,9 @@ Weights = Literal["uniform", "inverse_area"]
 Boundary = Literal["length", "vertex"]
 Factorization = Literal["auto", "cholmod", "eigen"]
 Pins = Mapping[int, "tuple[float, float]"]
+Extenders = Iterable["tuple[int, int, float]"]
+"""(vertex, vertex, strength): a soft force of section 4.2 that pushes the two apart, or pulls them together where the
+strength is negative. The strength is a fraction of the boundary's total mass."""
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 _OPTIONS = {
@@ -31,6 +34,9 @@ _OPTIONS = {
 DEFAULT_TOLERANCE = 1e-8
 # Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
 SOFT_PINS_LIMIT = 1e4
+EXTENDER_LIMIT = 1e4
+HOLE_RIGIDITY_LIMIT = 1e4
+_RATIO_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 
 
@@ -122,6 +128,8 @@ class Unwrap:
     chart_of_face: npt.NDArray[np.int32]
     """(faces,) index into charts, -1 for faces that are not selected."""
     charts: list[Chart]
+    unused_extenders: npt.NDArray[np.bool_]
+    """(number of extenders,) those without effect: no solved chart has both vertices, or its pins hold it."""
 
 
 class Solver:
@@ -135,6 +143,8 @@ class Solver:
         weights: Weights = "uniform",
         boundary: Boundary = "length",
         fill_holes: bool = False,
+        metric: npt.ArrayLike | None = None,
+        area_blend: float = 0.0,
         factorization: Factorization = "auto",
         progress: Progress | None = None,
     ) -> None:
@@ -142,7 +152,8 @@ class Solver:
 
         Arguments and errors are those of `parameterize`.
         """
-        self._n_vertices, self._native = _assemble(vertices, triangles, weights, boundary, factorization, fill_holes)
+        options = _patch_options(weights, boundary, factorization, fill_holes, area_blend)
+        self._n_vertices, self._native = _assemble(vertices, triangles, metric, options)
         self._native.factorize(_progress(progress))
 
     def solve(
@@ -151,11 +162,19 @@ class Solver:
         method: Method = "spectral",
         pins: Pins | None = None,
         soft_pins: float = 0.0,
+        extenders: Extenders | None = None,
+        hole_rigidity: float = 0.0,
         tolerance: float = DEFAULT_TOLERANCE,
         progress: Progress | None = None,
     ) -> Parameterization:
-        """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`."""
-        return _solve(self._native, self._n_vertices, method, pins, soft_pins, tolerance, progress)
+        """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`.
+
+        Extenders and hole rigidity change the form B only. A solve with them starts from the earlier maps, so that a
+        small change of strength costs a few solves; the result agrees with a fresh one to the tolerance.
+        """
+        return _solve(
+            self._native, self._n_vertices, method, pins, soft_pins, extenders, hole_rigidity, tolerance, progress
+        )
 
 
 def parameterize(
@@ -167,7 +186,11 @@ def parameterize(
     boundary: Boundary = "length",
     pins: Pins | None = None,
     soft_pins: float = 0.0,
+    extenders: Extenders | None = None,
+    hole_rigidity: float = 0.0,
     fill_holes: bool = False,
+    metric: npt.ArrayLike | None = None,
+    area_blend: float = 0.0,
     tolerance: float = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
     factorization: Factorization = "auto",
@@ -187,8 +210,20 @@ def parameterize(
         soft_pins: for "spectral", strength of a force in B that pulls the pinned vertices towards a similar image of
             their positions, as a fraction of the boundary's total mass; the map then comes with the similarity that
             fits it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: no force.
+        extenders: for "spectral", (vertex, vertex, strength) triples, see `Extenders`; strength at most 1e4 in size.
+        hole_rigidity: for "spectral", 0 to 1e4: how strongly every boundary loop but the longest is kept from shrinking
+            to a point, as a force of its own about its barycentre (section 4.2). At 1 a hole counts like the outer
+            boundary.
         fill_holes: close every boundary loop but the longest by virtual triangles, which keep the holes' shape. They
             count in the eigenvalue and in no measure of the map.
+        metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
+            axis runs from its first to its second corner, the second axis is a quarter turn counter-clockwise from it,
+            seen from where the corners run counter-clockwise. A tangent vector t gets the squared length t G t, and the
+            map is conformal for these lengths: quasi-conformal. The scale of a tensor is without effect. See
+            `metric_from_uv`, `metric_from_direction` and `blend_metric`.
+        area_blend: 0 keeps angles; towards 1 the map gives them up for areas: the patch is unfolded conformally,
+            relaxed towards an isometry, and solved again with the metric of that map, blended with the identity. On top
+            of `metric` where both are given.
         tolerance: relative residual at which the eigenvalue iteration stops, between 1e-14 and 1e-3.
         progress: see `Progress`.
         factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen.
@@ -202,8 +237,9 @@ def parameterize(
         SolveError: no attempt passed the numerical checks.
         Cancelled: `progress` returned False.
     """
-    n_vertices, solver = _assemble(vertices, triangles, weights, boundary, factorization, fill_holes)
-    return _solve(solver, n_vertices, method, pins, soft_pins, tolerance, progress)
+    options = _patch_options(weights, boundary, factorization, fill_holes, area_blend)
+    n_vertices, solver = _assemble(vertices, triangles, metric, options)
+    return _solve(solver, n_vertices, method, pins, soft_pins, extenders, hole_rigidity, tolerance, progress)
 
 
 def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> Distortion:
@@ -243,7 +279,11 @@ def unwrap(
     pinned_corners: npt.ArrayLike | None = None,
     corner_uv: npt.ArrayLike | None = None,
     soft_pins: float = 0.0,
+    extenders: Extenders | None = None,
+    hole_rigidity: float = 0.0,
     fill_holes: bool = False,
+    metric: npt.ArrayLike | None = None,
+    area_blend: float = 0.0,
     tolerance: float = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
     factorization: Factorization = "auto",
@@ -266,7 +306,16 @@ def unwrap(
             nearest. The pin of a chart's vertex is the mean over its pinned corners, and goes before `pins`.
         corner_uv: (C, 2) the map so far, finite where pinned; needed with `pinned_corners`.
         soft_pins: see `parameterize`; charts with pins are then solved by the spectral method.
+        extenders: (vertex, vertex, strength) triples of mesh vertices, see `Extenders`. An extender acts in every chart
+            that has copies of both vertices; where a seam gives a vertex several copies in one chart, it acts on their
+            barycentre. One whose vertices lie in no common chart has no effect, like all in a chart held by hard pins:
+            `Unwrap.unused_extenders` tells.
+        hole_rigidity: see `parameterize`.
         fill_holes: see `parameterize`.
+        metric: (faces, 3, 3) symmetric tensor of space for each face: a tangent vector t gets the squared length t G t
+            and the map is conformal for these lengths; positive definite on the face's plane. For a mesh of triangles
+            also (faces, 2, 2) as in `parameterize`.
+        area_blend: see `parameterize`.
         method: this and the other options as in `parameterize`.
         weights: see `parameterize`.
         boundary: see `parameterize`.
@@ -278,6 +327,239 @@ def unwrap(
         ValueError: the arrays do not describe a mesh.
         Cancelled: `progress` returned False.
     """
+    arguments, n_vertices = _unwrap_arguments(
+        vertices,
+        face_offsets,
+        corner_vertices,
+        seam_edges=seam_edges,
+        selected_faces=selected_faces,
+        method=method,
+        weights=weights,
+        boundary=boundary,
+        pins=pins,
+        pinned_corners=pinned_corners,
+        corner_uv=corner_uv,
+        soft_pins=soft_pins,
+        fill_holes=fill_holes,
+        metric=metric,
+        area_blend=area_blend,
+        factorization=factorization,
+    )
+    return _unwrapped(
+        _native.unwrap(
+            arguments,
+            _extenders(extenders, method, n_vertices),
+            _hole_rigidity(hole_rigidity, method),
+            _tolerance(tolerance),
+            _progress(progress),
+        )
+    )
+
+
+class Unwrapper:
+    """`unwrap` for several solves of one mesh that differ in extenders, hole rigidity and tolerance only.
+
+    Keeps the charts and their factors; every solve starts from the maps of the last. Several threads may share it; they
+    take turns.
+    """
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        face_offsets: npt.ArrayLike,
+        corner_vertices: npt.ArrayLike,
+        *,
+        seam_edges: npt.ArrayLike | None = None,
+        selected_faces: npt.ArrayLike | None = None,
+        method: Method = "spectral",
+        weights: Weights = "uniform",
+        boundary: Boundary = "length",
+        pins: Pins | None = None,
+        pinned_corners: npt.ArrayLike | None = None,
+        corner_uv: npt.ArrayLike | None = None,
+        soft_pins: float = 0.0,
+        fill_holes: bool = False,
+        metric: npt.ArrayLike | None = None,
+        area_blend: float = 0.0,
+        factorization: Factorization = "auto",
+    ) -> None:
+        """Cut the mesh into charts. Arguments and errors are those of `unwrap`."""
+        arguments, self._n_vertices = _unwrap_arguments(
+            vertices,
+            face_offsets,
+            corner_vertices,
+            seam_edges=seam_edges,
+            selected_faces=selected_faces,
+            method=method,
+            weights=weights,
+            boundary=boundary,
+            pins=pins,
+            pinned_corners=pinned_corners,
+            corner_uv=corner_uv,
+            soft_pins=soft_pins,
+            fill_holes=fill_holes,
+            metric=metric,
+            area_blend=area_blend,
+            factorization=factorization,
+        )
+        self._method = method
+        self._native = _native.Unwrapper(arguments)
+
+    def solve(
+        self,
+        *,
+        extenders: Extenders | None = None,
+        hole_rigidity: float = 0.0,
+        tolerance: float = DEFAULT_TOLERANCE,
+        progress: Progress | None = None,
+    ) -> Unwrap:
+        """Solve all charts. See `unwrap`."""
+        return _unwrapped(
+            self._native.solve(
+                _extenders(extenders, self._method, self._n_vertices),
+                _hole_rigidity(hole_rigidity, self._method),
+                _tolerance(tolerance),
+                _progress(progress),
+            )
+        )
+
+
+def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return the metric (F, 2, 2) of a map: J^T J. Solved with it, the map comes back up to a similarity.
+
+    Args:
+        vertices: (V, 3) positions, finite.
+        triangles: (F, 3) vertex indices.
+        uv: (V, 2) image of each vertex, finite. Triangles without area in 3D get the identity.
+
+    Raises:
+        ValueError: an array is not of the kind described here, or a triangle's image has no area.
+    """
+    vertices = _vertices(vertices)
+    triangles = _indices(triangles, "triangles", 3, len(vertices))
+    uv = _floats(uv, "uv", 2)
+    if len(uv) != len(vertices):
+        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
+    if not (np.isfinite(vertices[triangles]).all() and np.isfinite(uv[triangles]).all()):
+        raise ValueError("vertices or uv has values that are not finite where a triangle uses them.")
+    metric = _native.metric_from_uv(vertices, triangles, uv)
+    bad = _native.first_not_positive_definite(metric)
+    if bad >= 0:
+        raise ValueError(f"The image of triangle {bad} has no area, so the map has no metric there; unfold it first.")
+    return metric
+
+
+def metric_from_direction(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, directions: npt.ArrayLike, ratios: npt.ArrayLike
+) -> npt.NDArray[np.float64]:
+    """Return the metric (F, 2, 2) under which each triangle is `ratio` times as long along a direction.
+
+    Args:
+        vertices: (V, 3) positions, finite.
+        triangles: (F, 3) vertex indices.
+        directions: (F, 3), or (3,) for all: directions in space, of any length, projected into the triangles' planes.
+            Where one is perpendicular to its triangle the metric is the identity.
+        ratios: (F,), or one for all: positive; above 1 the map gets longer along the direction than across it.
+
+    Raises:
+        ValueError: an array is not of the kind described here.
+    """
+    vertices = _vertices(vertices)
+    triangles = _indices(triangles, "triangles", 3, len(vertices))
+    if not np.isfinite(vertices[triangles]).all():
+        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
+    directions = _broadcast(directions, "directions", (len(triangles), 3))
+    ratios = _broadcast(ratios, "ratios", (len(triangles),))
+    if not (np.isfinite(directions).all() and directions.any(axis=1).all()):
+        raise ValueError("directions must be finite and not zero.")
+    if not ((ratios >= 1.0 / _RATIO_LIMIT) & (ratios <= _RATIO_LIMIT)).all():
+        raise ValueError(f"ratios must lie between {1.0 / _RATIO_LIMIT:g} and {_RATIO_LIMIT:g}.")
+    return _native.metric_from_direction(vertices, triangles, directions, ratios)
+
+
+def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64]:
+    """Return the metric between the identity (amount 0) and `metric` scaled to determinant 1 (amount 1), (F, 2, 2).
+
+    It is the power G^amount, so that half of the way taken twice is the whole way.
+
+    Args:
+        metric: (F, 2, 2) symmetric positive definite tensors.
+        amount: 0 to 1.
+
+    Raises:
+        ValueError: the metric or amount is not of the kind described here.
+    """
+    array = _tensors(metric, 2)
+    return _native.blend_metric(array, _fraction(amount, "amount"))
+
+
+def build_info() -> dict[str, str]:
+    """Return the factorisation library ("factorization") and the BLAS behind it ("blas": file and configuration)."""
+    return _native.build_info()
+
+
+def _patch_options(weights: str, boundary: str, factorization: str, fill_holes: bool, area_blend: float) -> Any:  # noqa: ANN401 - the native class has no stub
+    _check_options(weights=weights, boundary=boundary, factorization=factorization)
+    fill = _flag(fill_holes, "fill_holes")
+    return _native.PatchOptions(weights, boundary, factorization, fill, _fraction(area_blend, "area_blend"))
+
+
+def _assemble(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    metric: npt.ArrayLike | None,
+    options: Any,  # noqa: ANN401 - the native class has no stub
+) -> tuple[int, Any]:
+    vertices = _vertices(vertices)
+    triangles = _indices(triangles, "triangles", 3, len(vertices))
+    return len(vertices), _native.Solver(vertices, triangles, _metric(metric, len(triangles), (2,)), options)
+
+
+def _solve(
+    solver: Any,  # noqa: ANN401 - the native class has no stub
+    n_vertices: int,
+    method: str,
+    pins: Pins | None,
+    soft_pins: float,
+    extenders: Extenders | None,
+    hole_rigidity: float,
+    tolerance: float,
+    progress: Progress | None,
+) -> Parameterization:
+    _check_options(method=method)
+    soft = _soft_pins(soft_pins, method)
+    solution = solver.solve(
+        method,
+        _pins(pins, method, soft, n_vertices),
+        soft,
+        _extenders(extenders, method, n_vertices),
+        _hole_rigidity(hole_rigidity, method),
+        _tolerance(tolerance),
+        _progress(progress),
+    )
+    return Parameterization(**solution)
+
+
+def _unwrap_arguments(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    seam_edges: npt.ArrayLike | None,
+    selected_faces: npt.ArrayLike | None,
+    method: str,
+    weights: str,
+    boundary: str,
+    pins: Pins | None,
+    pinned_corners: npt.ArrayLike | None,
+    corner_uv: npt.ArrayLike | None,
+    soft_pins: float,
+    fill_holes: bool,
+    metric: npt.ArrayLike | None,
+    area_blend: float,
+    factorization: str,
+) -> tuple[Any, int]:
+    """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
     vertices = _vertices(vertices)
     offsets = _index_vector(face_offsets, "face_offsets")
     corners = _indices(corner_vertices, "corner_vertices", None, len(vertices))
@@ -296,64 +578,22 @@ def unwrap(
                 f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
                 f"{selected.shape}."
             )
-    _check_options(method=method, weights=weights, boundary=boundary, factorization=factorization)
+    _check_options(method=method)
+    options = _patch_options(weights, boundary, factorization, fill_holes, area_blend)
     pinned, uv = _corner_pins(pinned_corners, corner_uv, len(corners))
     soft = _soft_pins(soft_pins, method)
-    result = _native.unwrap(
-        vertices,
-        offsets,
-        corners,
-        seams,
-        selected,
-        method,
-        weights,
-        boundary,
-        _pins(pins, method, soft, len(vertices)),
-        pinned,
-        uv,
-        soft,
-        _flag(fill_holes, "fill_holes"),
-        _tolerance(tolerance),
-        factorization,
-        _progress(progress),
+    all_triangles = bool((np.diff(offsets) == 3).all())
+    tensors = _metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
+    pin_list = _pins(pins, method, soft, len(vertices))
+    arguments = _native.UnwrapArguments(
+        vertices, offsets, corners, seams, selected, method, pin_list, pinned, uv, soft, tensors, options
     )
+    return arguments, len(vertices)
+
+
+def _unwrapped(result: dict[str, Any]) -> Unwrap:
     result["charts"] = [Chart(**chart) for chart in result["charts"]]
     return Unwrap(**result)
-
-
-def build_info() -> dict[str, str]:
-    """Return the factorisation library ("factorization") and the BLAS behind it ("blas": file and configuration)."""
-    return _native.build_info()
-
-
-def _assemble(
-    vertices: npt.ArrayLike,
-    triangles: npt.ArrayLike,
-    weights: str,
-    boundary: str,
-    factorization: str,
-    fill_holes: bool,
-) -> tuple[int, Any]:
-    _check_options(weights=weights, boundary=boundary, factorization=factorization)
-    vertices = _vertices(vertices)
-    triangles = _indices(triangles, "triangles", 3, len(vertices))
-    fill = _flag(fill_holes, "fill_holes")
-    return len(vertices), _native.Solver(vertices, triangles, weights, boundary, factorization, fill)
-
-
-def _solve(
-    solver: Any,  # noqa: ANN401 - the native class has no stub
-    n_vertices: int,
-    method: str,
-    pins: Pins | None,
-    soft_pins: float,
-    tolerance: float,
-    progress: Progress | None,
-) -> Parameterization:
-    _check_options(method=method)
-    soft = _soft_pins(soft_pins, method)
-    pin_list = _pins(pins, method, soft, n_vertices)
-    return Parameterization(**solver.solve(method, pin_list, soft, _tolerance(tolerance), _progress(progress)))
 
 
 def _check_options(**options: object) -> None:
@@ -432,6 +672,84 @@ def _soft_pins(strength: float, method: str) -> float:
     if strength > 0.0 and method != "spectral":
         raise ValueError(f"soft_pins need the method 'spectral', not '{method}'.")
     return float(strength)
+
+
+def _hole_rigidity(strength: float, method: str) -> float:
+    if not (isinstance(strength, numbers.Real) and 0.0 <= strength <= HOLE_RIGIDITY_LIMIT):
+        raise ValueError(f"hole_rigidity must lie between 0 and {HOLE_RIGIDITY_LIMIT:g}, not {strength!r}.")
+    if strength > 0.0 and method != "spectral":
+        raise ValueError(f"hole_rigidity needs the method 'spectral', not '{method}'.")
+    return float(strength)
+
+
+def _extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float]]:
+    result = []
+    for k, extender in enumerate(() if extenders is None else extenders):
+        try:
+            first, second, strength = extender
+            i, j, strength = operator.index(first), operator.index(second), float(strength)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
+        if not (0 <= i < n_vertices and 0 <= j < n_vertices):
+            raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
+        if i == j:
+            raise ValueError(f"Extender {k} joins vertex {i} with itself; give it two different vertices.")
+        if not abs(strength) <= EXTENDER_LIMIT:
+            raise ValueError(
+                f"The strength of extender {k} must lie between {-EXTENDER_LIMIT:g} and {EXTENDER_LIMIT:g}, "
+                f"not {strength!r}."
+            )
+        result.append((i, j, strength))
+    if result and method != "spectral":
+        raise ValueError(f"extenders need the method 'spectral', not '{method}'.")
+    return result
+
+
+def _fraction(value: float, name: str) -> float:
+    if not (isinstance(value, numbers.Real) and 0.0 <= value <= 1.0):
+        raise ValueError(f"{name} must lie between 0 and 1, not {value!r}.")
+    return float(value)
+
+
+def _metric(metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...]) -> npt.NDArray[np.float64] | None:
+    """Check one tensor per face, of one of the sizes; what makes it definite in a face's plane is checked there."""
+    if metric is None:
+        return None
+    array = _array(metric, "metric")
+    size = array.shape[-1] if array.ndim == 3 and array.shape[-1] in sizes else sizes[0]
+    tensors = _tensors(array, size)
+    if len(tensors) != n_faces:
+        raise ValueError(f"metric has {len(tensors)} tensors, but there are {n_faces} faces.")
+    return tensors
+
+
+def _tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
+    array = _array(metric, "metric")
+    if array.dtype.kind not in "fiu" or array.ndim != 3 or array.shape[1:] != (size, size):
+        raise ValueError(
+            f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
+        )
+    tensors = np.ascontiguousarray(array, dtype=np.float64)
+    if not np.isfinite(tensors).all():
+        raise ValueError("metric has values that are not finite.")
+    size_of = np.abs(tensors).max(axis=(1, 2), initial=0.0)
+    if (np.abs(tensors - tensors.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0) > 1e-9 * size_of).any():
+        raise ValueError("metric must be symmetric.")
+    if size == 2:
+        bad = _native.first_not_positive_definite(tensors)
+        if bad >= 0:
+            raise ValueError(f"The metric of triangle {bad} is not positive definite: {tensors[bad].tolist()}.")
+    return tensors
+
+
+def _broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+    array = _array(values, name)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+    try:
+        return np.ascontiguousarray(np.broadcast_to(array, shape), dtype=np.float64)
+    except ValueError as error:
+        raise ValueError(f"{name} must have the shape {shape}, not {array.shape}.") from error
 
 
 def _corner_pins(
