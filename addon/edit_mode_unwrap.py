@@ -40,11 +40,13 @@ class Outcome:
         summary: totals over all meshes.
         without_bounds: number of islands that could not be kept in place.
         notes: what the user should know about the objects.
+        warnings: what the user asked for and did not get.
     """
 
     summary: reporting.Summary
     without_bounds: int = 0
     notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
 
 def unwrap(
@@ -100,7 +102,7 @@ def write(
     """
     summary = reporting.summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     if summary.solved == 0:
-        return Outcome(summary, notes=_notes(edit_meshes, settings))
+        return Outcome(summary, 0, _notes(edit_meshes, settings), _warnings(edit_meshes, settings, solutions))
     placement = unwrapping.place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
     solved = [
         (edit_mesh, uv, solution)
@@ -108,7 +110,25 @@ def write(
         if solution.solved_corners.any()
     ]
     _write(context, solved, None if settings.keep_in_place else settings.margin)
-    return Outcome(summary, placement.without_bounds, _notes(edit_meshes, settings))
+    return Outcome(
+        summary,
+        placement.without_bounds,
+        _notes(edit_meshes, settings),
+        _warnings(edit_meshes, settings, solutions),
+    )
+
+
+def _warnings(
+    edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[unwrapping.Solution]
+) -> tuple[str, ...]:
+    """Return what extenders and stretching could not do."""
+    warnings = [
+        reporting.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
+        reporting.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
+    ]
+    if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
+        warnings.append(reporting.NO_ACTIVE_EDGE)
+    return tuple(filter(None, warnings))
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from itertools import compress
 import bmesh
 import bpy
 import numpy as np
-from bmesh.types import BMesh, BMLayerItem
+from bmesh.types import BMEdge, BMesh, BMLayerItem
 
 from . import active_image, compatibility, names, subdivision_surface
 from .core.polygon_mesh import PolygonMesh
@@ -16,12 +16,16 @@ from .core.subdivision import Subdivision, subdivision
 
 @dataclass
 class EditMesh:
-    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is to be solved in its stead."""
+    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is to be solved in its stead.
+
+    `broken_extenders` are the names of those that lack a vertex.
+    """
 
     edit_object: bpy.types.Object
     mesh: bpy.types.Mesh
     polygons: PolygonMesh
     subdivision: Subdivision | None = None
+    broken_extenders: tuple[str, ...] = ()
 
 
 def read(
@@ -52,12 +56,23 @@ def read(
             polygons = replace(polygons, pinned_corners=compatibility.pinned_corners(copy))
             if by_uv_selection:
                 _restrict_to_selected_uvs(polygons, compatibility.selected_uv_corners(bm, layer))
+        polygons = replace(polygons, stretch_direction=_active_edge(bm))
         if correct_aspect:
             polygons = replace(polygons, aspect=active_image.aspect(edit_object, bm))
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
         bpy.data.meshes.remove(copy)
     return EditMesh(edit_object, mesh, polygons, subdivided)
+
+
+def _active_edge(bm: BMesh) -> np.ndarray | None:
+    """Return the direction of the active edge, (3,); None without one that has a length."""
+    active = bm.select_history.active
+    if not isinstance(active, BMEdge):
+        return None
+    direction = np.array(active.verts[1].co - active.verts[0].co, dtype=np.float64)
+    length = np.linalg.norm(direction)
+    return direction / length if np.isfinite(length) and length > 0.0 else None
 
 
 def _restrict_to_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarray) -> None:

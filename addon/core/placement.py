@@ -124,7 +124,7 @@ def to_former_area(
     """
     result = np.array(uv, dtype=np.float64)
     number = chart.max() + 1
-    area, former_area = (_areas(points, chart, face_offsets, number) for points in (result, former))
+    area, former_area = (areas(points, chart, face_offsets, number) for points in (result, former))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         scale = np.sqrt(former_area / area)
     scale[~(np.isfinite(scale) & (scale > 0.0))] = 1.0
@@ -137,8 +137,8 @@ def to_former_area(
     return result
 
 
-def _areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
-    """Return the area of each of `number` charts, the areas of its faces added up, (number,)."""
+def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
+    """Return the area of each of `number` charts, whichever way its faces are wound, (number,)."""
     first, end = face_offsets[:-1], face_offsets[1:]
     following = np.arange(1, len(uv) + 1)
     following[end - 1] = first
@@ -147,6 +147,32 @@ def _areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: 
     cross = local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0]
     inside = chart[first] >= 0
     return np.bincount(chart[first][inside], np.abs(np.add.reduceat(cross, first))[inside] / 2.0, minlength=number)
+
+
+def turned_onto(uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Scale every chart k by scale[k], turn and move it as near to its place in `reference` (C, 2) as it gets.
+
+    Near in the sense of least squares over the corners. Returns a copy of `uv`, (C, 2) float64.
+    """
+    result = np.array(uv, dtype=np.float64)
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result
+    count = np.diff(np.append(charts.starts, len(charts.corners)))
+    number = chart[charts.corners[charts.starts]]
+
+    def centred(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        values = points[charts.corners, 0] + 1j * points[charts.corners, 1]
+        centre = np.add.reduceat(values, charts.starts) / count
+        return values - centre[charts.rank], centre
+
+    moved, _ = centred(result)
+    target, centre = centred(reference)
+    along = np.add.reduceat(np.conj(moved) * target, charts.starts)
+    turn = np.where(along == 0.0, 1.0, along) / np.where(along == 0.0, 1.0, np.abs(along))
+    placed = (scale[number] * turn)[charts.rank] * moved + centre[charts.rank]
+    result[charts.corners] = np.stack([placed.real, placed.imag], axis=1)
+    return result
 
 
 def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:

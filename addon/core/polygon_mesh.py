@@ -19,6 +19,8 @@ class PolygonMesh:
         uv: (C, 2) float64, the map before; None where the mesh has no UV map.
         pinned_corners: (C,) bool, the corners whose place in `uv` is to be kept; None for none.
         aspect: width over height of the image that the map is for.
+        extenders: (vertex, vertex, strength) of every soft force between two vertices.
+        stretch_direction: (3,) float64, of length 1, the direction along which the map may be stretched; None for none.
     """
 
     vertices: np.ndarray
@@ -29,6 +31,8 @@ class PolygonMesh:
     uv: np.ndarray | None = None
     pinned_corners: np.ndarray | None = None
     aspect: float = 1.0
+    extenders: tuple[tuple[int, int, float], ...] = ()
+    stretch_direction: np.ndarray | None = None
 
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""

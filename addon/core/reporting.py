@@ -12,6 +12,7 @@ from .unwrapping import Solution
 
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
+NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
@@ -106,6 +107,23 @@ def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequenc
         if is_negative:
             return "Object has negative scale, unwrap will operate on a non-flipped version of the mesh"
     return ""
+
+
+def broken_extenders(names: Sequence[str]) -> str:
+    """Return the sentence for extenders that lack a vertex; empty for none."""
+    if not names:
+        return ""
+    return f"Skipped {_count(len(names), 'extender')} whose vertex is gone: {', '.join(names)}"
+
+
+def unused_extenders(count: int) -> str:
+    """Return the sentence for extenders that no island could use; empty for none."""
+    if count == 0:
+        return ""
+    return (
+        f"{_count(count, 'extender')} had no effect: both vertices must lie in one unwrapped island, "
+        "which pins must not hold"
+    )
 
 
 def count_failed(solutions: Sequence[Solution]) -> tuple[int, int]:

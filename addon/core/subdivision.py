@@ -65,5 +65,7 @@ def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.n
         uv=carried(coarse.uv),
         pinned_corners=carried(coarse.pinned_corners),
         aspect=coarse.aspect,
+        extenders=coarse.extenders,
+        stretch_direction=coarse.stretch_direction,
     )
     return Subdivision(coarse, mesh, face_of_face, corner)

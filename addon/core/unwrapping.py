@@ -15,13 +15,17 @@ Progress = Callable[[float, str], "bool | None"]
 
 @dataclass(frozen=True)
 class Options:
-    """Options of `spectral_conformal.unwrap`, by the names and values it documents."""
+    """Options of `spectral_conformal.unwrap`, by the names and values it documents, as far as nothing else is said."""
 
     method: str = "spectral"
     weights: str = "uniform"
     boundary: str = "length"
     fill_holes: bool = False
     soft_pins: float = 0.0
+    hole_rigidity: float = 0.0
+    area_blend: float = 0.0
+    stretch: float = 1.0
+    """How much longer the map is along `PolygonMesh.stretch_direction` than across it, where the mesh has one."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,7 @@ class Solution:
         charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them.
         failed_faces: (F,) bool, the faces of failed charts.
         error: why the whole mesh was refused; empty if it was not.
+        unused_extenders: number of the mesh's extenders that no solved chart could use.
     """
 
     uv: np.ndarray
@@ -41,6 +46,7 @@ class Solution:
     charts: Sequence[Any]
     failed_faces: np.ndarray
     error: str = ""
+    unused_extenders: int = 0
 
     @property
     def solved_corners(self) -> np.ndarray:
@@ -70,13 +76,8 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
             mesh.vertices,
             mesh.face_offsets,
             mesh.corner_vertices,
-            seam_edges=mesh.seam_edges,
-            selected_faces=mesh.selected_faces,
-            method=options.method,
-            weights=options.weights,
-            boundary=options.boundary,
-            **_pins(mesh, options),
-            fill_holes=options.fill_holes,
+            **forces(mesh, options),
+            **arguments(mesh, options),
             progress=progress,
         )
     except ValueError as error:
@@ -85,8 +86,55 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
     chart_of_corner = result.chart_of_face[mesh.face_of_corner()]
     failed = np.array([chart.status != "solved" for chart in result.charts] + [False])
     return Solution(
-        result.uv, np.where(result.solved_corners, chart_of_corner, -1), result.charts, failed[result.chart_of_face]
+        result.uv,
+        np.where(result.solved_corners, chart_of_corner, -1),
+        result.charts,
+        failed[result.chart_of_face],
+        unused_extenders=_count_unused(mesh, result.unused_extenders),
     )
+
+
+def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the keyword arguments that `spectral_conformal.unwrap` and `Unwrapper` share."""
+    stretched = mesh.stretch_direction is not None and options.stretch != 1.0
+    return {
+        "seam_edges": mesh.seam_edges,
+        "selected_faces": mesh.selected_faces,
+        "method": options.method,
+        "weights": options.weights,
+        "boundary": options.boundary,
+        "fill_holes": options.fill_holes,
+        "area_blend": options.area_blend,
+        "metric": _stretched_space(mesh, options.stretch) if stretched else None,
+        **_pins(mesh, options),
+    }
+
+
+def forces(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the keyword arguments that `spectral_conformal.unwrap` shares with `Unwrapper.solve`."""
+    # Only the spectral method has a form that forces could change.
+    if options.method != "spectral":
+        return {}
+    return {"extenders": mesh.extenders, "hole_rigidity": options.hole_rigidity}
+
+
+def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
+    """Count the unused extenders of which a vertex is being unwrapped: the others were not meant."""
+    if not unused.any():
+        return 0
+    unwrapped = np.zeros(len(mesh.vertices), dtype=bool)
+    unwrapped[mesh.corner_vertices[mesh.selected_faces[mesh.face_of_corner()]]] = True
+    ends = np.array([(i, j) for i, j, _ in mesh.extenders])
+    return int(np.count_nonzero(unused & unwrapped[ends].any(axis=1)))
+
+
+def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
+    """Return the metric of the mesh as it would be, stretched in space along its direction, (F, 3, 3) float64.
+
+    Unlike a direction projected to every face, it fades where faces lean away from the direction.
+    """
+    metric = np.eye(3) + (stretch**2 - 1.0) * np.outer(mesh.stretch_direction, mesh.stretch_direction)
+    return np.broadcast_to(metric, (len(mesh.selected_faces), 3, 3))
 
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:

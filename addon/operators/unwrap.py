@@ -34,6 +34,31 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         name="Fill Holes",
         description="Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
     )
+    hole_rigidity: FloatProperty(
+        name="Hole Rigidity",
+        description="How strongly holes are kept from shrinking to a point, at 1 they count like the island's border",
+        default=0.0,
+        min=0.0,
+        soft_max=10.0,
+        max=1e4,
+    )
+    area_blend: FloatProperty(
+        name="Angle to Area",
+        description="0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",
+        default=0.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    stretch: FloatProperty(
+        name="Stretch Along Active Edge",
+        description="How much longer the islands get along the direction of the active edge than across it",
+        default=1.0,
+        min=0.01,
+        soft_min=0.25,
+        soft_max=4.0,
+        max=100.0,
+    )
     use_subsurf_data: BoolProperty(
         name="Use Subdivision Surface",
         description="Map UVs taking vertex position after Subdivision Surface modifier has been applied",
@@ -83,6 +108,12 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         row.active = self.method == "SPECTRAL"
         row.prop(self, "boundary")
         layout.prop(self, "fill_holes")
+        row = layout.row()
+        row.active = self.method == "SPECTRAL"
+        row.prop(self, "hole_rigidity")
+        layout.separator()
+        layout.prop(self, "area_blend")
+        layout.prop(self, "stretch")
         layout.separator()
         layout.prop(self, "use_subsurf_data")
         layout.separator()
@@ -168,6 +199,9 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
                 self.boundary.lower(),
                 fill_holes=self.fill_holes,
                 soft_pins=self.soft_pin_strength if self.soft_pins and self.method == "SPECTRAL" else 0.0,
+                hole_rigidity=self.hole_rigidity,
+                area_blend=self.area_blend,
+                stretch=self.stretch,
             ),
             keep_in_place=self.placement == names.KEEP,
             margin=Margin(self.margin, self.margin_method),
@@ -187,6 +221,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
             ("INFO", reporting.remedies(summary)),
             ("INFO", reporting.pinned(summary)),
             ("INFO", reporting.information(summary, seconds) if summary.solved else ""),
+            *(("WARNING", warning) for warning in outcome.warnings),
             ("WARNING", reporting.without_bounds(outcome.without_bounds)),
             ("WARNING", reporting.failures(summary)),
         )

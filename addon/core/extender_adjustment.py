@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The map of the islands that an extender acts on, followed while its strength changes."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from . import live, native, placement, unwrapping
+from .polygon_mesh import PolygonMesh
+
+# Relative residual that the map on screen needs; a pixel is a thousandth of it.
+_TOLERANCE = 1e-5
+
+
+class AdjustmentError(ValueError):
+    """The extender cannot be adjusted; the message says why and what to do."""
+
+
+class ExtenderAdjustment:
+    """Solves the charts of one mesh again for every strength of one of its extenders, and keeps their place and size.
+
+    Charts and factors are kept, so that a change costs a few solves with them.
+
+    Attributes:
+        corners: (N,) intp, the corners of the charts that the extender acts on, whole faces.
+    """
+
+    def __init__(self, mesh: PolygonMesh, options: unwrapping.Options, extender: tuple[int, int]) -> None:
+        """Take the charts of `mesh` that hold both vertices of `extender`.
+
+        Extenders of `mesh` between the same two vertices give way to the one adjusted.
+
+        Raises:
+            AdjustmentError: no chart holds both vertices.
+            NativeModuleError: `spectral_conformal` cannot be imported.
+        """
+        faces = _faces_of_charts(mesh, extender)
+        if not faces.any():
+            raise AdjustmentError(
+                "The extender has no effect: its vertices lie in no common island; remove the seams between them"
+            )
+        self._mesh = replace(mesh, selected_faces=faces)
+        self._options = options
+        self._extender = extender
+        self._others = [e for e in mesh.extenders if {e[0], e[1]} != set(extender)]
+        self.corners = np.flatnonzero(faces[mesh.face_of_corner()])
+        try:
+            self._unwrapper = native.spectral_conformal().Unwrapper(
+                mesh.vertices,
+                mesh.face_offsets,
+                mesh.corner_vertices,
+                **unwrapping.arguments(self._mesh, replace(options, method="spectral")),
+            )
+        except ValueError as error:
+            raise AdjustmentError(str(error)) from error
+        self._shown: np.ndarray | None = None
+        self._scale: np.ndarray | None = None
+
+    def map(self, strength: float, is_final: bool = False) -> np.ndarray:
+        """Return the map at `corners`, (N, 2) float64, for a strength; `is_final` asks for all digits.
+
+        Raises:
+            AdjustmentError: an island could not be solved at this strength.
+        """
+        result = self._unwrapper.solve(
+            extenders=[*self._others, (*self._extender, strength)],
+            hole_rigidity=self._options.hole_rigidity,
+            **({} if is_final else {"tolerance": _TOLERANCE}),
+        )
+        failed = [chart.message for chart in result.charts if chart.status != "solved"]
+        if failed:
+            raise AdjustmentError(failed[0])
+        if result.unused_extenders[-1]:
+            raise AdjustmentError("The extender has no effect: pins hold its island; unpin it or use soft pins")
+        chart = np.where(result.solved_corners, result.chart_of_face[self._mesh.face_of_corner()], -1)
+        if self._shown is None:
+            self._shown, self._scale = self._start(result.uv, chart, np.array([c.area for c in result.charts]))
+        self._shown = placement.turned_onto(result.uv, self._shown, chart, self._scale)
+        return self._mesh.from_isotropic_uv(self._shown[self.corners])
+
+    def _start(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return where the charts lie before, (C, 2), side by side where the mesh has no map of them, and their scale."""
+        offsets = self._mesh.face_offsets
+        former = self._mesh.isotropic_uv()
+        former = np.zeros_like(uv) if former is None else np.where(np.isfinite(former), former, 0.0)
+        former_area = placement.areas(former, chart, offsets, len(area))
+        mapped = former_area > 0.0
+        start = np.where(mapped[chart][:, None], former, placement.side_by_side(uv, np.where(mapped[chart], -1, chart)))
+        return start, np.sqrt(placement.areas(start, chart, offsets, len(area)) / area)
+
+
+def _faces_of_charts(mesh: PolygonMesh, extender: tuple[int, int]) -> np.ndarray:
+    """Return which faces belong to charts with both vertices, (F,) bool."""
+    chart_of_face = live.chart_of_face(mesh, mesh.selected_faces)
+    face_of_corner = mesh.face_of_corner()
+    charts = [set(chart_of_face[face_of_corner[mesh.corner_vertices == vertex]].tolist()) for vertex in extender]
+    common = (charts[0] & charts[1]) - {-1}
+    return np.isin(chart_of_face, list(common))
