@@ -167,6 +167,12 @@ double largest_step(const std::vector<Element>& elements, const ComplexVector& z
   return largest;
 }
 
+int count_flipped(const std::vector<Element>& elements, const ComplexVector& z) {
+  return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const Element& element) {
+    return element.measured && !(jacobian(element, z).determinant > 0);
+  }));
+}
+
 /// The weight of a triangle's Dirichlet form |f_z|^2 + |f_zbar|^2 in the proxy.
 double stiffness(const Element& element, const Jacobian& j) {
   if (std::isinf(element.softening)) return isometry;
@@ -177,8 +183,8 @@ double stiffness(const Element& element, const Jacobian& j) {
   const double inverse = 1 / smaller;
   const double local_global = 1 + inverse * (1 + inverse * (1 + inverse));
   // It aims at s = 1 in one step, which would crush the surroundings of triangles that are very small in the map, and
-  // then be cut short. With this weight such a triangle grows to at most about 1 + 1 / 0.3 times its size.
-  const double growth = 0.3 * (inverse * inverse) * (inverse * inverse);
+  // then be cut short. With this weight such a triangle grows to at most about 1 + 1 / 0.1 times its size at once.
+  const double growth = 0.1 * (inverse * inverse) * (inverse * inverse);
   return isometry * std::max(local_global, growth);
 }
 
@@ -311,33 +317,42 @@ class Relaxation {
       : elements_(elements), z_(z), proxy_(elements, z.size(), backend) {}
 
   void run(const IsometryOptions& options, const Progress& progress, IsometricMap& result) {
-    constexpr int steps_per_factor = 10;
-    soften();
-    while (result.factorizations < options.max_factorizations) {
-      report(progress, static_cast<double>(result.factorizations) / options.max_factorizations, "relax");
-      directions_.clear();
-      if (!proxy_.factorize(z_, result.factorizations)) return;
-      for (int k = 0; k < steps_per_factor; ++k) {
-        const Step step = descend();
-        if (step.length > 0) ++result.iterations;
-        const bool small = step.relative_fall < options.tolerance;
-        if (small && k == 0 && !soften_less()) return;
-        // A new factor takes larger steps where the energy changes quickly or barriers cut the steps short.
-        if (small || step.relative_fall > quick_fall || step.length < short_step) break;
-        report(progress, static_cast<double>(result.factorizations) / options.max_factorizations, "relax");
-      }
-    }
+    soften(1);
+    descend_to_rest(options, progress, result);
+    if (soft_ == 0) return;
+    // The second round presses harder on triangles that the first one did not pull in. It counts only if that helps.
+    const ComplexVector first = z_;
+    soften(0.5);
+    descend_to_rest(options, progress, result);
+    if (count_flipped(elements_, z_) >= count_flipped(elements_, first)) z_ = first;
   }
 
  private:
   static constexpr double quick_fall = 0.6;
   static constexpr double short_step = 0.03;
-  static constexpr int softening_rounds = 2;
 
   struct Step {
     double length = 0;  ///< relative to the full one; 0 when none lowers the energy
     double relative_fall = 0;
   };
+
+  void descend_to_rest(const IsometryOptions& options, const Progress& progress, IsometricMap& result) {
+    constexpr int steps_per_factor = 10;
+    while (result.factorizations < options.max_factorizations) {
+      const double done = static_cast<double>(result.factorizations) / options.max_factorizations;
+      directions_.clear();
+      if (!proxy_.factorize(z_, result.factorizations)) return;
+      for (int k = 0; k < steps_per_factor; ++k) {
+        report(progress, done, "relax");
+        const Step step = descend();
+        if (step.length > 0) ++result.iterations;
+        const bool small = step.relative_fall < options.tolerance;
+        if (small && k == 0) return;
+        // A new factor takes larger steps where the energy changes quickly or barriers cut the steps short.
+        if (small || step.relative_fall > quick_fall || step.length < short_step) break;
+      }
+    }
+  }
 
   Step descend() {
     constexpr double part_of_largest = 0.9;
@@ -365,25 +380,18 @@ class Relaxation {
   }
 
   /// Softens the triangles without image area, in proportion to their size: as little as their surroundings bear.
-  void soften() {
+  void soften(double share) {
     constexpr double least_softening = 1e-2;
-    const double share = std::pow(0.5, round_);
     soft_ = 0;
     for (Element& element : elements_) {
       const Jacobian j = jacobian(element, z_);
-      if (element.without_area() || (round_ == 0 && element.barrier() && !j.has_area())) {
-        element.softening = share * std::max(j.half_square, least_softening);
-        ++soft_;
-      }
+      // Once a barrier stands, it is kept.
+      if (!element.without_area() && (started_ || !element.barrier() || j.has_area())) continue;
+      element.softening = share * std::max(j.half_square, least_softening);
+      ++soft_;
     }
+    started_ = true;
     energy_ = energy_and_gradient(elements_, z_, gradient_);
-  }
-
-  /// The next round for the triangles that the last one did not pull in; false when there is none.
-  bool soften_less() {
-    if (soft_ == 0 || ++round_ == softening_rounds) return false;
-    soften();
-    return true;
   }
 
   /// Triangles that have gained image area keep it from now on.
@@ -410,7 +418,7 @@ class Relaxation {
   double energy_ = 0;
   ComplexVector gradient_;
   int soft_ = 0;
-  int round_ = 0;
+  bool started_ = false;  ///< barriers stand
 };
 
 /// The factor that gives the measured triangles the mean log scale 0, or 0 when none has image area.
@@ -445,12 +453,6 @@ BestScale best_scale(const std::vector<Element>& elements, const ComplexVector& 
   }
   if (!(weight > 0)) return {};
   return {std::sqrt(std::sqrt(q / p)), 2 * std::sqrt(p) * std::sqrt(q) / weight};
-}
-
-int count_flipped(const std::vector<Element>& elements, const ComplexVector& z) {
-  return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const Element& element) {
-    return element.measured && !(jacobian(element, z).determinant > 0);
-  }));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace spectral_conformal {
 
 struct IsometryOptions {
   /// Stop when a step with a fresh factor takes away less than this part of the energy above that of an isometry.
-  double tolerance = 3e-3;
+  double tolerance = 1e-2;
   /// Bounds the time: each factorisation, with its steps, takes a few times as long as one of the conformal energy.
   int max_factorizations = 20;
 };
