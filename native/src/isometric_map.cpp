@@ -329,7 +329,7 @@ class Relaxation {
 
  private:
   static constexpr double quick_fall = 0.6;
-  static constexpr double short_step = 0.03;
+  static constexpr double short_step = 0.003;
 
   struct Step {
     double length = 0;  ///< relative to the full one; 0 when none lowers the energy
