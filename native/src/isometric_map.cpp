@@ -16,7 +16,7 @@ constexpr double isometry = 4;
 constexpr double virtual_weight = 1e-2;
 /// Of a clamped shape, relative to the mean triangle.
 constexpr double clamped_weight = 1e-6;
-/// A start whose determinant is below this part of the squared norm of its Jacobian (QC above about 1000), or whose
+/// A start whose determinant is below this part of the squared norm of its Jacobian (QC above about 2000), or whose
 /// scale is below 1e-10 of the mean, counts as without image area: its barrier would dominate everything else.
 constexpr double least_determinant = 1e-3;
 constexpr double least_squared_scale = 1e-20;
@@ -151,14 +151,14 @@ double smallest_positive_root(double c0, double c1, double c2) {
   return smallest;
 }
 
-/// The step along `direction` at which the first barrier triangle loses its image area.
+/// The step along `direction` at which the first triangle with image area, however little, loses it.
 double largest_step(const std::vector<Element>& elements, const ComplexVector& z, const ComplexVector& direction) {
   double largest = infinity;
   for (const Element& element : elements) {
-    if (!element.barrier()) continue;
     const auto& [a, b, c] = element.corners;
     const Complex d1 = z[b] - z[a];
     const Complex d2 = z[c] - z[a];
+    if (std::isinf(element.softening) || !(cross(d1, d2) > 0)) continue;
     const Complex change1 = direction[b] - direction[a];
     const Complex change2 = direction[c] - direction[a];
     const double linear = cross(d1, change2) + cross(change1, d2);

@@ -26,7 +26,7 @@ struct IsometricMap {
   double energy_before = 0;  ///< of the input; 0 when no triangle of it could be measured
   double energy = 0;         ///< of z
   int iterations = 0;        ///< steps taken
-  int factorizations = 0;
+  int factorizations = 0;    ///< those repeated because of rounding included
   int flipped =
       0;  ///< triangles, neither virtual nor clamped, without positive image area in z; never more than before
 };
