@@ -27,8 +27,8 @@ struct IsometricMap {
   double energy = 0;         ///< of z
   int iterations = 0;        ///< steps taken
   int factorizations = 0;    ///< those repeated because of rounding included
-  int flipped =
-      0;  ///< triangles, neither virtual nor clamped, without positive image area in z; never more than before
+  /// Triangles of z, neither virtual nor clamped, without positive image area; never more than before.
+  int flipped = 0;
 };
 
 /// Moves a map towards an isometry: minimises the symmetric Dirichlet energy (Smith and Schaefer, Bijective
