@@ -79,7 +79,7 @@ class ExtenderAdjustment:
         return self._mesh.from_isotropic_uv(self._shown[self.corners])
 
     def _start(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return where the charts lie before, (C, 2), side by side where the mesh has no map of them, and their scale."""
+        """Return where the charts lie before, (C, 2), side by side if the mesh has no map of them, and their scale."""
         offsets = self._mesh.face_offsets
         former = self._mesh.isotropic_uv()
         former = np.zeros_like(uv) if former is None else np.where(np.isfinite(former), former, 0.0)

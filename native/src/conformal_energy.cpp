@@ -60,7 +60,7 @@ void ConformalEnergy::assemble(int n_vertices) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& triangle = triangles_[t];
-    const TriangleShape& s = energy_shape(t);
+    const TriangleShape& s = energy_shapes()[t];
     const double half_weight = 0.5 * weight(t);
     const double double_area = s.x1 * s.y2;
     // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
@@ -129,7 +129,7 @@ double ConformalEnergy::value(const ComplexVector& z) const {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     // z^H L z = 2 w E_C = 4 w |T| |f_zbar|^2 = w |4 |T| f_zbar|^2 / (4 |T|)
-    const TriangleShape& s = energy_shape(t);
+    const TriangleShape& s = energy_shapes()[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
   return sum;
@@ -149,7 +149,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    const TriangleShape& s = energy_shape(t);
+    const TriangleShape& s = energy_shapes()[t];
     const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
     const double scale = weight(t) / (4 * s.area());
     sum += scale * std::norm(part);

@@ -10,6 +10,7 @@
 #include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/eigenproblem.h"
 #include "spectral_conformal/hole_filling.h"
+#include "spectral_conformal/isometric_map.h"
 #include "spectral_conformal/pin_attraction.h"
 #include "spectral_conformal/placement.h"
 #include "spectral_conformal/start_vector.h"
@@ -412,7 +413,8 @@ Solver::Eigenvector Solver::attempt(const SolveOptions& settings, const Pins& at
   return result;
 }
 
-Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const Pins& given, const Progress& progress) {
+Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const Pins& given, const Progress& progress,
+                                           ComplexVector* with_virtual) {
   constexpr Attempt attempts[] = {
       {first_relative_shift, 0, 6, 1.0, ""},
       {1e-10, 1, 24, 0.1, "The first solve failed its checks and was repeated with a larger shift and another start. "},
@@ -466,6 +468,7 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
       why = winding(result.turning_number);
       continue;
     }
+    if (with_virtual != nullptr) *with_virtual = eigenvector.z;
     if (&factor == &factor_) previous_ = std::move(eigenvector.z);
     watch.lap("placement");
     result.message = attempt.remedy;
@@ -483,9 +486,28 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
 
 void Solver::blend_area(const Progress& progress) {
   if (is_blended_ || !(options_.area_blend > 0)) return;
-  // TODO
+  Stopwatch watch(set_up_timings_);
+  Solver conformal(*this, energy_->weights(), options_.boundary);
+  conformal.is_blended_ = true;
+  ComplexVector z;
+  conformal.solve_eigenvector({}, {}, part(progress, 0.0, 0.2), &z);
+  const IsometricMap relaxed =
+      relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->coverage(), energy_->n_virtual(),
+                        std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
+  if (relaxed.flipped > 0) {
+    repairs_ += count(relaxed.flipped, "triangle", "triangles") + " of the relaxed map could not be unfolded. ";
+  }
+  std::vector<TriangleMetric> metric;
+  metric.reserve(energy_->triangles().size());
+  for (std::size_t t = 0; t < energy_->triangles().size(); ++t) {
+    const auto& [a, b, c] = energy_->triangles()[t];
+    metric.push_back(
+        blend(metric_of_map(energy_->energy_shapes()[t], relaxed.z[b] - relaxed.z[a], relaxed.z[c] - relaxed.z[a]),
+              options_.area_blend));
+  }
+  energy_->stretch(metric);
   is_blended_ = true;
-  (void)progress;
+  watch.lap("area blend");
 }
 
 Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress) {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -240,6 +241,47 @@ TEST_CASE("progress runs from 0 to 1 and can stop every method") {
       CHECK_THROWS_AS(solver(patch).solve({method}, {}, stop), Cancelled);
     }
   }
+}
+
+TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies between") {
+  const Patch patch(bumpy_grid(12, 10));
+  double last = std::numeric_limits<double>::infinity();
+  for (const double amount : {0.0, 0.5, 1.0}) {
+    PatchOptions options;
+    options.area_blend = amount;
+    Solver blended(patch.chart, patch.positions, options);
+    const Parameterization map = blended.solve({}, {});
+    const Distortion measured = measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, map.z);
+    CHECK(measured.log2_scale_deviation < last);
+    last = measured.log2_scale_deviation;
+    CHECK(std::count(measured.flipped.begin(), measured.flipped.end(), true) == 0);
+    // The map of a metric is conformal for it.
+    if (amount == 1.0) CHECK(map.eigenvalue < 1e-20);
+    // Pinned maps keep to the metric too.
+    const Pins pins{{0, map.z[0]}, {5, map.z[5]}};
+    if (amount == 1.0) CHECK(difference(blended.solve({Method::lscm}, pins).z, map.z) < 1e-8);
+  }
+  const Progress stop = [](double fraction, const char*) { return fraction < 0.3; };
+  PatchOptions options;
+  options.area_blend = 1;
+  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, options).solve({}, {}, stop), Cancelled);
+}
+
+TEST_CASE("the area blend with filled holes") {
+  const Patch patch(perforated_grid(10, 10));
+  PatchOptions options;
+  options.fill_holes = true;
+  options.area_blend = 1;
+  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  CHECK(map.z.size() == patch.positions.rows());
+  CHECK(map.eigenvalue < 1e-20);
+}
+
+TEST_CASE("a metric that is not positive definite is refused") {
+  const Patch patch(bumpy_grid(4, 3));
+  std::vector<TriangleMetric> metric(patch.chart.triangles.size());
+  metric[3] = {1, 2, 1};
+  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, PatchOptions{}, metric), InvalidMesh);
 }
 
 TEST_SUITE_END();

@@ -32,7 +32,7 @@ class ConformalEnergy {
   ConformalEnergy(const ConformalEnergy& like, Weights weights);
 
   /// Stretches the triangles by a metric per triangle, on top of the metric they have: its frame is that of
-  /// energy_shape. Clamped triangles are left alone. Precondition: positive definite.
+  /// energy_shapes. Clamped triangles are left alone. Precondition: positive definite.
   void stretch(const std::vector<TriangleMetric>& metric);
 
   const HermitianMatrix& matrix() const { return matrix_; }
@@ -58,9 +58,7 @@ class ConformalEnergy {
   /// In 3D, without the metric.
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
   /// Stretched by the metric.
-  const TriangleShape& energy_shape(std::size_t triangle) const {
-    return stretched_.empty() ? shapes_[triangle] : stretched_[triangle];
-  }
+  const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
   const std::vector<double>& coverage() const { return coverage_; }
 
  private:

@@ -27,7 +27,9 @@ struct PatchOptions {
   BoundaryMeasure boundary = BoundaryMeasure::length;
   FactorizationBackend backend = FactorizationBackend::automatic;
   bool fill_holes = false;  ///< see hole_filling.h
-  double area_blend = 0;    ///< 0: keep angles, 1: keep areas, see area_metric
+  /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
+  /// (isometric_map.h), and its metric, blended with the identity, is that of all solves (section 4.3).
+  double area_blend = 0;
 };
 
 /// What one solve of a Solver may vary.
@@ -114,7 +116,9 @@ class Solver {
                       ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
   void correct(const BoundaryForm& form, Factorization& factorization, Eigenvector& eigenvector) const;
   Parameterization solve_with_remedies(const SolveOptions& options, const Pins& attractors, const Progress& progress);
-  Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress);
+  /// `with_virtual` gets the map of all vertices, virtual ones included, at no particular place and scale.
+  Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress,
+                                     ComplexVector* with_virtual = nullptr);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
   double lambda_unit(Method method) const;
 

@@ -1,0 +1,207 @@
+"""Extenders and hole rigidity (section 4.2)."""
+
+import meshes
+import numpy as np
+import pytest
+import reference
+import scipy.linalg
+import spectral_conformal as sc
+
+
+def cap(n, height=1.2):
+    """A curved square patch on n x n vertices, without symmetry; the same surface for every n."""
+    t = np.linspace(-1, 1, n)
+    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
+    z = height * np.exp(-3 * ((x - 0.2) ** 2 + (y + 0.1) ** 2)) + 0.2 * np.sin(2 * x + y)
+    quads = meshes.grid_quads(n, n)
+    return np.c_[x, y, z], np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
+
+
+def at(n, x, y):
+    """The vertex of `cap` at a place in [-1, 1] x [-1, 1]."""
+    i, j = (round((c + 1) / 2 * (n - 1)) for c in (x, y))
+    return i * n + j
+
+
+def distance(uv, i, j):
+    return np.linalg.norm(uv[i] - uv[j])
+
+
+def hat(around=64, rings=16, stack=12, radius=0.35, height=0.5, tear=0.25):
+    """A brim with a crown whose torn edge is longer than the brim, so that it is taken for the outer boundary."""
+    angle = np.arange(around) * 2 * np.pi / around
+    profile = [(r, 0.0) for r in np.linspace(1, radius, rings)]
+    profile += [(radius, h) for h in np.linspace(0, height, stack)[1:]]
+    torn = 1 + tear / height * (np.arange(around) % 2)
+    vertices = [
+        (r * np.cos(a), r * np.sin(a), h * (1 + (t - 1) * (h / height) ** 3))
+        for r, h in profile
+        for a, t in zip(angle, torn)
+    ]
+    k, i = (a.ravel() for a in np.meshgrid(np.arange(len(profile) - 1), np.arange(around), indexing="ij"))
+    a, b = k * around + i, k * around + (i + 1) % around
+    return np.array(vertices), np.r_[np.c_[a, b, b + around], np.c_[a, b + around, a + around]]
+
+
+@pytest.mark.parametrize("factorization", ["auto", "eigen"])
+def test_strength_zero_changes_nothing(factorization):
+    vertices, triangles = meshes.bumpy_disk(600, holes=2)
+    plain = sc.parameterize(vertices, triangles, factorization=factorization)
+    same = sc.parameterize(
+        vertices, triangles, extenders=[(3, 90, 0.0), (7, 50, 0.0)], hole_rigidity=0.0, factorization=factorization
+    )
+    np.testing.assert_array_equal(same.uv, plain.uv)
+
+
+@pytest.mark.parametrize("strength", [0.3, 5.0, -0.05])
+def test_is_the_eigenvector_of_the_form_with_the_force(strength):
+    vertices, triangles = meshes.bumpy_disk(300, holes=2)
+    pair, other = (5, 250), (40, 200)
+    matrix = reference.conformal_energy_matrix(vertices, triangles).toarray()
+    mass = reference.boundary_masses(vertices, triangles)
+    form = np.diag(mass) - np.outer(mass, mass) / mass.sum()
+    for (i, j), alpha in ((pair, strength), (other, 0.5 * strength)):
+        e = np.zeros(len(vertices))
+        e[i], e[j] = 1, -1
+        form = form + alpha * mass.sum() * np.outer(e, e)
+    values, vectors = scipy.linalg.eigh(form, matrix + np.ones_like(matrix))
+    expected = np.c_[vectors[:, -1].real, vectors[:, -1].imag]
+    solution = sc.parameterize(vertices, triangles, extenders=[(*pair, strength), (*other, 0.5 * strength)])
+    assert solution.eigenvalue == pytest.approx(1 / values[-1], rel=1e-7)
+    assert meshes.similarity_deviation(solution.uv, expected) < 1e-6
+
+
+def test_more_strength_moves_the_pair_further_apart():
+    n = 41
+    vertices, triangles = cap(n)
+    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
+    solver = sc.Solver(vertices, triangles)
+    strengths = [-0.15, -0.05, 0.0, 0.05, 0.5, 2.0, 10.0, 100.0]
+    distances = [distance(solver.solve(extenders=[(i, j, s)]).uv, i, j) for s in strengths]
+    assert np.all(np.diff(distances) > 0)
+
+
+def test_ten_extenders_act_together():
+    n = 31
+    vertices, triangles = cap(n)
+    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
+    solver = sc.Solver(vertices, triangles)
+    one = solver.solve(extenders=[(i, j, 1.0)]).uv
+    ten = solver.solve(extenders=[(i, j, 0.1)] * 10).uv
+    assert meshes.similarity_deviation(ten, one) < 1e-8
+    pairs = [(at(n, -0.9, y), at(n, 0.9, -y)) for y in np.linspace(-0.9, 0.9, 10)]
+    plain = solver.solve().uv
+    spread = solver.solve(extenders=[(*pair, 1.0) for pair in pairs]).uv
+    assert sum(distance(spread, *pair) ** 2 for pair in pairs) > sum(distance(plain, *pair) ** 2 for pair in pairs)
+
+
+def test_scale_and_sampling_do_not_change_the_effect():
+    def effect(n, scale=1.0):
+        vertices, triangles = cap(n)
+        i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
+        solver = sc.Solver(vertices * scale, triangles)
+        return distance(solver.solve(extenders=[(i, j, 3.0)]).uv, i, j) / distance(solver.solve().uv, i, j)
+
+    assert effect(41) > 1.02
+    assert effect(41, scale=1000.0) == pytest.approx(effect(41), rel=1e-8)
+    assert effect(81) == pytest.approx(effect(41), rel=0.05)
+
+
+def test_a_solver_gives_what_a_fresh_solve_gives():
+    n = 41
+    vertices, triangles = cap(n)
+    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
+    solver = sc.Solver(vertices, triangles)
+    for strength in (0.5, 0.6, 20.0, -0.1, 0.6):
+        kept = solver.solve(extenders=[(i, j, strength)])
+        fresh = sc.parameterize(vertices, triangles, extenders=[(i, j, strength)])
+        assert meshes.similarity_deviation(kept.uv, fresh.uv) < 1e-7
+        assert kept.eigenvalue == pytest.approx(fresh.eigenvalue, rel=1e-8)
+
+
+def test_a_small_change_of_strength_takes_few_solves():
+    n = 81
+    vertices, triangles = cap(n)
+    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
+    solver = sc.Solver(vertices, triangles)
+    solver.solve(extenders=[(i, j, 1.0)], tolerance=1e-5)
+    assert solver.solve(extenders=[(i, j, 1.05)], tolerance=1e-5).iterations <= 6
+
+
+def test_rigidity_keeps_a_collapsing_hole_open():
+    vertices, triangles = hat()
+    brim = np.arange(64)
+    solver = sc.Solver(vertices, triangles)
+
+    def brim_length(uv):
+        return np.linalg.norm(uv[np.roll(brim, -1)] - uv[brim], axis=1).sum() / (2 * np.pi)
+
+    collapsed = solver.solve()
+    kept = solver.solve(hole_rigidity=1.0)
+    assert brim_length(collapsed.uv) < 0.2
+    assert brim_length(kept.uv) > 0.9
+    deviation = [sc.distortion(vertices, triangles, s.uv).log2_scale_deviation for s in (collapsed, kept)]
+    assert deviation[1] < 0.6 * deviation[0]
+    assert not sc.distortion(vertices, triangles, kept.uv).flipped.any()
+
+
+def test_unwrap_and_unwrapper_take_extenders_of_mesh_vertices():
+    n = 21
+    vertices, _ = cap(n)
+    offsets, corners = meshes.polygons(meshes.grid_quads(n, n))
+    i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
+    extenders = [(i, j, 2.0)]
+    result = sc.unwrap(vertices, offsets, corners, extenders=extenders)
+    plain = sc.unwrap(vertices, offsets, corners)
+    assert not result.unused_extenders.any()
+    places = [np.flatnonzero(corners == v)[0] for v in (i, j)]
+    assert distance(result.uv, *places) > 1.01 * distance(plain.uv, *places)
+    again = sc.Unwrapper(vertices, offsets, corners).solve(extenders=extenders)
+    assert np.abs(again.uv - result.uv).max() < 1e-6
+
+
+def test_extenders_between_charts_have_no_effect_and_are_told():
+    n = 21
+    vertices, _ = cap(n)
+    offsets, corners = meshes.polygons(meshes.grid_quads(n, n))
+    middle = n // 2
+    seams = [(middle * n + k, middle * n + k + 1) for k in range(n - 1)]
+    i, j = at(n, -0.9, 0), at(n, 0.9, 0)
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seams, extenders=[(i, j, 5.0), (i, i + 3, 5.0)])
+    assert len(result.charts) == 2
+    np.testing.assert_array_equal(result.unused_extenders, [True, False])
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"extenders": [(0, 0, 1.0)]}, "joins vertex 0 with itself"),
+        ({"extenders": [(0, 9999, 1.0)]}, "there are 600 vertices"),
+        ({"extenders": [(0, 1)]}, "triples"),
+        ({"extenders": [(0, 1, float("nan"))]}, "must lie between"),
+        ({"extenders": [(0, 1, 1e5)]}, "must lie between"),
+        ({"extenders": [(0, 1, 1.0)], "method": "fiedler"}, "method 'spectral'"),
+        ({"hole_rigidity": -1.0}, "hole_rigidity must lie between"),
+        ({"hole_rigidity": 1.0, "method": "area"}, "method 'spectral'"),
+    ],
+)
+def test_bad_forces_are_named(options, message):
+    vertices, triangles = meshes.bumpy_disk(600)
+    with pytest.raises(ValueError, match=message):
+        sc.parameterize(vertices, triangles, **options)
+
+
+def test_an_extender_of_an_unused_vertex_is_named():
+    vertices, triangles = meshes.bumpy_disk(600)
+    with pytest.raises(sc.InvalidMeshError, match="Vertex 600 has an extender, but no triangle uses it"):
+        sc.parameterize(np.r_[vertices, [[9, 9, 9]]], triangles, extenders=[(0, 600, 1.0)])
+
+
+def test_a_map_that_winds_round_twice_is_told():
+    n = 21
+    vertices, triangles = cap(n, height=0.2)
+    pair = at(n, -0.5, -0.5), at(n, 0.5, 0.5)
+    solution = sc.parameterize(vertices, triangles, extenders=[(*pair, -1000.0)])
+    assert solution.turning_number == 2
+    assert "weaken the extenders" in solution.message
+    assert distance(solution.uv, *pair) < 0.05 * distance(sc.parameterize(vertices, triangles).uv, *pair)
