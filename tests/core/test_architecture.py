@@ -9,7 +9,18 @@ import pytest
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 CORE = ADDON / "core"
 BLENDER = {"bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "addon_utils"}
-STANDARD = {"collections", "contextlib", "dataclasses", "itertools", "threading", "time", "types", "typing"}
+STANDARD = {
+    "collections",
+    "contextlib",
+    "dataclasses",
+    "hashlib",
+    "itertools",
+    "json",
+    "threading",
+    "time",
+    "types",
+    "typing",
+}
 
 
 def imports(path):
