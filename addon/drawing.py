@@ -102,7 +102,7 @@ def _arrows(context: bpy.types.Context, places_of: Callable[..., _Places]) -> It
     yield from last
 
 
-def _colors(extender: extenders.SpectralExtender, is_active: bool) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _colors(extender: bpy.types.PropertyGroup, is_active: bool) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return the colour of an arrow and of its outline; those of an extender that is off are dimmed."""
     pair = (_REPEL if extender.strength >= 0.0 else _ATTRACT, _ACTIVE_OUTLINE if is_active else _OUTLINE)
     return tuple(color if extender.use else (*color[:3], color[3] * _DIMMED) for color in pair)

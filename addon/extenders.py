@@ -15,7 +15,6 @@ import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem
-from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
 
 from . import names
 from .core import extenders as core
@@ -34,45 +33,8 @@ class _Session:
 _session = _Session()
 
 
-def _on_change(extender: "SpectralExtender", _context: bpy.types.Context) -> None:
-    if not _session.is_writing:
-        _mark(extender.id_data)
-
-
-def _on_rename(extender: "SpectralExtender", _context: bpy.types.Context) -> None:
-    if _session.is_writing:
-        return
-    mesh = extender.id_data
-    # Collection members have no identity in Python; the path is one.
-    others = [other.name for other in of(mesh) if other.path_from_id() != extender.path_from_id()]
-    with _writing():
-        extender.name = core.unique_name(extender.name or names.EXTENDER_NAME, others)
-    _mark(mesh)
-
-
-class SpectralExtender(bpy.types.PropertyGroup):
-    """One extender of a mesh."""
-
-    name: StringProperty(name="Name", description="Name of the extender", update=_on_rename)
-    strength: FloatProperty(
-        name="Strength",
-        description=names.EXTENDER_STRENGTH_DESCRIPTION,
-        default=1.0,
-        min=-1e4,
-        max=1e4,
-        soft_min=-10.0,
-        soft_max=10.0,
-        update=_on_change,
-    )
-    use: BoolProperty(
-        name="Use", description="Let the extender act on the next unwrap", default=True, update=_on_change
-    )
-    first_id: IntProperty(name="First Vertex", description="Identifier of its first vertex", options={"HIDDEN"})
-    second_id: IntProperty(name="Second Vertex", description="Identifier of its second vertex", options={"HIDDEN"})
-
-
-def of(mesh: bpy.types.Mesh) -> Sequence[SpectralExtender]:
-    """Return the list of extenders of a mesh."""
+def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
+    """Return the list of extenders of a mesh, each with the attributes of `core.extenders.Extender`."""
     return getattr(mesh, names.EXTENDERS_PROPERTY)
 
 
@@ -82,7 +44,7 @@ def active_index(mesh: bpy.types.Mesh) -> int:
     return index if 0 <= index < len(of(mesh)) else -1
 
 
-def active(mesh: bpy.types.Mesh) -> SpectralExtender | None:
+def active(mesh: bpy.types.Mesh) -> bpy.types.PropertyGroup | None:
     """Return the extender that is active in the panel."""
     index = active_index(mesh)
     return of(mesh)[index] if index >= 0 else None
@@ -96,6 +58,24 @@ def set_active(mesh: bpy.types.Mesh, index: int) -> None:
 def set_strength(mesh: bpy.types.Mesh, index: int, strength: float) -> None:
     """Set the strength of an extender, so that an undo step pushed afterwards knows it."""
     of(mesh)[index].strength = strength
+
+
+def changed(extender: bpy.types.PropertyGroup) -> None:
+    """Note that an extender has been changed through its properties."""
+    if not _session.is_writing:
+        _mark(extender.id_data)
+
+
+def renamed(extender: bpy.types.PropertyGroup) -> None:
+    """Note that an extender has been renamed through its properties, and give it a name of its own."""
+    if _session.is_writing:
+        return
+    # Members of a collection have no identity in Python; the path is one.
+    path = extender.path_from_id()
+    others = [other.name for other in of(extender.id_data) if other.path_from_id() != path]
+    with _writing():
+        extender.name = core.unique_name(extender.name or names.EXTENDER_NAME, others)
+    _mark(extender.id_data)
 
 
 def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
@@ -284,20 +264,3 @@ def _writing() -> Iterator[None]:
         yield
     finally:
         _session.is_writing = False
-
-
-def register() -> None:
-    """Add the properties to meshes."""
-    bpy.utils.register_class(SpectralExtender)
-    setattr(bpy.types.Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name="Extenders"))
-    active_extender = IntProperty(name="Active Extender", description="The extender chosen in the panel", min=0)
-    setattr(bpy.types.Mesh, names.ACTIVE_EXTENDER_PROPERTY, active_extender)
-    setattr(bpy.types.Mesh, names.EXTENDER_LAYER_PROPERTY, StringProperty(options={"HIDDEN"}))
-
-
-def unregister() -> None:
-    """Remove the properties; their values stay in the file."""
-    forget()
-    for name in (names.EXTENDER_LAYER_PROPERTY, names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
-        delattr(bpy.types.Mesh, name)
-    bpy.utils.unregister_class(SpectralExtender)

@@ -23,6 +23,8 @@ ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
 EXTENDER_LAYER_PROPERTY = "spectral_extenders_layer"
 EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
 EXTENDER_NAME = "Extender"
+EXTENDER_STRENGTH_LIMIT = 1e4
+EXTENDER_STRENGTH_SOFT_LIMIT = 10.0
 EXTENDER_STRENGTH_DESCRIPTION = (
     "How strongly the two vertices are pushed apart, or below 0 pulled together, as a fraction of the boundary's total "
     "mass"

@@ -14,7 +14,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         _context: bpy.types.Context,
         layout: bpy.types.UILayout,
         mesh: bpy.types.Mesh,
-        extender: extenders.SpectralExtender,
+        extender: bpy.types.PropertyGroup,
         _icon: int,
         _active_data: bpy.types.Mesh,
         _active_property: str,
@@ -35,7 +35,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         row.prop(extender, "use", text="")
 
 
-def _icon_of(extender: extenders.SpectralExtender, is_broken: bool) -> str:
+def _icon_of(extender: bpy.types.PropertyGroup, is_broken: bool) -> str:
     if is_broken:
         return "ERROR"
     return "FULLSCREEN_ENTER" if extender.strength >= 0.0 else "FULLSCREEN_EXIT"

@@ -22,10 +22,10 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
         name="Strength",
         description=names.EXTENDER_STRENGTH_DESCRIPTION,
         default=1.0,
-        min=-1e4,
-        max=1e4,
-        soft_min=-10.0,
-        soft_max=10.0,
+        min=-names.EXTENDER_STRENGTH_LIMIT,
+        max=names.EXTENDER_STRENGTH_LIMIT,
+        soft_min=-names.EXTENDER_STRENGTH_SOFT_LIMIT,
+        soft_max=names.EXTENDER_STRENGTH_SOFT_LIMIT,
     )
 
     @classmethod
