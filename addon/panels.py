@@ -25,8 +25,9 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         is_broken = extender_tracking.broken(mesh)[index]
         row = layout.row(align=True)
         content = row.row(align=True)
-        content.active = extender.use and not is_broken
-        split = content.split(factor=0.62, align=True)
+        content.active = extender.use
+        content.alert = is_broken
+        split = content.split(factor=0.42 if is_broken else 0.62, align=True)
         split.prop(extender, "name", text="", emboss=False, icon=_icon_of(extender, is_broken))
         if is_broken:
             split.label(text="Vertex gone")

@@ -13,7 +13,7 @@ import bpy
 sys.path.append(str(Path(__file__).resolve().parent))
 
 import driving as drive  # noqa: E402 - found only now
-from session import VERDICT, override, point_at, screenshot, xdotool  # noqa: E402
+from session import VERDICT, override, point_at, screenshot, uv, xdotool  # noqa: E402
 
 COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
@@ -57,7 +57,6 @@ def click_sidebar(place, times=1):
     yield
     xdotool("click", "--repeat", times, "--delay", 60, 1)
     yield
-    yield
 
 
 def row(index, column):
@@ -88,7 +87,6 @@ def press(*keys):
     yield
     for key in keys:
         xdotool("key", key)
-        yield
         yield
 
 
@@ -182,8 +180,8 @@ def break_one():
     start = pairs()
     yield from click_vertices(41)
     yield from press("x")
-    # The Delete menu opens at its first entry, Vertices.
-    xdotool("key", "Return")
+    # The Delete menu's entry with this letter: Vertices.
+    xdotool("key", "v")
     yield
     yield
     screenshot("extenders_broken")
@@ -208,19 +206,35 @@ def move_a_vertex():
     yield
 
 
+def move_a_uv():
+    """A running transform holds pointers to the UVs, which drawing must not move in memory."""
+    before = uv()
+    point_at("IMAGE_EDITOR", 0.3, 0.3)
+    xdotool("key", "g")
+    yield
+    for _ in range(3):
+        xdotool("mousemove_relative", "--", -10, 20)
+        yield
+    screenshot("extenders_moving_uv")
+    xdotool("click", 1)
+    yield
+    moved = (uv() != before).any(axis=1)
+    assert moved.any()
+    assert not moved.all()
+    yield from drive.check_undo_and_redo(before, uv())
+
+
 def undo_and_redo_all():
+    """Undo to the start and redo to the end, selections too."""
     end = listed()
-    for _ in range(60):
-        if not listed():
-            break
-        yield from press("ctrl+z")
-    assert bpy.context.mode == "EDIT_MESH"
-    assert listed() == []
-    for _ in range(60):
-        if listed() == end or not bpy.ops.ed.redo.poll():
-            break
-        yield from press("ctrl+shift+z")
-    assert listed() == end, listed()
+    point_at("VIEW_3D", 0.3, 0.2)
+    for key, wanted in (("ctrl+z", []), ("ctrl+shift+z", end)):
+        for _ in range(40):
+            xdotool("key", key)
+            yield
+            if listed() == wanted:
+                break
+        assert listed() == wanted, listed()
 
 
 def leave_edit_mode_and_come_back():
@@ -258,6 +272,7 @@ def steps():
     yield from change_in_the_list()
     yield from break_one()
     yield from move_a_vertex()
+    yield from move_a_uv()
     yield from undo_and_redo_all()
     yield from leave_edit_mode_and_come_back()
     yield from save_and_reopen()

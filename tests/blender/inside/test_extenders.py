@@ -148,12 +148,11 @@ def test_every_mesh_in_edit_mode_goes_by_its_own_selection(reports):
 
 def test_vertices_are_found_after_edits_elsewhere():
     grid = edit_grid()
-    add(grid, [6, 8, 8, 13][:2])
+    add(grid, [6, 8])
     add(grid, [8, 13])
     before = positions(grid)
     delete_vertices(grid, [0, 1])
     assert positions(grid) == before
-    scenes.select_faces(grid, range(len(grid.data.polygons) - 4))
     bpy.ops.mesh.select_all(action="SELECT")
     for _ in range(3):
         bpy.ops.mesh.subdivide(number_cuts=2)
@@ -326,7 +325,7 @@ def test_names_are_unique_and_not_empty():
     second.name = "Extender"
     assert second.name == "Extender.001"
     third.name = "Extender"
-    assert third.name == "Extender.003" or third.name == "Extender.002"
+    assert third.name == "Extender.002"
     second.name = "Nose"
     third.name = "Nose"
     assert third.name == "Nose.001"
