@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import live_unwrap, menus, operators
+from . import drawing, extender_properties, extender_tracking, live_unwrap, menus, operators, panels
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
 # blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).
@@ -15,16 +15,16 @@ bl_info = {
     "category": "UV",
 }
 
+_PARTS = (extender_properties, extender_tracking, operators, live_unwrap, menus, panels, drawing)
+
 
 def register() -> None:
-    """Add the operators, live unwrapping and menu entries to Blender."""
-    operators.register()
-    live_unwrap.register()
-    menus.register()
+    """Add the properties, operators, live unwrapping, menu entries, panels and drawing to Blender."""
+    for part in _PARTS:
+        part.register()
 
 
 def unregister() -> None:
     """Remove everything that `register` added."""
-    menus.unregister()
-    live_unwrap.unregister()
-    operators.unregister()
+    for part in reversed(_PARTS):
+        part.unregister()

@@ -12,6 +12,9 @@ from bmesh.types import BMesh, BMLayerItem, BMLoop
 # From 5.0 the UV selection belongs to the mesh; before, to each UV map.
 _UV_SELECTION_ON_MESH = hasattr(BMLoop, "uv_select_vert")
 
+# The shader that takes `pos` in three dimensions and a `color` per vertex.
+SMOOTH_COLOR_SHADER = "SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SMOOTH_COLOR"
+
 
 @dataclass(frozen=True)
 class UVSelection:
@@ -68,6 +71,22 @@ def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> N
                 uv.select = uv.select_edge = flag
         if _UV_SELECTION_ON_MESH:
             face.uv_select = flag
+
+
+def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
+    """Make the `selected` corners, one flag per corner, the whole UV selection, with edges and faces between them."""
+    flags = iter(selected)
+    for face in bm.faces:
+        corners = [next(flags) for _ in face.loops]
+        for index, loop in enumerate(face.loops):
+            edge = corners[index] and corners[(index + 1) % len(corners)]
+            if _UV_SELECTION_ON_MESH:
+                loop.uv_select_vert, loop.uv_select_edge = corners[index], edge
+            else:
+                uv = loop[layer]
+                uv.select, uv.select_edge = corners[index], edge
+        if _UV_SELECTION_ON_MESH:
+            face.uv_select = all(corners)
 
 
 def can_pack_by_mesh_selection(tool_settings: bpy.types.ToolSettings) -> bool:

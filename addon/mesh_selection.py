@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The selection of the meshes in edit mode."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import compress
 
 import bmesh
 import bpy
 import numpy as np
+from bmesh.types import BMesh, BMVert
 
 from . import compatibility
 
@@ -30,3 +33,82 @@ def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.nd
         if layer is not None and not context.scene.tool_settings.use_uv_select_sync:
             compatibility.select_uv_of_faces(bm, layer, flags)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+@dataclass(frozen=True)
+class SelectedVertices:
+    """Indices of the selected vertices of a mesh, those of a known order in that order, and the active one."""
+
+    vertices: list[int]
+    in_order: list[int]
+    active: int | None
+
+
+def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> SelectedVertices:
+    """Return the selected vertices of a mesh in edit mode.
+
+    In the UV editor without sync selection these are the vertices with a selected UV, of which no order is known.
+    """
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.index_update()
+    layer = bm.loops.layers.uv.active
+    if _selects_uvs(context) and layer is not None:
+        corners = compatibility.selected_uv_corners(bm, layer)
+        loops = compress((loop for face in bm.faces for loop in face.loops), corners.tolist())
+        return SelectedVertices(sorted({loop.vert.index for loop in loops if loop.face.select}), [], None)
+    history = [element for element in bm.select_history if isinstance(element, BMVert)]
+    active = bm.select_history.active
+    return SelectedVertices(
+        [vertex.index for vertex in bm.verts if vertex.select],
+        [vertex.index for vertex in history],
+        active.index if isinstance(active, BMVert) else None,
+    )
+
+
+def select_only_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh, vertices: Sequence[int]) -> None:
+    """Make visible ones of these vertices of one mesh, in their order, the whole selection of all meshes in edit mode.
+
+    Turns vertex selection on. In the UV editor without sync selection, the UVs of the vertices become the whole UV
+    selection instead, so that the editor goes on to show the same faces.
+    """
+    uv_only = _selects_uvs(context)
+    if not uv_only:
+        _, *others = context.tool_settings.mesh_select_mode
+        context.tool_settings.mesh_select_mode = (True, *others)
+    for edit_object in context.objects_in_mode_unique_data:
+        bm = bmesh.from_edit_mesh(edit_object.data)
+        bm.verts.ensure_lookup_table()
+        chosen = [bm.verts[index] for index in vertices] if edit_object.data == mesh else []
+        if uv_only:
+            _select_uvs_of(bm, chosen)
+        else:
+            _select_vertices(bm, [vertex for vertex in chosen if not vertex.hide])
+        bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
+
+
+def _select_vertices(bm: BMesh, vertices: Sequence[BMVert]) -> None:
+    for elements in (bm.faces, bm.edges, bm.verts):
+        for element in elements:
+            element.select = False
+    bm.select_history.clear()
+    for vertex in vertices:
+        vertex.select = True
+        bm.select_history.add(vertex)
+    bm.select_flush_mode()
+
+
+def _select_uvs_of(bm: BMesh, vertices: Sequence[BMVert]) -> None:
+    layer = bm.loops.layers.uv.active
+    if layer is not None:
+        chosen = set(vertices)
+        flags = [loop.vert in chosen for face in bm.faces for loop in face.loops]
+        compatibility.select_uv_corners(bm, layer, flags)
+
+
+def _selects_uvs(context: bpy.types.Context) -> bool:
+    """Return whether the UV editor is the context and has a selection of its own."""
+    return (
+        context.area is not None
+        and context.area.type == "IMAGE_EDITOR"
+        and not context.scene.tool_settings.use_uv_select_sync
+    )

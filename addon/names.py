@@ -16,6 +16,40 @@ LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow while their pins are moved, and unwrap again when seams are changed"
 
+# Properties of meshes: the list of extenders, the index of the active one, and the name of the vertex layer that tells
+# which vertices are theirs. The layer's name is the prefix and a digest of the list; with the dot Blender hides it.
+EXTENDERS_PROPERTY = "spectral_extenders"
+ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
+EXTENDER_LAYER_PROPERTY = "spectral_extenders_layer"
+EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
+EXTENDER_NAME = "Extender"
+EXTENDER_STRENGTH_LIMIT = 1e4
+EXTENDER_STRENGTH_SOFT_LIMIT = 10.0
+EXTENDER_STRENGTH_DESCRIPTION = (
+    "How strongly the two vertices are pushed apart, or below 0 pulled together, as a fraction of the boundary's total "
+    "mass"
+)
+
+ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
+ADD_EXTENDER_LABEL = "Add Extender"
+ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
+REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"
+REMOVE_EXTENDER_LABEL = "Remove Extender"
+REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
+REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
+REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders with a vertex that is gone"
+SELECT_EXTENDER_OPERATOR = "mesh.spectral_extender_select"
+SELECT_EXTENDER_LABEL = "Select Extender Vertices"
+SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
+
+SIDEBAR_TAB = "Spectral"
+EXTENDERS_LABEL = "Extenders"
+EXTENDER_LIST = "MESH_UL_spectral_extenders"
+VIEWPORT_PANEL = "VIEW3D_PT_spectral_unwrap"
+VIEWPORT_EXTENDERS_PANEL = "VIEW3D_PT_spectral_extenders"
+UV_EDITOR_PANEL = "IMAGE_PT_spectral_unwrap"
+UV_EDITOR_EXTENDERS_PANEL = "IMAGE_PT_spectral_extenders"
+
 # Operators after which changed seams lie along the islands of the map as it is.
 OPERATORS_THAT_MARK_SEAMS_OF_A_MAP = ("UV_OT_seams_from_islands", "UV_OT_spectral_unwrap")
 
@@ -60,4 +94,15 @@ KEEP = "KEEP"
 PLACEMENT_ITEMS = (
     (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile"),
     (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before"),
+)
+PAIRS_IN_ORDER = "IN_ORDER"
+PAIRS_TO_ACTIVE = "TO_ACTIVE"
+EXTENDER_PAIRS_ITEMS = (
+    (
+        PAIRS_IN_ORDER,
+        "In Order",
+        "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
+        "on, in the order in which they were selected",
+    ),
+    (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
 )

@@ -3,12 +3,20 @@
 
 import bpy
 
+from .extenders import (
+    MESH_OT_spectral_extender_add,
+    MESH_OT_spectral_extender_remove,
+    MESH_OT_spectral_extender_select,
+)
 from .select_failed import UV_OT_spectral_select_failed
 from .unwrap import UV_OT_spectral_unwrap
 
 _CLASSES = (
     UV_OT_spectral_unwrap,
     UV_OT_spectral_select_failed,
+    MESH_OT_spectral_extender_add,
+    MESH_OT_spectral_extender_remove,
+    MESH_OT_spectral_extender_select,
 )
 
 

@@ -35,7 +35,7 @@ def region_of(kind, region_kind="WINDOW"):
     return next(region for region in area_of(kind).regions if region.type == region_kind)
 
 
-def _move_mouse(x, y):
+def move_mouse(x, y):
     """Move the mouse to a place in the window, in Blender's coordinates."""
     xdotool("mousemove", int(x), int(window().height - y))
 
@@ -43,7 +43,7 @@ def _move_mouse(x, y):
 def point_at_header(kind, x):
     """Move the mouse `x` pixels from the left end of an editor's header."""
     region = region_of(kind, "HEADER")
-    _move_mouse(region.x + x, region.y + region.height // 2)
+    move_mouse(region.x + x, region.y + region.height // 2)
 
 
 def point_at_vertices(*indices):
@@ -55,19 +55,19 @@ def point_at_vertices(*indices):
         sum((bm.verts[i].co for i in indices[1:]), bm.verts[indices[0]].co.copy()) / len(indices)
     )
     place = view3d_utils.location_3d_to_region_2d(region, area.spaces.active.region_3d, middle)
-    _move_mouse(region.x + place.x, region.y + place.y)
+    move_mouse(region.x + place.x, region.y + place.y)
 
 
 def point_at_setting(name):
     """Move the mouse to the field of a setting in Adjust Last Operation in the viewport."""
     region = region_of("VIEW_3D", "HUD")
-    _move_mouse(region.x + int(0.7 * region.width), region.y + 20 + 22 * ROWS[name])
+    move_mouse(region.x + int(0.7 * region.width), region.y + 20 + 22 * ROWS[name])
 
 
 def open_adjust_last_operation():
     """Click the heading of Adjust Last Operation, which stands alone while the panel is closed."""
     region = region_of("VIEW_3D", "HUD")
-    _move_mouse(region.x + int(0.7 * region.width), region.y + 20)
+    move_mouse(region.x + int(0.7 * region.width), region.y + 20)
     yield
     xdotool("click", 1)
     yield

@@ -62,4 +62,4 @@ def run(sequence):
         bpy.ops.wm.quit_blender()
         return None
 
-    bpy.app.timers.register(advance, first_interval=3.0)
+    bpy.app.timers.register(advance, first_interval=3.0, persistent=True)

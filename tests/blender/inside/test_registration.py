@@ -83,6 +83,19 @@ def test_menus_and_operator_come_and_go_with_the_add_on():
         addon_utils.enable(ADDON)
 
 
+def test_panels_and_extenders_come_and_go_with_the_add_on():
+    panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in ("unwrap", "extenders")]
+    for _ in range(2):
+        assert all(hasattr(bpy.types, panel) for panel in panels)
+        assert hasattr(bpy.types.Mesh, "spectral_extenders")
+        addon_utils.disable(ADDON)
+        assert not any(hasattr(bpy.types, panel) for panel in panels)
+        assert not any(name.startswith("spectral") for name in bpy.types.Mesh.bl_rna.properties.keys())  # noqa: SIM118
+        for event in ("depsgraph_update_post", "undo_post", "redo_post", "load_pre", "load_post"):
+            assert not any(f.__module__.startswith(ADDON) for f in getattr(bpy.app.handlers, event)), event
+        addon_utils.enable(ADDON)
+
+
 def test_module_is_found_in_the_layout_of_this_installation():
     native = sys.modules[f"{ADDON}.core.native"].spectral_conformal()
     # The system's Blender has the layout of the older zip, bpy that of an extension (tests/blender/blenders.py).

@@ -1,0 +1,511 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extenders: made from the selection, stored with the mesh, found again after changes of it."""
+
+import sys
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def module(name):
+    return sys.modules[f"spectral_unwrap.{name}"]
+
+
+def select(edited, vertices, in_order=True):
+    """Select exactly these vertices, one after the other or all at once."""
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    bm = scenes.edit_mesh(edited)
+    for elements in (bm.faces, bm.edges, bm.verts):
+        for element in elements:
+            element.select = False
+    bm.select_history.clear()
+    for vertex in vertices:
+        bm.verts[vertex].select = True
+        if in_order:
+            bm.select_history.add(bm.verts[vertex])
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(edited.data)
+
+
+def add(edited, vertices, **options):
+    select(edited, vertices)
+    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
+
+
+def refused(capture, **options):
+    """Return the error with which adding is refused."""
+    with pytest.raises(RuntimeError) as error:
+        bpy.ops.mesh.spectral_extender_add(**options)
+    capture()
+    return str(error.value)
+
+
+def pairs(edited):
+    mesh = edited.data
+    return module("extenders").ends(scenes.edit_mesh(edited), mesh)
+
+
+def listed(edited):
+    return [(e.name, round(e.strength, 5), e.use) for e in edited.data.spectral_extenders]
+
+
+def resolved(edited):
+    return module("extenders").resolve(scenes.edit_mesh(edited), edited.data)
+
+
+def positions(edited):
+    """Return the positions of both vertices of every extender."""
+    bm = scenes.edit_mesh(edited)
+    return [
+        tuple(None if v < 0 else tuple(round(x, 4) for x in bm.verts[v].co) for v in pair) for pair in pairs(edited)
+    ]
+
+
+def edit_grid(columns=4, rows=3, **options):
+    grid = scenes.grid(columns, rows, **options)
+    scenes.edit(grid, select=False)
+    return grid
+
+
+def delete_vertices(edited, vertices):
+    select(edited, vertices)
+    bpy.ops.mesh.delete(type="VERT")
+    bpy.context.view_layer.update()
+
+
+def test_two_selected_vertices_make_an_extender():
+    grid = edit_grid()
+    add(grid, [7, 2], strength=-2.5)
+    assert pairs(grid) == [(7, 2)]
+    assert listed(grid) == [("Extender", -2.5, True)]
+    assert resolved(grid) == ([(7, 2, -2.5)], [])
+    assert module("extenders").active(grid.data).name == "Extender"
+
+
+def test_two_vertices_need_no_order():
+    grid = edit_grid()
+    select(grid, [7, 2], in_order=False)
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert pairs(grid) == [(2, 7)]
+
+
+def test_several_vertices_pair_up_in_the_order_of_selection():
+    grid = edit_grid()
+    add(grid, [7, 2, 19, 0])
+    assert pairs(grid) == [(7, 2), (19, 0)]
+    assert [name for name, _, _ in listed(grid)] == ["Extender", "Extender.001"]
+    assert module("extenders").active_index(grid.data) == 1
+
+
+def test_to_active_connects_all_with_the_last():
+    grid = edit_grid()
+    add(grid, [7, 2, 19, 0], pairs="TO_ACTIVE")
+    assert sorted(pairs(grid)) == [(2, 0), (7, 0), (19, 0)]
+
+
+def test_selections_without_pairs_are_refused_with_advice(reports):
+    grid = edit_grid()
+    select(grid, [])
+    assert "Nothing is selected" in refused(reports)
+    select(grid, [3])
+    assert "Select two vertices" in refused(reports)
+    select(grid, [1, 2, 3])
+    assert "even number" in refused(reports)
+    select(grid, [1, 2, 3, 4], in_order=False)
+    assert "Shift" in refused(reports)
+    assert "No vertex is active" in refused(reports, pairs="TO_ACTIVE")
+    assert listed(grid) == []
+    assert not any(a.name.startswith(".spectral") for a in grid.data.attributes)
+
+
+def test_existing_pair_is_not_doubled(reports):
+    grid = edit_grid()
+    add(grid, [7, 2])
+    reports()
+    select(grid, [2, 7])
+    assert bpy.ops.mesh.spectral_extender_add() == {"CANCELLED"}
+    assert reports() == [("Warning", "Pairs that have an extender already: 1")]
+    add(grid, [2, 7, 3, 8])
+    assert pairs(grid) == [(7, 2), (3, 8)]
+
+
+def test_every_mesh_in_edit_mode_goes_by_its_own_selection(reports):
+    one, other, third = (scenes.grid(3, 3, name=name) for name in ("One", "Other", "Third"))
+    scenes.edit(one, other, third, select=False)
+    select(one, [0, 5])
+    select(other, [3, 1, 2, 4])
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert (pairs(one), pairs(other), pairs(third)) == ([(0, 5)], [(3, 1), (2, 4)], [])
+    # All or nothing.
+    select(one, [7, 8])
+    select(other, [3])
+    assert "Other: " in refused(reports)
+    assert len(pairs(one)) == 1
+
+
+def test_vertices_are_found_after_edits_elsewhere():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    add(grid, [8, 13])
+    before = positions(grid)
+    delete_vertices(grid, [0, 1])
+    assert positions(grid) == before
+    bpy.ops.mesh.select_all(action="SELECT")
+    for _ in range(3):
+        bpy.ops.mesh.subdivide(number_cuts=2)
+        assert positions(grid) == before
+    assert resolved(grid)[1] == []
+
+
+def test_extender_without_one_vertex_is_broken_and_reported(reports):
+    grid = edit_grid()
+    add(grid, [6, 8, 11, 13])
+    delete_vertices(grid, [8])
+    assert [-1 in pair for pair in pairs(grid)] == [True, False]
+    forces, broken = resolved(grid)
+    assert broken == ["Extender"]
+    assert len(forces) == 1
+    assert module("extender_tracking").broken(grid.data) == [True, False]
+    reports()
+    assert bpy.ops.mesh.spectral_extender_select(index=0) == {"FINISHED"}
+    assert reports() == [("Warning", "Extender is broken: 1 of its vertices gone; remove it")]
+    assert [v.index for v in scenes.edit_mesh(grid).verts if v.select] == [6]
+    assert bpy.ops.mesh.spectral_extender_remove(broken=True) == {"FINISHED"}
+    assert [name for name, _, _ in listed(grid)] == ["Extender.001"]
+
+
+def test_broken_extender_that_is_off_causes_no_warning():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    delete_vertices(grid, [8])
+    grid.data.spectral_extenders[0].use = False
+    assert resolved(grid) == ([], [])
+
+
+def test_only_extenders_that_are_on_and_not_zero_act():
+    grid = edit_grid()
+    add(grid, [6, 8, 11, 13, 0, 4])
+    grid.data.spectral_extenders[0].use = False
+    module("extenders").set_strength(grid.data, 1, 0.0)
+    assert resolved(grid) == ([(0, 4, 1.0)], [])
+
+
+def test_of_duplicated_vertices_the_original_counts():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    before = positions(grid)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.duplicate_move(TRANSFORM_OT_translate={"value": (0.0, 0.0, 5.0)})
+    assert len(scenes.edit_mesh(grid).verts) == 40
+    assert positions(grid) == before
+    # A duplicate is a vertex of its own.
+    add(grid, [6, 26])
+    assert pairs(grid) == [(6, 8), (6, 26)]
+
+
+def test_vertex_of_a_removed_extender_can_be_used_again():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    assert listed(grid) == []
+    add(grid, [8, 13])
+    assert pairs(grid) == [(8, 13)]
+
+
+def test_broken_extender_never_finds_another_vertex():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    delete_vertices(grid, [8])
+    add(grid, [0, 1, 2, 3])
+    assert pairs(grid) == [(6, -1), (0, 1), (2, 3)]
+
+
+def test_removing_keeps_the_active_one():
+    grid = edit_grid()
+    add(grid, [0, 1, 2, 3, 4, 5, 6, 7])
+    extenders = module("extenders")
+    extenders.set_active(grid.data, 2)
+    bpy.ops.mesh.spectral_extender_remove(index=0)
+    assert extenders.active(grid.data).name == "Extender.002"
+    bpy.ops.mesh.spectral_extender_remove()
+    assert [name for name, _, _ in listed(grid)] == ["Extender.001", "Extender.003"]
+    assert extenders.active(grid.data).name == "Extender.001"
+    bpy.ops.mesh.spectral_extender_remove()
+    assert extenders.active(grid.data).name == "Extender.003"
+    bpy.ops.mesh.spectral_extender_remove()
+    assert extenders.active(grid.data) is None
+    assert not bpy.ops.mesh.spectral_extender_remove.poll()
+
+
+def test_select_makes_its_vertices_the_whole_selection():
+    grid, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other")
+    scenes.edit(grid, other, select=False)
+    add(grid, [8, 6])
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.select_mode(type="FACE")
+    assert bpy.ops.mesh.spectral_extender_select() == {"FINISHED"}
+    bm = scenes.edit_mesh(grid)
+    assert [v.index for v in bm.verts if v.select] == [6, 8]
+    assert [v.index for v in bm.select_history] == [8, 6]
+    assert not any(v.select for v in scenes.edit_mesh(other).verts)
+    assert bpy.context.tool_settings.mesh_select_mode[0]
+
+
+def test_hidden_vertices_are_not_selected(reports):
+    grid = edit_grid()
+    add(grid, [6, 8])
+    select(grid, [8])
+    bpy.ops.mesh.hide()
+    reports()
+    assert bpy.ops.mesh.spectral_extender_select() == {"FINISHED"}
+    assert reports() == [("Warning", "Extender has hidden vertices: 1; reveal them to select them")]
+    assert [v.index for v in scenes.edit_mesh(grid).verts if v.select] == [6]
+
+
+def test_list_and_vertices_are_saved_with_the_file(tmp_path):
+    grid = edit_grid()
+    add(grid, [6, 8], strength=-3.0)
+    add(grid, [2, 3])
+    grid.data.spectral_extenders[1].use = False
+    path = str(tmp_path / "scene.blend")
+    for in_edit_mode in (True, False):
+        if not in_edit_mode:
+            bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.read_homefile(use_empty=True)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        grid = bpy.data.objects["Grid"]
+        bpy.context.view_layer.objects.active = grid
+        if bpy.context.mode != "EDIT_MESH":
+            bpy.ops.object.mode_set(mode="EDIT")
+        assert listed(grid) == [("Extender", -3.0, True), ("Extender.001", 1.0, False)]
+        assert pairs(grid) == [(6, 8), (2, 3)]
+
+
+def test_copy_of_the_object_has_extenders_of_its_own():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    copy = grid.copy()
+    copy.data = grid.data.copy()
+    bpy.context.collection.objects.link(copy)
+    scenes.edit(copy, select=False)
+    assert pairs(copy) == [(6, 8)]
+    copy.data.spectral_extenders[0].strength = 7.0
+    delete_vertices(copy, [6])
+    assert pairs(copy) == [(-1, 7)]
+    assert listed(grid) == [("Extender", 1.0, True)]
+
+
+def test_joined_objects_keep_the_extenders_of_the_active_one():
+    one, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other", offset=(0.0, 0.0, 9.0))
+    scenes.edit(one, select=False)
+    add(one, [6, 8])
+    before = positions(one)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    scenes.edit(other, select=False)
+    add(other, [0, 1], strength=4.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    scenes.edit(one, other)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.join()
+    scenes.edit(one, select=False)
+    assert positions(one) == before
+    one.data.spectral_extenders[0].strength = 2.0
+    assert positions(one) == before
+
+
+def test_names_are_unique_and_not_empty():
+    grid = edit_grid()
+    add(grid, [0, 1, 2, 3, 4, 5])
+    first, second, third = grid.data.spectral_extenders
+    second.name = "Extender"
+    assert second.name == "Extender.001"
+    third.name = "Extender"
+    assert third.name == "Extender.002"
+    second.name = "Nose"
+    third.name = "Nose"
+    assert third.name == "Nose.001"
+    first.name = ""
+    assert first.name == "Extender"
+
+
+def test_strength_is_kept_within_bounds():
+    grid = edit_grid()
+    add(grid, [0, 1])
+    extender = grid.data.spectral_extenders[0]
+    extender.strength = 1e9
+    assert extender.strength == 1e4
+    extender.strength = -1e9
+    assert extender.strength == -1e4
+
+
+def layer(edited):
+    (name,) = [a.name for a in edited.data.attributes if a.name.startswith(".spectral_extenders:")]
+    return name
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
+def test_layer_is_renamed_with_every_change_of_the_list(mode):
+    grid = edit_grid()
+    add(grid, [6, 8])
+    bpy.ops.object.mode_set(mode=mode)
+    extender = grid.data.spectral_extenders[0]
+    start, seen = layer(grid), set()
+    for change, value in (("strength", 5.0), ("use", False), ("name", "Nose")):
+        before = getattr(extender, change)
+        setattr(extender, change, value)
+        seen.add(layer(grid))
+        setattr(extender, change, before)
+        assert layer(grid) == start
+    assert len(seen | {start}) == 4
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert pairs(grid) == [(6, 8)]
+
+
+def test_ids_can_be_read_from_scripts_in_object_mode():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    values = [value.value for value in grid.data.attributes[layer(grid)].data]
+    extender = grid.data.spectral_extenders[0]
+    assert (values.index(extender.first_id), values.index(extender.second_id)) == (6, 8)
+
+
+def test_list_is_restored_by_the_name_of_the_layer():
+    # What undo in edit mode does: it puts the layer back with its name, and leaves the properties.
+    grid = edit_grid()
+    extenders, mesh = module("extenders"), grid.data
+    add(grid, [6, 8])
+    first = layer(grid)
+    add(grid, [2, 3], strength=-4.0)
+    second = layer(grid)
+    mesh.attributes[second].name = first
+    extenders.restore(mesh)
+    assert listed(grid) == [("Extender", 1.0, True)]
+    assert extenders.active_index(mesh) == 0
+    mesh.attributes[first].name = second
+    extenders.restore(mesh)
+    assert listed(grid) == [("Extender", 1.0, True), ("Extender.001", -4.0, True)]
+    bm = scenes.edit_mesh(grid)
+    bm.verts.layers.int.remove(bm.verts.layers.int[second])
+    extenders.restore(mesh)
+    assert listed(grid) == []
+
+
+def test_lost_layer_breaks_the_extenders_and_keeps_the_list():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid.data.attributes.remove(grid.data.attributes[layer(grid)])
+    scenes.edit(grid, select=False)
+    assert pairs(grid) == [(-1, -1)]
+    grid.data.spectral_extenders[0].strength = 2.0
+    add(grid, [0, 1])
+    assert pairs(grid) == [(-1, -1), (0, 1)]
+
+
+def test_selection_in_the_uv_editor_counts_without_sync_selection():
+    selection = module("mesh_selection")
+    grid = edit_grid()
+    select(grid, range(20))
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
+    chosen = [loop.vert.index in (6, 8) for face in scenes.edit_mesh(grid).faces for loop in face.loops]
+    scenes.set_uv_flags(grid, chosen)
+
+    class Context:
+        area = type("Area", (), {"type": "IMAGE_EDITOR"})
+        scene = bpy.context.scene
+        objects_in_mode_unique_data = bpy.context.objects_in_mode_unique_data
+
+    found = selection.selected_vertices(Context, grid.data)
+    assert (found.vertices, found.in_order, found.active) == ([6, 8], [], None)
+    selection.select_only_vertices(Context, grid.data, [13])
+    assert selection.selected_vertices(Context, grid.data).vertices == [13]
+    assert all(vertex.select for vertex in scenes.edit_mesh(grid).verts)
+
+
+def test_track_follows_the_mesh_without_new_wrappers():
+    tracking = module("extender_tracking")
+    grid = edit_grid()
+    add(grid, [6, 8])
+    bpy.context.view_layer.update()
+    track = tracking.track(grid.data)
+    assert [vertex.index for vertex in track.ends[0]] == [6, 8]
+    assert tracking.track(grid.data) is track
+    delete_vertices(grid, [0])
+    assert [vertex.index for vertex in tracking.track(grid.data).ends[0]] == [5, 7]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert tracking.track(grid.data) is None
+
+
+def test_values_come_back_with_the_add_on():
+    import addon_utils
+
+    grid = edit_grid()
+    add(grid, [6, 8], strength=3.0)
+    addon_utils.disable("spectral_unwrap")
+    assert not hasattr(grid.data, "spectral_extenders")
+    addon_utils.enable("spectral_unwrap")
+    assert listed(grid) == [("Extender", 3.0, True)]
+    assert pairs(grid) == [(6, 8)]
+
+
+def test_arrows_of_meshes_in_edit_mode():
+    drawing = module("drawing")
+    one, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other")
+    scenes.edit(one, other, select=False)
+    add(one, [6, 8], strength=-1.0)
+    select(one, [])
+    add(other, [0, 1])
+    select(other, [])
+    add(one, [2, 3, 4, 9])
+    one.data.spectral_extenders[1].use = False
+    delete_vertices(one, [9])
+    module("extenders").set_active(one.data, 0)
+    arrows = list(drawing._arrows(bpy.context, drawing_in_plane))
+    assert [arrow[2] for arrow in arrows] == [True, True, False]
+    # The active one is last.
+    np.testing.assert_allclose(arrows[-1][:2], [(1.0, 1.0), (3.0, 1.0)])
+    opaque = sorted(arrow[3][3] for arrow in arrows)
+    assert opaque[0] < opaque[1] == opaque[2]
+
+
+def drawing_in_plane(_context, edit_object, _track):
+    return lambda first, second: (tuple(first.co.xy), tuple(second.co.xy))
+
+
+def test_uv_editor_connects_the_nearest_copies():
+    drawing = module("drawing")
+    cube = scenes.cube(all_seams=True)
+    scenes.edit(cube, select=False)
+    add(cube, [0, 7])
+    bpy.context.view_layer.update()
+    bm = scenes.edit_mesh(cube)
+    uv = scenes.read_uv(cube)
+    corners = [loop.vert.index for face in bm.faces for loop in face.loops]
+    first, second = (uv[[vertex == v for vertex in corners]] for v in (0, 7))
+
+    class View:
+        view_to_region = staticmethod(lambda u, v, clip: (u, v))
+
+    context = type("Context", (), {"region": type("Region", (), {"view2d": View})})
+    track = module("extender_tracking").track(cube.data)
+    a, b = drawing._places_in_uv_editor(context, cube, track)(*track.ends[0])
+    nearest = np.linalg.norm(first[:, None] - second[None], axis=2).min()
+    assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)
+
+
+@pytest.mark.parametrize("name", ["add", "remove", "select"])
+def test_operators_need_edit_mode_and_are_described(name):
+    scenes.grid(2, 2)
+    operator = getattr(bpy.ops.mesh, f"spectral_extender_{name}")
+    assert not operator.poll()
+    described = operator.get_rna_type()
+    properties = [prop for prop in described.properties if prop.identifier != "rna_type"]
+    for item in (described, *properties):
+        assert item.description
+        assert not item.description.endswith(".")

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: an artist adds extenders in the sidebar and changes them.
+
+blender --factory-startup --python drive_extenders.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import driving as drive  # noqa: E402 - found only now
+from extender_sidebar import (  # noqa: E402
+    ADD,
+    ADD_TO_ACTIVE,
+    ICON,
+    NAME,
+    REMOVE,
+    SELECT,
+    USE,
+    check_undo_and_redo,
+    click_sidebar,
+    click_vertices,
+    listed,
+    open_grid,
+    pairs,
+    press,
+    row,
+    type_strength,
+)
+from session import screenshot, xdotool  # noqa: E402
+
+
+def add_by_clicking():
+    one = [("Extender", 1.0, True)]
+    yield from click_vertices(6, 0)
+    yield from click_sidebar(ADD)
+    assert pairs() == [(6, 0)]
+    yield from check_undo_and_redo([], one)
+
+    three = one + [("Extender.001", 1.0, True), ("Extender.002", 1.0, True)]
+    yield from click_vertices(35, 41, 24)
+    yield from click_sidebar(ADD_TO_ACTIVE)
+    screenshot("extenders_added")
+    assert sorted(pairs()) == [(6, 0), (35, 24), (41, 24)]
+    yield from check_undo_and_redo(one, three)
+
+
+def adjust_last_operation():
+    """The operator's own panel undoes the step and repeats it with other settings."""
+    before = listed()
+    yield from click_vertices(3, 38)
+    yield from click_sidebar(ADD)
+    # The operator's panel appears.
+    yield
+    yield from drive.open_adjust_last_operation()
+    region = drive.region_of("VIEW_3D", "HUD")
+    drive.move_mouse(region.x + int(0.7 * region.width), region.y + 20)
+    yield
+    xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    yield
+    xdotool("key", "ctrl+a", "type", "--", "-2.5")
+    yield
+    xdotool("key", "Return")
+    yield
+    yield
+    screenshot("extenders_adjusted")
+    after = [*before, ("Extender.003", -2.5, True)]
+    assert listed() == after, listed()
+    yield from check_undo_and_redo(before, after)
+    yield from press("ctrl+z")
+
+
+def change_in_the_list():
+    start = listed()
+    yield from type_strength(0, "0.4")
+    changed = [("Extender", 0.4, True), *start[1:]]
+    yield from check_undo_and_redo(start, changed)
+    yield from click_sidebar(row(1, USE))
+    off = [changed[0], ("Extender.001", 1.0, False), changed[2]]
+    screenshot("extenders_one_off")
+    yield from check_undo_and_redo(changed, off)
+
+    yield from click_sidebar(row(0, NAME), times=2)
+    xdotool("key", "ctrl+a", "type", "Brim")
+    xdotool("key", "Return")
+    yield
+    yield
+    named = [("Brim", 0.4, True), *off[1:]]
+    yield from check_undo_and_redo(off, named)
+
+    yield from click_sidebar(row(0, ICON))
+    assert bpy.context.edit_object.data.spectral_extenders_active == 0
+    yield from click_sidebar(SELECT)
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    assert [vertex.index for vertex in bm.verts if vertex.select] == [0, 6]
+    yield from click_sidebar(REMOVE)
+    yield from check_undo_and_redo(named, named[1:])
+    yield from press("ctrl+z")
+    assert listed() == named, listed()
+
+
+def steps():
+    yield from drive.open_uv_editing()
+    yield from open_grid()
+    yield from add_by_clicking()
+    yield from adjust_last_operation()
+    yield from change_in_the_list()
+
+
+drive.run(steps())

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: extenders while the mesh is edited, undone, saved and reopened.
+
+blender --factory-startup --python drive_extenders_kept.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import sys
+from pathlib import Path
+
+import bpy
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import driving as drive  # noqa: E402 - found only now
+from extender_sidebar import (  # noqa: E402
+    REMOVE_BROKEN,
+    check_undo_and_redo,
+    click_sidebar,
+    click_vertices,
+    listed,
+    open_grid,
+    pairs,
+    press,
+    type_strength,
+)
+from session import VERDICT, override, point_at, screenshot, uv, xdotool  # noqa: E402
+
+
+def add_extenders():
+    for pair, strength in (((0, 6), 0.4), ((35, 24), -1.0), ((41, 24), 1.0)):
+        yield from click_vertices(*pair)
+        with override("VIEW_3D"):
+            assert bpy.ops.mesh.spectral_extender_add("EXEC_DEFAULT", True, strength=strength) == {"FINISHED"}
+    yield
+
+
+def break_one():
+    start = pairs()
+    yield from click_vertices(41)
+    yield from press("x")
+    # The Delete menu's entry with this letter: Vertices.
+    xdotool("key", "v")
+    yield
+    yield
+    screenshot("extenders_broken")
+    assert sum(-1 in pair for pair in pairs()) == 1, pairs()
+    before = listed()
+    yield from click_sidebar(REMOVE_BROKEN)
+    yield from check_undo_and_redo(before, [item for item in before if item[0] != "Extender.002"])
+    yield from press("ctrl+z", "ctrl+z")
+    assert pairs() == start, pairs()
+    screenshot("extenders_whole_again")
+
+
+def move_a_vertex():
+    yield from click_vertices(0)
+    xdotool("key", "g")
+    yield
+    xdotool("mousemove_relative", "--", -40, 60)
+    yield
+    yield
+    screenshot("extenders_moving")
+    xdotool("key", "Escape")
+    yield
+
+
+def move_a_uv():
+    """A running transform holds pointers to the UVs, which drawing must not move in memory."""
+    before = uv()
+    point_at("IMAGE_EDITOR", 0.3, 0.3)
+    xdotool("key", "g")
+    yield
+    for _ in range(3):
+        xdotool("mousemove_relative", "--", -10, 20)
+        yield
+    screenshot("extenders_moving_uv")
+    xdotool("click", 1)
+    yield
+    moved = (uv() != before).any(axis=1)
+    assert moved.any()
+    assert not moved.all()
+    yield from drive.check_undo_and_redo(before, uv())
+
+
+def undo_and_redo_all():
+    """Undo to the start and redo to the end, selections too."""
+    end = listed()
+    point_at("VIEW_3D", 0.3, 0.2)
+    for key, wanted in (("ctrl+z", []), ("ctrl+shift+z", end)):
+        for _ in range(40):
+            xdotool("key", key)
+            yield
+            if listed() == wanted:
+                break
+        assert listed() == wanted, listed()
+
+
+def leave_edit_mode_and_come_back():
+    before = listed(), pairs()
+    yield from press("Tab")
+    assert bpy.context.mode == "OBJECT"
+    yield from press("ctrl+z")
+    assert (listed(), pairs()) == before
+    yield from type_strength(0, "3")
+    yield from check_undo_and_redo(before[0], [("Extender", 3.0, True), *before[0][1:]])
+    yield from press("ctrl+z")
+
+
+def save_and_reopen():
+    before = listed(), pairs()
+    path = str(VERDICT.with_name("extenders.blend"))
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    yield
+    bpy.ops.wm.read_homefile(use_empty=True)
+    yield
+    bpy.ops.wm.open_mainfile(filepath=path)
+    yield
+    yield
+    assert (listed(), pairs()) == before
+    screenshot("extenders_reopened")
+    yield from type_strength(0, "3")
+    yield from check_undo_and_redo(before[0], [("Extender", 3.0, True), *before[0][1:]])
+
+
+def steps():
+    yield from drive.open_uv_editing()
+    yield from open_grid()
+    yield from add_extenders()
+    yield from break_one()
+    yield from move_a_vertex()
+    yield from move_a_uv()
+    yield from undo_and_redo_all()
+    yield from leave_edit_mode_and_come_back()
+    yield from save_and_reopen()
+
+
+drive.run(steps())

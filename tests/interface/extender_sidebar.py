@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar's list of extenders, for the drivers that run inside Blender."""
+
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import driving as drive  # noqa: E402 - found only now
+from session import override, point_at, xdotool  # noqa: E402
+
+COLUMNS, ROWS = 6, 5
+# Places in the viewport's sidebar, in pixels from its top left corner.
+TAB = (215, 170)
+ADD, ADD_TO_ACTIVE = (112, 137), (103, 158)
+SELECT, REMOVE, REMOVE_BROKEN = (58, 292), (147, 292), (103, 316)
+FIRST_ROW, NEXT_ROW = 190, 21
+ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
+
+
+def open_grid():
+    """Put a grid with a map into edit mode, seen from above, vertices to be selected, none is; open the sidebar."""
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=COLUMNS, y_subdivisions=ROWS)
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.view3d.view_axis(type="TOP")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.ed.undo_push(message="Grid")
+    view = drive.area_of("VIEW_3D").spaces.active.region_3d
+    # Room for the sidebar on the right.
+    view.view_distance *= 1.7
+    view.view_location.x += 0.6
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    yield
+    point_at("VIEW_3D", 0.3, 0.3)
+    xdotool("key", "n")
+    # The sidebar slides in.
+    for _ in range(3):
+        yield
+    yield from click_sidebar(TAB)
+
+
+def point_at_sidebar(place):
+    region = drive.region_of("VIEW_3D", "UI")
+    drive.move_mouse(region.x + place[0], region.y + region.height - place[1])
+
+
+def click_sidebar(place, times=1):
+    point_at_sidebar(place)
+    yield
+    xdotool("click", "--repeat", times, "--delay", 60, 1)
+    yield
+
+
+def row(index, column):
+    return column, FIRST_ROW + NEXT_ROW * index
+
+
+def type_strength(index, strength):
+    """Double-click the strength of an extender in the list and type another."""
+    yield from click_sidebar(row(index, STRENGTH), times=2)
+    xdotool("key", "ctrl+a", "type", strength)
+    yield
+    xdotool("key", "Return")
+    yield
+
+
+def click_vertices(*indices):
+    """Click one vertex, the others with Shift."""
+    for place, index in enumerate(indices):
+        drive.point_at_vertices(index)
+        yield
+        xdotool(*(("keydown", "shift") if place else ()), "click", 1, *(("keyup", "shift") if place else ()))
+        yield
+
+
+def press(*keys):
+    """Press keys over the viewport, away from the mesh."""
+    point_at("VIEW_3D", 0.3, 0.2)
+    yield
+    for key in keys:
+        xdotool("key", key)
+        yield
+
+
+def listed():
+    return [(e.name, round(e.strength, 3), e.use) for e in bpy.context.edit_object.data.spectral_extenders]
+
+
+def pairs():
+    extenders = sys.modules["spectral_unwrap.extenders"]
+    mesh = bpy.context.edit_object.data
+    return extenders.ends(bmesh.from_edit_mesh(mesh), mesh)
+
+
+def check_undo_and_redo(before, after):
+    """Undo and redo the last step, which must change the list exactly from `after` to `before` and back."""
+    assert listed() == after, listed()
+    yield from press("ctrl+z")
+    assert listed() == before, listed()
+    yield from press("ctrl+shift+z")
+    assert listed() == after, listed()
