@@ -133,7 +133,7 @@ def _look(scene: bpy.types.Scene) -> None:
 def _see(scene: bpy.types.Scene) -> dict[int, _Watch]:
     """See the meshes in edit mode that have a UV map as they are now."""
     with _window(scene):
-        edit_meshes = edit_mode_unwrap.read(bpy.context, replace(_settings(), use_subsurf=False), all_visible=True)
+        edit_meshes = edit_mode_unwrap.read(bpy.context, replace(last_settings(), use_subsurf=False), all_visible=True)
     return {m.mesh.as_pointer(): _watch(m) for m in edit_meshes if m.polygons.uv is not None}
 
 
@@ -148,7 +148,7 @@ def _watch(edit_mesh: mesh_io.EditMesh) -> _Watch:
     return _Watch(edit_mesh.edit_object, bm, layer.name, polygons, pins, loops, _last_operator_address())
 
 
-def _settings() -> edit_mode_unwrap.Settings:
+def last_settings() -> edit_mode_unwrap.Settings:
     """Return the settings with which the operator was used last."""
     properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
     return UV_OT_spectral_unwrap.settings(properties) if properties else edit_mode_unwrap.Settings()
@@ -260,7 +260,7 @@ def _follow_seams(scene: bpy.types.Scene, changed: dict[int, np.ndarray]) -> Non
 
     `changed` are the edges whose seam has changed, by mesh.
     """
-    settings = _settings()
+    settings = last_settings()
     with _window(scene):
         edit_meshes = edit_mode_unwrap.read(bpy.context, settings, all_visible=True)
         if settings.keep_in_place:

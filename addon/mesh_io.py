@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMEdge, BMesh, BMLayerItem
 
-from . import active_image, compatibility, names, subdivision_surface
+from . import active_image, compatibility, extenders, names, subdivision_surface
 from .core.polygon_mesh import PolygonMesh
 from .core.subdivision import Subdivision, subdivision
 
@@ -56,13 +56,14 @@ def read(
             polygons = replace(polygons, pinned_corners=compatibility.pinned_corners(copy))
             if by_uv_selection:
                 _restrict_to_selected_uvs(polygons, compatibility.selected_uv_corners(bm, layer))
-        polygons = replace(polygons, stretch_direction=_active_edge(bm))
+        forces, broken = extenders.resolve(bm, mesh)
+        polygons = replace(polygons, extenders=tuple(forces), stretch_direction=_active_edge(bm))
         if correct_aspect:
             polygons = replace(polygons, aspect=active_image.aspect(edit_object, bm))
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
         bpy.data.meshes.remove(copy)
-    return EditMesh(edit_object, mesh, polygons, subdivided)
+    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken))
 
 
 def _active_edge(bm: BMesh) -> np.ndarray | None:

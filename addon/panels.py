@@ -79,6 +79,9 @@ class _ExtendersPanel(_UnwrapPanel):
         layout.template_list(
             names.EXTENDER_LIST, "", mesh, names.EXTENDERS_PROPERTY, mesh, names.ACTIVE_EXTENDER_PROPERTY, rows=4
         )
+        column = layout.column()
+        column.operator_context = "INVOKE_REGION_WIN"
+        column.operator(names.ADJUST_EXTENDER_OPERATOR, icon="ARROW_LEFTRIGHT").index = -1
         row = layout.row(align=True)
         row.operator(names.SELECT_EXTENDER_OPERATOR, text="Select").index = -1
         row.operator(names.REMOVE_EXTENDER_OPERATOR, text="Remove").broken = False

@@ -3,6 +3,7 @@
 
 import bpy
 
+from .adjust_extender import MESH_OT_spectral_extender_adjust
 from .extenders import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_remove,
@@ -15,6 +16,7 @@ _CLASSES = (
     UV_OT_spectral_unwrap,
     UV_OT_spectral_select_failed,
     MESH_OT_spectral_extender_add,
+    MESH_OT_spectral_extender_adjust,
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,
 )

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The UV map of an edit mesh while the strength of one of its extenders changes."""
+
+from itertools import chain, compress
+
+import bmesh
+import bpy
+import numpy as np
+
+from . import extenders, live_unwrap, mesh_io
+from .core.extender_adjustment import AdjustmentError, ExtenderAdjustment
+
+
+class AdjustedMap:
+    """Writes the map for a strength into the active UV map, and what was there before.
+
+    Attributes:
+        mesh: the mesh in edit mode.
+        index: place of the extender in the mesh's list.
+        start: the strength before.
+    """
+
+    def __init__(self, context: bpy.types.Context, index: int) -> None:
+        """Take an extender of the active object's mesh, and its islands as they are now.
+
+        The islands are those of the selected faces if these have both vertices, otherwise those of all visible faces.
+
+        Raises:
+            AdjustmentError: the extender is broken, or acts on no island.
+            NativeModuleError: `spectral_conformal` cannot be imported.
+        """
+        edit_object = context.edit_object
+        self.mesh = edit_object.data
+        self.index = index
+        extender = extenders.of(self.mesh)[index]
+        self.start = extender.strength
+        self._bm = bmesh.from_edit_mesh(self.mesh)
+        ends = extenders.ends(self._bm, self.mesh)[index]
+        if -1 in ends:
+            raise AdjustmentError(f"{extender.name} is broken: a vertex of it is gone; remove it and add another")
+        self._is_map_added = mesh_io.ensure_uv_map(self.mesh)
+        try:
+            self._adjustment = self._take(edit_object, ends)
+        except AdjustmentError:
+            self._remove_added_map()
+            raise
+        chosen = np.zeros(sum(len(face.verts) for face in self._bm.faces), dtype=bool)
+        chosen[self._adjustment.corners] = True
+        self._loops = list(compress(chain.from_iterable(face.loops for face in self._bm.faces), chosen.tolist()))
+        layer = self._bm.loops.layers.uv.active
+        self._before = [tuple(loop[layer].uv) for loop in self._loops]
+
+    def _take(self, edit_object: bpy.types.Object, ends: tuple[int, int]) -> ExtenderAdjustment:
+        settings = live_unwrap.last_settings()
+        for all_visible in (False, True):
+            polygons = mesh_io.read(edit_object, False, all_visible, settings.correct_aspect).polygons
+            unwrapped = polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]
+            if np.isin(ends, unwrapped).all():
+                break
+        return ExtenderAdjustment(polygons, settings.options, ends)
+
+    def show(self, strength: float, is_final: bool = False) -> None:
+        """Write the map for a strength; `is_final` asks the solver for all digits.
+
+        Raises:
+            AdjustmentError: an island could not be solved at this strength; the map stays as it is.
+        """
+        self._write(self._adjustment.map(strength, is_final).tolist())
+
+    def restore(self) -> None:
+        """Write exactly what was there before, also where that was no UV map."""
+        self._write(self._before)
+        self._remove_added_map()
+
+    def _remove_added_map(self) -> None:
+        if self._is_map_added:
+            self.mesh.uv_layers.remove(self.mesh.uv_layers.active)
+            self._is_map_added = False
+
+    def keep(self, strength: float) -> None:
+        """Store the strength with the extender."""
+        extenders.set_strength(self.mesh, self.index, strength)
+
+    @property
+    def is_valid(self) -> bool:
+        """Whether the mesh is still in edit mode and what it was."""
+        return self._bm.is_valid and all(loop.is_valid for loop in self._loops[:1])
+
+    def _write(self, uv: list) -> None:
+        layer = self._bm.loops.layers.uv.active
+        for loop, point in zip(self._loops, uv):
+            loop[layer].uv = point
+        bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)

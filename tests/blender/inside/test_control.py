@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extenders, hole rigidity, the blend from angles to areas and stretching, in the operator."""
+
+import sys
+from types import SimpleNamespace
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+
+def module(name):
+    return sys.modules[f"spectral_unwrap.{name}"]
+
+
+def select(edited, elements):
+    """Add vertices or edges to the selection history, the last one active; the selected faces stay."""
+    bm = scenes.edit_mesh(edited)
+    bm.select_history.clear()
+    for element in elements(bm):
+        element.select = True
+        bm.select_history.add(element)
+    bmesh.update_edit_mesh(edited.data)
+
+
+def add_extender(edited, first, second, strength):
+    """Add an extender, all faces being selected afterwards."""
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    select(edited, lambda bm: [bm.verts[first], bm.verts[second]])
+    assert bpy.ops.mesh.spectral_extender_add(strength=strength) == {"FINISHED"}
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
+def hill(columns=12, rows=10, height=4.0, **options):
+    """A grid with a hill in it that is not in the middle, in edit mode."""
+    new = scenes.grid(columns, rows, **options)
+    for vertex in new.data.vertices:
+        x, y, _ = vertex.co
+        vertex.co.z = height * np.exp(-((x - 0.6 * columns) ** 2 + (y - 0.45 * rows) ** 2) / 8.0)
+    scenes.edit(new)
+    return new
+
+
+def distance(edited, first, second):
+    """Return how far apart two vertices are in the map, relative to its size."""
+    uv = scenes.read_uv(edited)
+    vertices = [loop.vert.index for face in scenes.edit_mesh(edited).faces for loop in face.loops]
+    return np.linalg.norm(uv[vertices.index(first)] - uv[vertices.index(second)]) / np.sqrt(area(edited))
+
+
+def area(edited):
+    """Return the area of the map."""
+    uv = scenes.read_uv(edited).reshape(-1, 4, 2)
+    following = np.roll(uv, -1, axis=1)
+    return np.abs((uv[..., 0] * following[..., 1] - uv[..., 1] * following[..., 0]).sum(axis=1)).sum() / 2.0
+
+
+def scale_spread(edited):
+    """Return the standard deviation of the log2 of the linear scale over the quads."""
+    uv, positions = (x.reshape(-1, 4, x.shape[1]) for x in (scenes.read_uv(edited), scenes.corner_positions(edited)))
+    image = np.abs(np.cross(uv[:, 2] - uv[:, 0], uv[:, 3] - uv[:, 1]))
+    surface = np.linalg.norm(np.cross(positions[:, 2] - positions[:, 0], positions[:, 3] - positions[:, 1]), axis=1)
+    scale = np.log2(image / surface) / 2.0
+    return np.sqrt(np.average((scale - np.average(scale, weights=surface)) ** 2, weights=surface))
+
+
+def warnings(reports):
+    return [text for level, text in reports() if level == "Warning"]
+
+
+def test_extenders_act_on_the_unwrap_monotonically(reports):
+    grid = hill()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    distances = [distance(grid, 1, 140)]
+    add_extender(grid, 1, 140, 0.5)
+    for strength in (0.5, 5.0):
+        grid.data.spectral_extenders[0].strength = strength
+        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+        distances.append(distance(grid, 1, 140))
+    assert np.all(np.diff(distances) > 1e-4)
+    grid.data.spectral_extenders[0].use = False
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert distance(grid, 1, 140) == pytest.approx(distances[0], abs=1e-5)
+    assert warnings(reports) == []
+
+
+def test_broken_extenders_are_skipped_with_a_warning(reports):
+    grid = hill()
+    add_extender(grid, 0, 140, 3.0)
+    add_extender(grid, 1, 139, 1.0)
+    bm = scenes.edit_mesh(grid)
+    bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
+    bmesh.update_edit_mesh(grid.data)
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert warnings(reports) == ["Skipped 1 extender whose vertex is gone: Extender"]
+
+
+def test_extenders_without_effect_are_told_where_they_were_meant(reports):
+    grid = hill()
+    add_extender(grid, 0, 140, 3.0)
+    for edge in scenes.edit_mesh(grid).edges:
+        edge.seam = all(vertex.co.x == 6.0 for vertex in edge.verts)
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert [text for text in warnings(reports) if "1 extender had no effect" in text]
+    # Nobody meant it where neither vertex is unwrapped.
+    middle = [f.index for f in scenes.edit_mesh(grid).faces if 2.0 < f.calc_center_median().y < 5.0]
+    scenes.select_faces(grid, middle)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert warnings(reports) == []
+
+
+def test_extenders_act_on_the_subdivided_mesh():
+    grid = hill()
+    grid.modifiers.new("Subdivision", "SUBSURF")
+    assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+    before = distance(grid, 1, 140)
+    add_extender(grid, 1, 140, 5.0)
+    assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+    assert distance(grid, 1, 140) > before + 1e-4
+
+
+def test_adjusting_sets_the_strength_and_keeps_place_and_size():
+    grid = hill()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    add_extender(grid, 1, 140, 0.0)
+    before, former_area, state = scenes.read_uv(grid), area(grid), scenes.state(grid)
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=5.0) == {"FINISHED"}
+    assert grid.data.spectral_extenders[0].strength == 5.0
+    assert scenes.state(grid) == state
+    adjusted = scenes.read_uv(grid)
+    assert not np.allclose(adjusted, before, atol=1e-3)
+    assert area(grid) == pytest.approx(former_area, rel=1e-5)
+    np.testing.assert_allclose(adjusted.mean(axis=0), before.mean(axis=0), atol=1e-5)
+    stretched = distance(grid, 1, 140)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert distance(grid, 1, 140) == pytest.approx(stretched, abs=1e-5)
+    # Back at no strength the map is what it was.
+    scenes.write_uv(grid, adjusted)
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=0.0) == {"FINISHED"}
+    np.testing.assert_allclose(scenes.read_uv(grid), before, atol=1e-4)
+
+
+def test_adjusting_leaves_other_islands_and_hidden_faces_alone():
+    grid = hill()
+    for edge in scenes.edit_mesh(grid).edges:
+        edge.seam = all(vertex.co.x == 4.0 for vertex in edge.verts)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    add_extender(grid, 10, 140, 0.0)
+    faces = scenes.edit_mesh(grid).faces
+    left = scenes.corners_of(grid, [f.index for f in faces if f.calc_center_median().x < 4.0])
+    before = scenes.read_uv(grid)
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=5.0) == {"FINISHED"}
+    after = scenes.read_uv(grid)
+    np.testing.assert_array_equal(after[left], before[left])
+    assert np.abs(after[~left] - before[~left]).max() > 1e-3
+
+
+def test_adjusting_what_cannot_be_adjusted_changes_nothing(reports):
+    grid = hill(uv_map=False)
+    add_extender(grid, 0, 140, 1.0)
+    for edge in scenes.edit_mesh(grid).edges:
+        edge.seam = all(vertex.co.x == 6.0 for vertex in edge.verts)
+    with pytest.raises(RuntimeError, match="vertices lie in no common island"):
+        bpy.ops.mesh.spectral_extender_adjust(strength=2.0)
+    with pytest.raises(RuntimeError, match="No such extender"):
+        bpy.ops.mesh.spectral_extender_adjust(index=7)
+    assert grid.data.spectral_extenders[0].strength == 1.0
+    assert not grid.data.uv_layers
+
+
+def test_adjusting_a_mesh_without_map_makes_one():
+    grid = hill(uv_map=False)
+    add_extender(grid, 1, 140, 1.0)
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
+    low, high = scenes.bounds(scenes.read_uv(grid))
+    assert low.min() >= 0.0
+    assert high.max() <= 1.0
+    assert area(grid) > 0.1
+
+
+class Dragged:
+    """Drives the modal operator without a window."""
+
+    def __init__(self):
+        self.operator_class = module("operators.adjust_extender").MESH_OT_spectral_extender_adjust
+        # What a bpy operator instance would have.
+        self.operator = SimpleNamespace(index=-1, strength=1.0, reported=[])
+        self.operator.report = lambda levels, text: self.operator.reported.append(text)
+        for name in ("_adjusted", "_drag", "_type", "_show", "_keep", "_end", "cancel"):
+            function = getattr(self.operator_class, name)
+            setattr(self.operator, name, function.__get__(self.operator))
+        self.status = []
+        self.context = SimpleNamespace(
+            edit_object=bpy.context.edit_object,
+            mode="EDIT_MESH",
+            scene=bpy.context.scene,
+            area=None,
+            workspace=SimpleNamespace(status_text_set=self.status.append),
+            screen=SimpleNamespace(areas=[]),
+            window_manager=SimpleNamespace(modal_handler_add=lambda _operator: None),
+        )
+        self.x = 100
+        assert self.operator_class.invoke(self.operator, self.context, self.event()) == {"RUNNING_MODAL"}
+
+    def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
+        properties = {"type": kind, "value": value, "mouse_x": self.x, "shift": False, "ascii": "", **others}
+        return SimpleNamespace(**properties)
+
+    def send(self, *arguments, **others):
+        return self.operator_class.modal(self.operator, self.context, self.event(*arguments, **others))
+
+    def move(self, pixels, **others):
+        self.x += pixels
+        return self.send(**others)
+
+
+@pytest.fixture
+def dragged():
+    grid = hill()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    add_extender(grid, 1, 140, 1.0)
+    return grid, scenes.read_uv(grid), Dragged()
+
+
+def test_dragging_changes_the_strength_and_the_map_follows(dragged):
+    grid, before, drag = dragged
+    assert drag.move(200) == {"RUNNING_MODAL"}
+    assert drag.operator.strength == pytest.approx(3.0)
+    drag.move(100, shift=True)
+    assert drag.operator.strength == pytest.approx(3.1)
+    assert "strength 3.100" in drag.status[-1]
+    assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
+    assert grid.data.spectral_extenders[0].strength == 1.0
+    assert drag.send("LEFTMOUSE", "PRESS") == {"FINISHED"}
+    assert grid.data.spectral_extenders[0].strength == pytest.approx(3.1)
+    assert drag.status[-1] is None
+
+
+def test_escape_restores_exactly(dragged):
+    grid, before, drag = dragged
+    drag.move(-150)
+    drag.move(700)
+    assert drag.send("ESC", "PRESS") == {"CANCELLED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    assert grid.data.spectral_extenders[0].strength == 1.0
+    assert drag.status[-1] is None
+
+
+def test_a_number_can_be_typed(dragged):
+    grid, _, drag = dragged
+    for key, character in (("TWO", "2"), ("PERIOD", "."), ("FIVE", "5"), ("FIVE", "5"), ("BACK_SPACE", "")):
+        assert drag.send(key, "PRESS", ascii=character) == {"RUNNING_MODAL"}
+    assert drag.operator.strength == 2.5
+    assert "[2.5|]" in drag.status[-1]
+    drag.move(50)
+    assert drag.operator.strength == 2.5
+    assert drag.send("RET", "PRESS") == {"FINISHED"}
+    assert grid.data.spectral_extenders[0].strength == 2.5
+
+
+def test_where_the_map_cannot_follow_it_stays_and_the_reason_is_shown(dragged):
+    grid, _, drag = dragged
+    for key, character in (("MINUS", "-"), ("NINE", "9"), ("NINE", "9"), ("NINE", "9"), ("NINE", "9")):
+        drag.send(key, "PRESS", ascii=character)
+    shown = scenes.read_uv(grid)
+    assert np.isfinite(shown).all()
+    assert "weaken or remove extenders" in drag.status[-1]
+    assert drag.send("RET", "PRESS") == {"CANCELLED"}
+    assert grid.data.spectral_extenders[0].strength == 1.0
+
+
+def test_view_navigation_goes_on_while_dragging(dragged):
+    _, _, drag = dragged
+    assert drag.send("WHEELUPMOUSE", "PRESS") == {"PASS_THROUGH"}
+    assert drag.send("A", "PRESS", ascii="a") == {"RUNNING_MODAL"}
+
+
+def test_the_area_blend_evens_the_scale():
+    grid = hill(24, 20, 6.0)
+    spreads = []
+    for blend in (0.0, 0.5, 1.0):
+        assert bpy.ops.uv.spectral_unwrap(area_blend=blend) == {"FINISHED"}
+        spreads.append(scale_spread(grid))
+    assert spreads[1] < 0.8 * spreads[0]
+    assert spreads[2] < 0.5 * spreads[0]
+
+
+def test_hole_rigidity_reaches_the_solver():
+    ring = hill()
+    scenes.select_faces(ring, [40, 41, 52, 53])
+    bpy.ops.mesh.delete(type="FACE")
+    bpy.ops.mesh.select_all(action="SELECT")
+    maps = []
+    for rigidity in (0.0, 5.0):
+        assert bpy.ops.uv.spectral_unwrap(hole_rigidity=rigidity) == {"FINISHED"}
+        maps.append(scenes.read_uv(ring))
+    assert np.abs(maps[0] - maps[1]).max() > 1e-4
+
+
+def test_stretching_goes_along_the_active_edge(reports):
+    grid = scenes.grid(6, 4)
+    scenes.edit(grid)
+    edge_along_x = lambda bm: [e for e in bm.edges if abs(e.verts[0].co.x - e.verts[1].co.x) == 1.0][3:4]  # noqa: E731
+    select(grid, edge_along_x)
+    assert bpy.ops.uv.spectral_unwrap(stretch=2.0) == {"FINISHED"}
+    width, height = np.sort(np.ptp(scenes.read_uv(grid), axis=0))[::-1]
+    assert width / height == pytest.approx(2.0 * 6.0 / 4.0, rel=1e-5)
+    assert warnings(reports) == []
+    scenes.edit_mesh(grid).select_history.clear()
+    assert bpy.ops.uv.spectral_unwrap(stretch=2.0) == {"FINISHED"}
+    width, height = np.sort(np.ptp(scenes.read_uv(grid), axis=0))[::-1]
+    assert width / height == pytest.approx(6.0 / 4.0, rel=1e-5)
+    assert [text for text in warnings(reports) if "there is no active edge" in text]
