@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The UV map of an edit mesh while the strength of one of its extenders changes."""
 
+from dataclasses import replace
 from itertools import chain, compress
 
 import bmesh
@@ -57,6 +58,9 @@ class AdjustedMap:
             unwrapped = polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]
             if np.isin(ends, unwrapped).all():
                 break
+        if self._is_map_added:
+            # Blender fills a new map with whole tiles, which are no place to keep.
+            polygons = replace(polygons, uv=None, pinned_corners=None)
         return ExtenderAdjustment(polygons, settings.options, ends)
 
     def show(self, strength: float, is_final: bool = False) -> None:
