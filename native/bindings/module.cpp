@@ -17,6 +17,7 @@
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/factorization.h"
 #include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/seam_suggestion.h"
 #include "spectral_conformal/unwrap.h"
 
 namespace py = pybind11;
@@ -298,6 +299,33 @@ py::dict unwrap(const Array<double>& vertices, const Array<int>& face_offsets, c
                   py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts);
 }
 
+py::array_t<int> suggest_seams(const Array<double>& vertices, const Array<int>& face_offsets,
+                               const Array<int>& corner_vertices, std::optional<Array<int>> seam_edges,
+                               std::optional<Array<bool>> selected_faces, double max_length, double scale_limit,
+                               double qc_limit, const std::string& weights, const std::string& boundary,
+                               const std::string& backend, const py::object& progress) {
+  const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
+  const sc::PolygonMesh mesh = arrays.view();
+  sc::SeamSuggestionOptions options;
+  options.max_length = max_length;
+  options.scale_limit = scale_limit;
+  options.qc_limit = qc_limit;
+  options.map.weights = weights_named(weights);
+  options.map.boundary = boundary_named(boundary);
+  options.map.backend = backend_named(backend);
+  const sc::Progress callback = progress_of(progress);
+  sc::SeamSuggestion suggestion;
+  {
+    const py::gil_scoped_release unlocked;
+    suggestion = sc::suggest_seams(mesh, options, callback);
+  }
+  py::array_t<int> edges({static_cast<py::ssize_t>(suggestion.edges.size()), static_cast<py::ssize_t>(2)});
+  if (!suggestion.edges.empty()) {
+    std::copy_n(suggestion.edges.front().data(), 2 * suggestion.edges.size(), edges.mutable_data());
+  }
+  return edges;
+}
+
 py::dict build_info() {
   return py::dict(py::arg("factorization") = sc::factorization_library(), py::arg("blas") = sc::blas_library());
 }
@@ -316,5 +344,6 @@ PYBIND11_MODULE(_native, module) {
       .def("solve", &PatchSolver::solve);
   module.def("distortion", &distortion);
   module.def("unwrap", &unwrap);
+  module.def("suggest_seams", &suggest_seams);
   module.def("build_info", &build_info);
 }

@@ -16,6 +16,7 @@ from ._api import (
     build_info,
     distortion,
     parameterize,
+    suggest_seams,
     unwrap,
 )
 from ._native import Cancelled, InvalidMeshError, SolveError
@@ -33,5 +34,6 @@ __all__ = [
     "build_info",
     "distortion",
     "parameterize",
+    "suggest_seams",
     "unwrap",
 ]

@@ -278,24 +278,9 @@ def unwrap(
         ValueError: the arrays do not describe a mesh.
         Cancelled: `progress` returned False.
     """
-    vertices = _vertices(vertices)
-    offsets = _index_vector(face_offsets, "face_offsets")
-    corners = _indices(corner_vertices, "corner_vertices", None, len(vertices))
-    if len(offsets) == 0:
-        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
-    if len(offsets) == 1:
-        raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
-    if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
-        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing.")
-    seams = None if seam_edges is None else _indices(seam_edges, "seam_edges", 2, len(vertices))
-    selected = None
-    if selected_faces is not None:
-        selected = np.asarray(selected_faces)
-        if selected.dtype != np.bool_ or selected.shape != (len(offsets) - 1,):
-            raise ValueError(
-                f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
-                f"{selected.shape}."
-            )
+    vertices, offsets, corners, seams, selected = _polygon_mesh(
+        vertices, face_offsets, corner_vertices, seam_edges, selected_faces
+    )
     _check_options(method=method, weights=weights, boundary=boundary, factorization=factorization)
     pinned, uv = _corner_pins(pinned_corners, corner_uv, len(corners))
     soft = _soft_pins(soft_pins, method)
@@ -319,6 +304,73 @@ def unwrap(
     )
     result["charts"] = [Chart(**chart) for chart in result["charts"]]
     return Unwrap(**result)
+
+
+def suggest_seams(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    seam_edges: npt.ArrayLike | None = None,
+    selected_faces: npt.ArrayLike | None = None,
+    max_length: float | None = None,
+    scale_limit: float = 2.0,
+    qc_limit: float = 1.05,
+    weights: Weights = "uniform",
+    boundary: Boundary = "length",
+    progress: Progress | None = None,
+    factorization: Factorization = "auto",
+) -> npt.NDArray[np.int32]:
+    """Propose seams that lower the distortion of `unwrap` most, beside those that the mesh has.
+
+    Topology comes first: handles are cut open and closed surfaces slit, whatever that takes, because they could not be
+    unwrapped otherwise. Then the most distorted places are joined to the seams one after the other, and each cut is
+    solved before it is proposed, so that unwrapping with it shows lower distortion. A component gets no more seams once
+    `scale_limit` and `qc_limit` are met or nothing helps. Where a plane x, y or z = constant mirrors a component's
+    faces onto the mesh's, its seams come in mirrored pairs or lie on the plane if the edges allow that.
+
+    Args:
+        vertices: (V, 3) positions, any unit.
+        face_offsets: as in `unwrap`.
+        corner_vertices: as in `unwrap`.
+        seam_edges: (S, 2) seams that stay; the proposed ones complete them.
+        selected_faces: (faces,) bool, all faces when left out; only edges between two of them are proposed.
+        max_length: limit of the total length of the proposed seams, in the unit of the vertices; none when left out.
+            What topology needs counts, but is proposed even beyond the limit.
+        scale_limit: a component is good enough when 95 % of its area has a linear scale (root of UV area over 3D area)
+            within this factor of the median, and
+        qc_limit: when its mean quasi-conformal distortion is not above this.
+        weights: of the maps, see `parameterize`.
+        boundary: see `parameterize`.
+        progress: see `Progress`.
+        factorization: see `parameterize`.
+
+    Returns:
+        (S, 2) int32 vertex pairs, the smaller vertex first, cut after cut in the order in which they were found: first
+        what topology needs, then what lowers the distortion most.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh, or an option is out of range.
+        Cancelled: `progress` returned False.
+    """
+    vertices, offsets, corners, seams, selected = _polygon_mesh(
+        vertices, face_offsets, corner_vertices, seam_edges, selected_faces
+    )
+    _check_options(weights=weights, boundary=boundary, factorization=factorization)
+    return _native.suggest_seams(
+        vertices,
+        offsets,
+        corners,
+        seams,
+        selected,
+        np.inf if max_length is None else _at_least(max_length, 0.0, "max_length"),
+        _at_least(scale_limit, 1.0, "scale_limit"),
+        _at_least(qc_limit, 1.0, "qc_limit"),
+        weights,
+        boundary,
+        factorization,
+        _progress(progress),
+    )
 
 
 def build_info() -> dict[str, str]:
@@ -418,6 +470,40 @@ def _indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: 
     if flat.size and flat.max() >= n_vertices:
         raise ValueError(f"{name} has the vertex {flat.max()}, but there are {n_vertices} vertices.")
     return flat.reshape(shape) if columns is not None else flat
+
+
+def _polygon_mesh(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    seam_edges: npt.ArrayLike | None,
+    selected_faces: npt.ArrayLike | None,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
+    vertices = _vertices(vertices)
+    offsets = _index_vector(face_offsets, "face_offsets")
+    corners = _indices(corner_vertices, "corner_vertices", None, len(vertices))
+    if len(offsets) == 0:
+        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+    if len(offsets) == 1:
+        raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
+    if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
+        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing.")
+    seams = None if seam_edges is None else _indices(seam_edges, "seam_edges", 2, len(vertices))
+    selected = None
+    if selected_faces is not None:
+        selected = np.asarray(selected_faces)
+        if selected.dtype != np.bool_ or selected.shape != (len(offsets) - 1,):
+            raise ValueError(
+                f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
+                f"{selected.shape}."
+            )
+    return vertices, offsets, corners, seams, selected
+
+
+def _at_least(value: float, least: float, name: str) -> float:
+    if not (isinstance(value, numbers.Real) and value >= least):
+        raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
+    return float(value)
 
 
 def _flag(value: object, name: str) -> bool:
