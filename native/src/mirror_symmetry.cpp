@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 
@@ -12,31 +13,28 @@ namespace {
 
 bool selected(const PolygonMesh& mesh, int face) { return mesh.selected_faces == nullptr || mesh.selected_faces[face]; }
 
-/// Finds the vertex nearest to a point among those within a radius, in a grid of cells of twice that radius.
+/// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
 class NearbyVertices {
  public:
   NearbyVertices(const Positions& points, const std::vector<int>& used, double radius)
       : points_(points), radius_(radius), cell_(2 * radius) {
     for (const int v : used) cells_[key(cell_of(points.row(v)))].push_back(v);
   }
-  /// The nearest one, the first of equally near ones, or -1.
-  int nearest(const Eigen::RowVector3d& point) const {
-    int best = -1;
-    double best_distance = radius_;
+  /// Those within the radius, ascending.
+  std::vector<int> near(const Eigen::RowVector3d& point) const {
+    std::vector<int> result;
     const auto centre = cell_of(point);
     for (int neighbour = 0; neighbour < 27; ++neighbour) {
       const auto found = cells_.find(
           key({centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + neighbour / 9 - 1}));
       if (found == cells_.end()) continue;
       for (const int v : found->second) {
-        const double distance = (points_.row(v) - point).norm();
-        if (distance < best_distance || (distance == best_distance && (best < 0 || v < best))) {
-          best = v;
-          best_distance = distance;
-        }
+        if ((points_.row(v) - point).norm() <= radius_) result.push_back(v);
       }
     }
-    return best;
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
   }
 
  private:
@@ -99,20 +97,50 @@ class FaceTable {
   std::vector<std::pair<std::vector<int>, int>> faces_;
 };
 
-/// Matches the vertices across one plane; only pairs that name each other count.
-void match_vertices(const Positions& points, const std::vector<int>& used, const NearbyVertices& nearby, double centre,
-                    MirrorSymmetry& result) {
+/// The other vertices of the selected faces at a vertex.
+std::vector<std::vector<int>> face_mates(const PolygonMesh& mesh) {
+  std::vector<std::vector<int>> mates(static_cast<std::size_t>(mesh.n_vertices));
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!selected(mesh, face)) continue;
+    const int* first = mesh.corner_vertices + mesh.face_offsets[face];
+    const int* last = mesh.corner_vertices + mesh.face_offsets[face + 1];
+    for (const int* v = first; v != last; ++v) {
+      std::copy_if(first, last, std::back_inserter(mates[*v]), [&](int other) { return other != *v; });
+    }
+  }
+  for (auto& list : mates) std::sort(list.begin(), list.end());
+  return mates;
+}
+
+/// Matches the vertices across one plane. Of several in the same place the one counts whose faces have most vertices
+/// that are images of its own faces' vertices. Only pairs that name each other are kept.
+void match_vertices(const Positions& points, const std::vector<int>& used, const NearbyVertices& nearby,
+                    const std::vector<std::vector<int>>& mates, MirrorSymmetry& result) {
   std::vector<int> image(static_cast<std::size_t>(points.rows()), -1);
+  std::vector<std::pair<int, std::vector<int>>> ambiguous;
   for (const int v : used) {
     Eigen::RowVector3d mirrored = points.row(v);
-    mirrored[result.axis] = 2 * centre - mirrored[result.axis];
-    image[v] = nearby.nearest(mirrored);
+    mirrored[result.axis] = -mirrored[result.axis];
+    std::vector<int> near = nearby.near(mirrored);
+    if (near.size() == 1) image[v] = near.front();
+    if (near.size() > 1) ambiguous.emplace_back(v, std::move(near));
   }
+  std::vector<int> chosen;
+  for (const auto& [v, candidates] : ambiguous) {
+    const auto common = [&, own = v](int candidate) {
+      return std::count_if(mates[own].begin(), mates[own].end(), [&](int mate) {
+        return image[mate] >= 0 && std::binary_search(mates[candidate].begin(), mates[candidate].end(), image[mate]);
+      });
+    };
+    chosen.push_back(
+        *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) { return common(a) < common(b); }));
+  }
+  for (std::size_t i = 0; i < chosen.size(); ++i) image[ambiguous[i].first] = chosen[i];
   result.vertex.assign(image.size(), -1);
   result.side.assign(image.size(), 0);
   for (const int v : used) {
     if (image[v] >= 0 && image[image[v]] == v) result.vertex[v] = image[v];
-    if (result.vertex[v] != v) result.side[v] = points(v, result.axis) < centre ? -1 : 1;
+    if (result.vertex[v] != v) result.side[v] = points(v, result.axis) < 0 ? -1 : 1;
   }
 }
 
@@ -153,11 +181,12 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   Positions points = Positions::Zero(mesh.n_vertices, 3);
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
+  const std::vector<std::vector<int>> mates = face_mates(mesh);
   const FaceTable table(mesh);
   int most = 0;
   for (int axis = 0; axis < 3; ++axis) {
     MirrorSymmetry candidate{axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
-    match_vertices(points, used, nearby, 0, candidate);
+    match_vertices(points, used, nearby, mates, candidate);
     const int matched = match_faces(table, candidate);
     if (matched <= most) continue;
     most = matched;

@@ -14,6 +14,7 @@
 #include "spectral_conformal/mirror_symmetry.h"
 #include "spectral_conformal/seam_graph.h"
 #include "spectral_conformal/seam_piece.h"
+#include "spectral_conformal/separating_cut.h"
 
 namespace spectral_conformal {
 namespace {
@@ -24,7 +25,16 @@ constexpr double least_prominence = 0.25;
 /// In the first rounds, extrema with at least this part of the volume of the largest are cut to together.
 constexpr double together = 0.2;
 /// A cut must lower the distortion by at least this part.
-constexpr double least_gain = 0.01;
+constexpr double least_gain = 0.002;
+/// Overlaps of less than this part of the area are left to the user.
+constexpr double negligible_overlap = 0.005;
+/// A cut against overlaps must remove at least this part of them, and may raise the distortion by this factor.
+constexpr double least_overlap_gain = 0.2;
+constexpr double distortion_for_overlap = 1.05;
+/// No island gets less than this part of the area of the chart that it is cut from.
+constexpr double least_island = 0.02;
+/// What a cut gains counts less by this factor where it makes an island.
+constexpr double island_penalty = 0.4;
 /// Edges of the mirror plane are where artists look for seams first.
 constexpr double axis_discount = 0.7;
 /// Cuts shorter than this part of the root of the area gain as if they were as long.
@@ -67,14 +77,17 @@ class PieceCutter {
       cuts.push_back(first_slit());
       mark(cuts.back());
     }
+    const Edges bridge = symmetric_outer_loop();
+    if (!bridge.empty()) {
+      cuts.push_back(bridge);
+      mark(bridge);
+    }
     return cuts;
   }
 
   void solve(const Progress& progress) {
     charts_ = map_charts(cut_edges_, progress);
     quality_ = map_quality(charts_, options_.scale_limit);
-    finished_ = good_enough(quality_) || quality_.area == 0;
-    if (!quality_.solved) finished_ = false;
   }
 
   bool finished() const { return finished_; }
@@ -82,14 +95,17 @@ class PieceCutter {
   /// What is to be gained here, for choosing the next piece.
   double urgency() const { return quality_.solved ? quality_.distortion() * quality_.area : 1e300; }
 
-  /// The next cut that lowers the distortion and is not longer than `longest`; empty, and finished(), where none is.
+  /// The next cut that lowers the distortion, or overlaps, and is not longer than `longest`; empty, and finished(),
+  /// where there is none.
   Edges step(double longest, const Progress& progress) {
     Edges accepted;
     if (!quality_.solved) {
       accepted = blind_cut();
       if (!accepted.empty()) solve(progress);
     } else {
-      accepted = best_cut(longest, progress);
+      if (quality_.within_limit < enough_area) accepted = cut_to_all(longest, progress);
+      if (accepted.empty()) accepted = cut_between_overlaps(longest, progress);
+      if (accepted.empty() && !good_enough(quality_)) accepted = best_cut(longest, progress);
     }
     if (accepted.empty()) finished_ = true;
     return accepted;
@@ -163,10 +179,39 @@ class PieceCutter {
     return graph_.path(one, target, [&](int edge, int) { return !along_axis || axis_only(edge); });
   }
 
-  MappedCharts map_charts(const Edges& cuts, const Progress& progress) const {
+  /// Where the longest loop is one of a mirrored pair, the map of a symmetric surface is not symmetric: joins the two.
+  Edges symmetric_outer_loop() const {
+    if (!own_image_) return {};
     PolygonMesh mesh = piece_.view();
+    const std::vector<std::array<int, 2>> seams = seams_with(cut_edges_);
+    mesh.seam_edges = seams.data();
+    mesh.n_seam_edges = static_cast<int>(seams.size());
+    const ChartDecomposition decomposition = build_charts(mesh);
+    const Chart& chart = decomposition.charts.front();
+    if (chart.boundary_loops.size() < 2) return {};
+    const int outer = outer_loop(chart.boundary_loops, chart.positions(mesh));
+    std::set<int> loop;
+    for (const int v : chart.boundary_loops[static_cast<std::size_t>(outer)]) loop.insert(chart.vertices[v]);
+    int start = *loop.begin();
+    if (loop.count(mirror_.vertex[start]) > 0) return {};
+    if (side_[start] < 0) start = mirror_.vertex[start];
+    std::vector<char> axis(static_cast<std::size_t>(graph_.n_vertices()), 0);
+    for (int v = 0; v < graph_.n_vertices(); ++v) axis[v] = on_axis(v) ? 1 : 0;
+    return with_images(graph_.path(start, axis, [&](int e, int from) {
+      const auto& ends = graph_.edges()[e].vertices;
+      return side_[ends[0] == from ? ends[1] : ends[0]] >= 0;
+    }));
+  }
+
+  std::vector<std::array<int, 2>> seams_with(const Edges& cuts) const {
     std::vector<std::array<int, 2>> seams = piece_.seams;
     for (const int edge : cuts) seams.push_back(graph_.edges()[edge].vertices);
+    return seams;
+  }
+
+  MappedCharts map_charts(const Edges& cuts, const Progress& progress) const {
+    PolygonMesh mesh = piece_.view();
+    const std::vector<std::array<int, 2>> seams = seams_with(cuts);
     mesh.seam_edges = seams.data();
     mesh.n_seam_edges = static_cast<int>(seams.size());
     ChartDecomposition decomposition = build_charts(mesh);
@@ -336,17 +381,17 @@ class PieceCutter {
     trial.quality = map_quality(trial.charts, options_.scale_limit);
     return trial;
   }
-  /// A cut that separates a chart is no improvement, however low its distortion: islands are for the user to make.
   bool improves(const Trial& trial) const {
-    return trial.quality.solved && trial.charts.size() == charts_.size() &&
-           trial.quality.distortion() < (1 - least_gain) * quality_.distortion();
+    return trial.quality.solved && trial.quality.distortion() < (1 - least_gain) * quality_.distortion();
   }
+  bool makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
+  /// Relative to what a path across the whole surface would cost, so that a very short cut is not the best in any case.
+  double price(const Trial& trial) const { return length(trial.cut) + short_cut * std::sqrt(quality_.area); }
   Edges accept(Trial&& trial) {
     mark(trial.cut);
     charts_ = std::move(trial.charts);
     quality_ = trial.quality;
-    finished_ = good_enough(quality_);
-    return trial.cut;
+    return std::move(trial.cut);
   }
 
   /// Cuts to all the places that matter at once.
@@ -362,34 +407,215 @@ class PieceCutter {
     return all;
   }
 
+  Edges cut_to_all(double longest, const Progress& progress) {
+    const std::vector<int> of_face = chart_of_face();
+    const std::vector<Place> where = places(true, of_face);
+    if (where.size() < 2) return {};
+    const Edges all = cut_together(where, of_face);
+    if (all.empty() || length(all) > longest) return {};
+    Trial trial = attempt(all, progress);
+    return improves(trial) && !makes_islands(trial) ? accept(std::move(trial)) : Edges{};
+  }
+
   Edges best_cut(double longest, const Progress& progress) {
     const std::vector<int> of_face = chart_of_face();
-    std::vector<Place> by_scale = places(true, of_face);
-    if (quality_.within_limit < enough_area && by_scale.size() > 1) {
-      const Edges all = cut_together(by_scale, of_face);
-      if (!all.empty() && length(all) <= longest) {
-        Trial trial = attempt(all, progress);
-        if (improves(trial)) return accept(std::move(trial));
+    const std::vector<Place> by_scale = places(true, of_face);
+    const std::vector<Place> by_angle = places(false, of_face);
+    // Every trial solves a chart, so large pieces get fewer; the less distorted places only if the first do not help.
+    const std::size_t most = static_cast<std::size_t>(std::clamp(40000 / std::max(1, graph_.n_vertices()), 2, 6));
+    constexpr std::size_t groups = 4;
+    for (std::size_t group = 0; group < groups; ++group) {
+      Trial best;
+      double best_gain = 0;
+      const auto try_cut = [&](Edges cut, bool island) {
+        if (cut.empty() || length(cut) > longest) return;
+        Trial trial = attempt(std::move(cut), progress);
+        if (!improves(trial) || makes_islands(trial) != island) return;
+        const double gain =
+            (island ? island_penalty : 1) * (quality_.distortion() - trial.quality.distortion()) / price(trial);
+        if (gain <= best_gain) return;
+        best_gain = gain;
+        best = std::move(trial);
+      };
+      for (const auto* list : {&by_scale, &by_angle}) {
+        for (std::size_t i = group * most; i < std::min((group + 1) * most, list->size()); ++i) {
+          try_cut(cut_to((*list)[i], of_face), false);
+        }
+      }
+      if (group < by_scale.size()) try_cut(cut_around(by_scale[group], of_face), true);
+      if (best_gain > 0) return accept(std::move(best));
+    }
+    return {};
+  }
+
+  SeparableFaces separable(int chart) const {
+    SeparableFaces faces;
+    faces.graph = &graph_;
+    const auto n = static_cast<std::size_t>(piece_.n_faces());
+    faces.member.assign(n, 0);
+    faces.area.assign(n, 0);
+    faces.centre.assign(n, Eigen::Vector3d::Zero());
+    const MappedChart& mapped = *charts_[chart];
+    for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+      const int face = mapped.chart.faces[i];
+      faces.member[face] = 1;
+      faces.area[face] = mapped.area[i];
+      const int first = piece_.face_offsets[face];
+      const int last = piece_.face_offsets[face + 1];
+      for (int c = first; c < last; ++c) {
+        faces.centre[face] += piece_.positions.row(piece_.corner_vertices[c]).transpose() / (last - first);
       }
     }
-    const std::vector<Place> by_angle = places(false, of_face);
-    // Every trial solves a chart, so large pieces get fewer.
-    const std::size_t most = static_cast<std::size_t>(std::clamp(40000 / std::max(1, graph_.n_vertices()), 1, 6));
-    by_scale.resize(std::min(by_scale.size(), most));
-    by_scale.insert(by_scale.end(), by_angle.begin(),
-                    by_angle.begin() + static_cast<std::ptrdiff_t>(std::min(by_angle.size(), most)));
+    return faces;
+  }
+
+  /// A cut that parts the faces of a chart, with its mirror image; both islands keep clear of each other.
+  Edges cut_apart(int chart, const SeparableFaces& faces, const std::vector<int>& sources,
+                  const std::vector<int>& sinks, const std::vector<int>& chart_of_face) const {
+    std::vector<char> side = separating_side(faces, sources, sinks, least_island);
+    if (self_mirrored(chart, chart_of_face)) {
+      double shared = 0;
+      double own = 0;
+      for (std::size_t f = 0; f < side.size(); ++f) {
+        if (side[f] == 0) continue;
+        own += faces.area[f];
+        if (side[mirror_.face[f]] != 0) shared += faces.area[f];
+      }
+      const std::vector<char> whole = side;
+      for (std::size_t f = 0; f < side.size(); ++f) {
+        const bool both = whole[f] != 0 && whole[mirror_.face[f]] != 0;
+        side[f] = 2 * shared > own ? both : whole[f] != 0 && !both;
+      }
+    }
+    Edges cut;
+    for (int e = 0; e < n_edges(); ++e) {
+      const auto& edge = graph_.edges()[e];
+      if (!edge.cut && faces.member[edge.faces[0]] != 0 && side[edge.faces[0]] != side[edge.faces[1]]) cut.push_back(e);
+    }
+    return with_images(cut);
+  }
+
+  /// Makes an island of the distorted surroundings of a place.
+  Edges cut_around(const Place& place, const std::vector<int>& chart_of_face) const {
+    const MappedChart& mapped = *charts_[place.chart];
+    std::vector<int> sources;
+    std::vector<int> sinks;
+    double sign = 0;
+    for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+      const int face = mapped.chart.faces[i];
+      const auto first = piece_.corner_vertices.begin() + piece_.face_offsets[face];
+      const auto last = piece_.corner_vertices.begin() + piece_.face_offsets[face + 1];
+      if (std::find(first, last, place.vertex) == last) continue;
+      sources.push_back(face);
+      sign += mapped.log2_scale[i] - quality_.median_log2_scale;
+    }
+    const std::set<int> near(sources.begin(), sources.end());
+    for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+      const double offset = mapped.log2_scale[i] - quality_.median_log2_scale;
+      const int face = mapped.chart.faces[i];
+      if (sign * offset <= 0 && near.count(face) == 0) sinks.push_back(face);
+    }
+    if (sources.empty() || sinks.empty()) return {};
+    return cut_apart(place.chart, separable(place.chart), sources, sinks, chart_of_face);
+  }
+
+  /// The faces of the piece whose images cover others, chart by chart.
+  static std::vector<std::vector<int>> overlaps(const MappedCharts& charts) {
+    std::vector<std::vector<int>> result;
+    for (const auto& mapped : charts) {
+      result.push_back(overlapping_faces(*mapped));
+    }
+    return result;
+  }
+  static double overlapping_area(const MappedCharts& charts, const std::vector<std::vector<int>>& overlapping) {
+    double area = 0;
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      for (const int face : overlapping[i]) area += charts[i]->area[face];
+    }
+    return area;
+  }
+
+  /// The connected parts of the overlapping faces of a chart, the largest first, as faces of the piece.
+  std::vector<std::vector<int>> overlapping_parts(const SeparableFaces& faces, const MappedChart& mapped,
+                                                  const std::vector<int>& overlapping) const {
+    SeparableFaces only = faces;
+    std::fill(only.member.begin(), only.member.end(), 0);
+    for (const int face : overlapping) only.member[mapped.chart.faces[face]] = 1;
+    std::vector<std::pair<double, std::vector<int>>> parts;
+    for (const int index : overlapping) {
+      const int seed = mapped.chart.faces[index];
+      if (only.member[seed] == 0) continue;
+      const std::vector<double> distance = face_distances(only, {seed});
+      parts.emplace_back();
+      for (std::size_t f = 0; f < distance.size(); ++f) {
+        if (!std::isfinite(distance[f])) continue;
+        parts.back().first -= faces.area[f];
+        parts.back().second.push_back(static_cast<int>(f));
+        only.member[f] = 0;
+      }
+    }
+    std::sort(parts.begin(), parts.end());
+    std::vector<std::vector<int>> result;
+    for (auto& part : parts) result.push_back(std::move(part.second));
+    return result;
+  }
+
+  /// Cuts that may part the sheets of a map that lie on each other.
+  std::vector<Edges> cuts_between(int chart, const std::vector<int>& overlapping,
+                                  const std::vector<int>& chart_of_face) const {
+    std::vector<Edges> result;
+    const SeparableFaces faces = separable(chart);
+    if (self_mirrored(chart, chart_of_face)) {
+      Edges axis;
+      for (int e = 0; e < n_edges(); ++e) {
+        const auto& edge = graph_.edges()[e];
+        if (!edge.cut && on_axis(edge.vertices[0]) && on_axis(edge.vertices[1]) && faces.member[edge.faces[0]] != 0) {
+          axis.push_back(e);
+        }
+      }
+      result.push_back(std::move(axis));
+    }
+    const auto parts = overlapping_parts(faces, *charts_[chart], overlapping);
+    constexpr std::size_t most_parts = 4;
+    for (std::size_t i = 0; i < std::min(parts.size(), most_parts); ++i) {
+      std::vector<int> others;
+      for (std::size_t j = 0; j < parts.size(); ++j) {
+        if (j != i) others.insert(others.end(), parts[j].begin(), parts[j].end());
+      }
+      if (!others.empty()) result.push_back(cut_apart(chart, faces, parts[i], others, chart_of_face));
+      // One part can cover itself: its ends are farthest apart.
+      const int one = farthest_face(faces, parts[i], parts[i].front());
+      const int two = farthest_face(faces, parts[i], one);
+      if (one != two) result.push_back(cut_apart(chart, faces, {one}, {two}, chart_of_face));
+    }
+    return result;
+  }
+  static int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, int from) {
+    const std::vector<double> distance = face_distances(faces, {from});
+    return *std::max_element(among.begin(), among.end(), [&](int a, int b) { return distance[a] < distance[b]; });
+  }
+
+  Edges cut_between_overlaps(double longest, const Progress& progress) {
+    const auto overlapping = overlaps(charts_);
+    const double before = overlapping_area(charts_, overlapping);
+    if (before < negligible_overlap * quality_.area) return {};
+    const std::vector<int> of_face = chart_of_face();
     Trial best;
     double best_gain = 0;
-    for (const Place& place : by_scale) {
-      Edges cut = cut_to(place, of_face);
-      if (cut.empty() || length(cut) > longest) continue;
-      Trial trial = attempt(std::move(cut), progress);
-      if (!improves(trial)) continue;
-      const double gain = (quality_.distortion() - trial.quality.distortion()) /
-                          (length(trial.cut) + short_cut * std::sqrt(quality_.area));
-      if (gain <= best_gain) continue;
-      best_gain = gain;
-      best = std::move(trial);
+    for (std::size_t i = 0; i < charts_.size(); ++i) {
+      if (overlapping[i].empty()) continue;
+      if (own_image_ && of_face[mirror_.face[charts_[i]->chart.faces.front()]] < static_cast<int>(i)) continue;
+      for (Edges& cut : cuts_between(static_cast<int>(i), overlapping[i], of_face)) {
+        if (cut.empty() || length(cut) > longest) continue;
+        Trial trial = attempt(std::move(cut), progress);
+        if (!trial.quality.solved || trial.quality.distortion() > distortion_for_overlap * quality_.distortion())
+          continue;
+        const double left = overlapping_area(trial.charts, overlaps(trial.charts));
+        const double gain = (before - left) / price(trial);
+        if (before - left < least_overlap_gain * before || gain <= best_gain) continue;
+        best_gain = gain;
+        best = std::move(trial);
+      }
     }
     return best_gain > 0 ? accept(std::move(best)) : Edges{};
   }

@@ -23,6 +23,9 @@ struct MappedChart {
 MappedChart map_chart(const PolygonMesh& mesh, Chart chart, const ParameterizeOptions& options,
                       const Progress& progress);
 
+/// The faces of the chart, as indices into its `faces`, whose images cover others; none where it is not solved.
+std::vector<int> overlapping_faces(const MappedChart& mapped);
+
 /// Distortion of several charts together.
 struct MapQuality {
   bool solved = true;            ///< all charts are
