@@ -131,7 +131,9 @@ class Opening {
 }  // namespace
 
 int handle_curves(const Chart& chart) {
-  return 2 - static_cast<int>(chart.boundary_loops.size()) - chart.euler_characteristic;
+  // The loops of a one-sided chart are not chained reliably.
+  const int loops = chart.orientable ? static_cast<int>(chart.boundary_loops.size()) : 0;
+  return 2 - loops - chart.euler_characteristic;
 }
 
 std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_faces, int base) {

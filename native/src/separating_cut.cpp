@@ -184,6 +184,32 @@ std::vector<double> face_distances(const SeparableFaces& faces, const std::vecto
   return distances(faces, dual_graph(faces), sources);
 }
 
+std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const std::vector<int>& some) {
+  const auto dual = dual_graph(faces);
+  std::vector<char> open(faces.member.size(), 0);
+  for (const int face : some) open[face] = 1;
+  std::vector<std::pair<double, std::vector<int>>> parts;
+  for (const int seed : some) {
+    if (open[seed] == 0) continue;
+    open[seed] = 0;
+    std::vector<int> part{seed};
+    double area = 0;
+    for (std::size_t head = 0; head < part.size(); ++head) {
+      area += faces.area[part[head]];
+      for (const auto& [other, edge] : dual[part[head]]) {
+        if (open[other] == 0) continue;
+        open[other] = 0;
+        part.push_back(other);
+      }
+    }
+    parts.emplace_back(-area, std::move(part));
+  }
+  std::sort(parts.begin(), parts.end());
+  std::vector<std::vector<int>> result;
+  for (auto& part : parts) result.push_back(std::move(part.second));
+  return result;
+}
+
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
                                   const std::vector<int>& sinks, double least_share) {
   std::vector<char> side(faces.member.size(), 0);

@@ -8,8 +8,8 @@
 
 namespace spectral_conformal {
 
-/// How many independent closed curves of a chart do not separate it, twice the genus where it has two sides: 0 exactly
-/// for a sphere, and for a disk with or without holes.
+/// How many independent closed curves of a chart do not separate it, twice the genus: 0 exactly for a sphere, and for a
+/// disk with or without holes. Of a one-sided chart it is an upper bound, above 0.
 int handle_curves(const Chart& chart);
 
 /// Closed curves, as edges in no order, that generate all closed curves on a connected surface up to those around its

@@ -1,22 +1,13 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "spectral_conformal/charts.h"
-#include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/piece_cutter.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
-
-struct SeamSuggestionOptions {
-  double max_length =
-      std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
-  double scale_limit = 2;   ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
-  double qc_limit = 1.05;   ///< enough when the mean QC, weighted by area, is not above it; at least 1
-  ParameterizeOptions map;  ///< of the maps whose distortion counts; the method is always the spectral one
-};
 
 struct SeamSuggestion {
   std::vector<std::array<int, 2>> edges;  ///< vertices of the mesh, the smaller first; none twice, none a seam before

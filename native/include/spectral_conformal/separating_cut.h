@@ -18,6 +18,9 @@ struct SeparableFaces {
 /// way.
 std::vector<double> face_distances(const SeparableFaces& faces, const std::vector<int>& sources);
 
+/// The connected parts of some of the faces, the one with the largest area first.
+std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const std::vector<int>& some);
+
 /// The source's side of a short cut that parts two sets of faces, such as a neck between them: per face of the mesh, 1
 /// on that side. Of the level sets of (distance from the sources - distance from the sinks) the one with the lowest
 /// cost relative to the root of the smaller side's area is taken, and then moved to the cheapest cut nearby (minimum
