@@ -22,6 +22,8 @@ constexpr double distortion_for_overlap = 1.05;
 constexpr double island_penalty = 0.4;
 /// Cuts shorter than this part of the root of the area gain as if they were as long.
 constexpr double short_cut = 0.25;
+/// Of larger pieces, which have fine edges, no cut shorter than this part of the root of the area is tried.
+constexpr double least_length = 0.05;
 /// Cuts with this part of the best one's gain are made together with it.
 constexpr double nearly_as_good = 0.4;
 /// Of pieces up to this number of vertices every place is tried before giving up.
@@ -141,6 +143,8 @@ PieceCutter::Trial PieceCutter::attempt(SeamEdges cut, const Progress& progress)
   return trial;
 }
 
+bool PieceCutter::is_small() const { return seams_.graph().n_vertices() <= small_piece; }
+
 bool PieceCutter::makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
 
 double PieceCutter::price(const Trial& trial) const {
@@ -188,7 +192,7 @@ SeamEdges PieceCutter::best_cut(double longest, const Progress& progress) {
   // Every trial solves a chart, so large pieces get fewer; the less distorted places only if the first do not help.
   const int n_vertices = seams_.graph().n_vertices();
   const auto most = static_cast<std::size_t>(std::clamp(40000 / std::max(1, n_vertices), 2, 6));
-  const std::size_t groups = n_vertices <= small_piece ? 50 : 4;
+  const std::size_t groups = is_small() ? 50 : 4;
   for (std::size_t group = 0; group < groups; ++group) {
     std::vector<Trial> trials;
     for (const auto& list : wanted) {
@@ -207,7 +211,8 @@ SeamEdges PieceCutter::best_cut(double longest, const Progress& progress) {
 /// Solves with a cut, and adds it to the trials if that lowers the distortion.
 void PieceCutter::try_cut(SeamEdges cut, bool islands_allowed, double longest, const Progress& progress,
                           std::vector<Trial>& trials) const {
-  if (cut.empty() || seams_.length(cut) > longest) return;
+  const double least = is_small() ? 0 : least_length * std::sqrt(quality_.area);
+  if (cut.empty() || seams_.length(cut) > longest || seams_.length(cut) < least) return;
   Trial trial = attempt(std::move(cut), progress);
   if (gain(trial) > 0 && (islands_allowed || !makes_islands(trial))) trials.push_back(std::move(trial));
 }
@@ -216,8 +221,7 @@ void PieceCutter::try_cut(SeamEdges cut, bool islands_allowed, double longest, c
 SeamEdges PieceCutter::accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress) {
   const auto best =
       std::max_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return gain(a) < gain(b); });
-  const bool small = seams_.graph().n_vertices() <= small_piece;
-  if (small || makes_islands(*best)) return accept(std::move(*best));
+  if (is_small() || makes_islands(*best)) return accept(std::move(*best));
   SeamEdges all;
   for (const Trial& trial : trials) {
     if (makes_islands(trial) || gain(trial) < nearly_as_good * gain(*best)) continue;

@@ -48,6 +48,7 @@ class PieceCutter {
   enum class Kind { scale, angle };
 
   bool good_enough() const;
+  bool is_small() const;
   MappedCharts map_charts(const SeamEdges& more, const Progress& progress) const;
   std::vector<int> chart_of_face() const;
   std::vector<Place> places(Kind kind, const std::vector<int>& chart_of_face) const;
