@@ -309,6 +309,7 @@ std::vector<SeamEdges> PieceCutter::cuts_between(int chart, const std::vector<in
                                                  const std::vector<int>& chart_of_face) const {
   const SeparableFaces faces = separable(chart);
   std::vector<int> covering;
+  covering.reserve(overlapping.size());
   for (const int face : overlapping) covering.push_back(charts_[chart]->chart.faces[face]);
   const auto parts = connected_parts(faces, covering);
   std::vector<SeamEdges> result;
