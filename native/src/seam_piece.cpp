@@ -18,8 +18,8 @@ std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
 }
 
 /// Matches the corners of a piece's faces with those of their images. False when that is no map of the pieces.
-bool match_corners(const PolygonMesh& mesh, const SeamPiece& piece, const std::vector<SeamPiece>& pieces,
-                   const std::vector<int>& face_in_piece, const MirrorSymmetry& symmetry, PieceMirror& mirror) {
+bool match_corners(const SeamPiece& piece, const std::vector<SeamPiece>& pieces, const std::vector<int>& face_in_piece,
+                   const MirrorSymmetry& symmetry, PieceMirror& mirror) {
   const SeamPiece& image = pieces[mirror.image];
   if (image.faces.size() != piece.faces.size() || image.vertices.size() != piece.vertices.size()) return false;
   mirror.vertex.assign(piece.vertices.size(), -1);
@@ -38,11 +38,15 @@ bool match_corners(const PolygonMesh& mesh, const SeamPiece& piece, const std::v
       mirror.vertex[v] = found;
     }
   }
-  // Cuts on one side only would show as copies of vertices, or in the numbers of seams that cut nothing apart.
+  // Cuts on one side only show as copies of vertices, or as seams without an image.
   std::vector<int> images = mirror.vertex;
   std::sort(images.begin(), images.end());
-  return std::adjacent_find(images.begin(), images.end()) == images.end() && image.seams.size() == piece.seams.size() &&
-         mesh.n_vertices > 0;
+  if (std::adjacent_find(images.begin(), images.end()) != images.end()) return false;
+  return image.seams.size() == piece.seams.size() &&
+         std::all_of(piece.seams.begin(), piece.seams.end(), [&](const auto& seam) {
+           const auto wanted = sorted_pair(mirror.vertex[seam[0]], mirror.vertex[seam[1]]);
+           return std::binary_search(image.seams.begin(), image.seams.end(), wanted);
+         });
 }
 
 }  // namespace
@@ -103,7 +107,7 @@ std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecom
     mirror.image = image_of(piece.faces.front());
     const bool onto_one = std::all_of(piece.faces.begin(), piece.faces.end(),
                                       [&](int face) { return image_of(face) == mirror.image && mirror.image >= 0; });
-    if (onto_one && match_corners(mesh, piece, pieces, face_in_piece, symmetry, mirror)) {
+    if (onto_one && match_corners(piece, pieces, face_in_piece, symmetry, mirror)) {
       mirrors[i] = std::move(mirror);
     }
   }

@@ -62,9 +62,9 @@ TEST_CASE("overlapping faces are found, the two splits of a quad not taken for a
   for (const Mesh& mesh : {quad_grid(4, 1), flat_grid(4, 1)}) {
     MappedChart chart = *mapped(mesh);
     for (Eigen::Index v = 0; v < chart.z.size(); ++v) {
-      // Folded over at x = 2.5, so that what lies beyond covers what lies before.
+      // Folded over at x = 3.2, so that what lies beyond covers what lies before.
       const Eigen::Vector3d& p = mesh.points[chart.chart.vertices[v]];
-      chart.z[v] = Complex(2.5 - std::abs(p.x() - 2.5), p.y());
+      chart.z[v] = Complex(3.2 - std::abs(p.x() - 3.2), p.y());
     }
     const std::vector<int> faces = overlapping_faces(chart);
     CHECK_FALSE(faces.empty());
