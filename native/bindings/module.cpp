@@ -18,6 +18,7 @@
 #include "spectral_conformal/factorization.h"
 #include "spectral_conformal/metric.h"
 #include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/seam_suggestion.h"
 #include "spectral_conformal/unwrap.h"
 
 namespace py = pybind11;
@@ -461,6 +462,31 @@ py::ssize_t first_not_positive_definite(const Array<double>& metric) {
   return -1;
 }
 
+/// Returns the edges and where each cut begins in them.
+py::tuple suggest_seams(const Array<double>& vertices, const Array<int>& face_offsets,
+                        const Array<int>& corner_vertices, std::optional<Array<int>> seam_edges,
+                        std::optional<Array<bool>> selected_faces, double max_length, double scale_limit,
+                        double qc_limit, const sc::PatchOptions& patch, const py::object& progress) {
+  const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
+  const sc::PolygonMesh mesh = arrays.view();
+  sc::SeamSuggestionOptions options;
+  options.max_length = max_length;
+  options.scale_limit = scale_limit;
+  options.qc_limit = qc_limit;
+  options.map = patch;
+  const sc::Progress callback = progress_of(progress);
+  sc::SeamSuggestion suggestion;
+  {
+    const py::gil_scoped_release unlocked;
+    suggestion = sc::suggest_seams(mesh, options, callback);
+  }
+  py::array_t<int> edges({static_cast<py::ssize_t>(suggestion.edges.size()), static_cast<py::ssize_t>(2)});
+  if (!suggestion.edges.empty()) {
+    std::copy_n(suggestion.edges.front().data(), 2 * suggestion.edges.size(), edges.mutable_data());
+  }
+  return py::make_tuple(edges, copy(suggestion.cut_offsets));
+}
+
 py::dict build_info() {
   return py::dict(py::arg("factorization") = sc::factorization_library(), py::arg("blas") = sc::blas_library());
 }
@@ -492,5 +518,6 @@ PYBIND11_MODULE(_native, module) {
   module.def("metric_from_direction", &metric_from_direction);
   module.def("blend_metric", &blend_metric);
   module.def("first_not_positive_definite", &first_not_positive_definite);
+  module.def("suggest_seams", &suggest_seams);
   module.def("build_info", &build_info);
 }

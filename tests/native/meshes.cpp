@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "spectral_conformal/boundary_loops.h"
@@ -173,6 +174,63 @@ Mesh torus(int around, int across) {
 
 Mesh tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+Mesh cell_surface(int n, const std::function<bool(int, int, int)>& filled) {
+  Mesh mesh;
+  std::map<std::array<int, 3>, int> index;
+  const auto inside = [&](const std::array<int, 3>& c) {
+    return std::all_of(c.begin(), c.end(), [&](int x) { return x >= 0 && x < n; }) && filled(c[0], c[1], c[2]);
+  };
+  const auto add_side = [&](const std::array<int, 3>& cell, int axis, int upper) {
+    std::vector<int> face;
+    for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+      std::array<int, 3> p = cell;
+      p[axis] += upper;
+      p[(axis + 1) % 3] += du;
+      p[(axis + 2) % 3] += dv;
+      const auto [place, is_new] = index.emplace(p, static_cast<int>(mesh.points.size()));
+      if (is_new) mesh.points.emplace_back(p[0], p[1], p[2]);
+      face.push_back(place->second);
+    }
+    if (upper == 0) std::reverse(face.begin(), face.end());
+    mesh.add(face);
+  };
+  for (int c = 0; c < n * n * n; ++c) {
+    const std::array<int, 3> cell{c % n, c / n % n, c / (n * n)};
+    if (!inside(cell)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int upper : {0, 1}) {
+        std::array<int, 3> other = cell;
+        other[axis] += upper == 1 ? 1 : -1;
+        if (!inside(other)) add_side(cell, axis, upper);
+      }
+    }
+  }
+  return mesh;
+}
+
+Mesh sphere(int n) {
+  Mesh mesh = cell_surface(n, [](int, int, int) { return true; });
+  for (Eigen::Vector3d& p : mesh.points) p = (p.array() - 0.5 * n).matrix().normalized();
+  return mesh;
+}
+
+Mesh double_torus() {
+  return cell_surface(14, [](int i, int j, int k) {
+    const bool hole = j >= 2 && j < 6 && ((i >= 2 && i < 6) || (i >= 8 && i < 12));
+    return j < 8 && k < 3 && !hole;
+  });
+}
+
+Mesh spiky_grid(int n_spikes, double height) {
+  Mesh mesh = quad_grid(8 * n_spikes, 8);
+  for (Eigen::Vector3d& p : mesh.points) {
+    const double across = std::fmod(p.x(), 8.0) - 4;
+    const double distance = std::hypot(across, p.y() - 4);
+    if (distance < 3) p.z() = height * (1 - distance / 3);
+  }
+  return mesh;
 }
 
 ComplexVector random_map(Eigen::Index n, unsigned seed) {

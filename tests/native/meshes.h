@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <vector>
 
@@ -51,6 +52,15 @@ Mesh ring(int segments, int half_twists);
 /// A grid of quads, periodic in both directions, bent to a torus.
 Mesh torus(int around, int across);
 Mesh tetrahedron();
+
+/// The surface of those unit cells of an n x n x n grid that `filled(i, j, k)` names: quads, outwards.
+Mesh cell_surface(int n, const std::function<bool(int, int, int)>& filled);
+/// A cube of n x n x n cells blown up to a unit sphere.
+Mesh sphere(int n);
+/// A plate of cells with two square holes: genus 2, and its own mirror image in x, y and z.
+Mesh double_torus();
+/// A grid of quads with `n_spikes` spikes on a line, each as high as wide; its own mirror image in x.
+Mesh spiky_grid(int n_spikes, double height);
 
 /// Deterministic numbers in the square (-1, 1) x (-1, 1), the same on every platform.
 ComplexVector random_map(Eigen::Index n, unsigned seed = 1);

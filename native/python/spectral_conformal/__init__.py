@@ -20,6 +20,8 @@ from ._api import (
     metric_from_direction,
     metric_from_uv,
     parameterize,
+    suggest_cuts,
+    suggest_seams,
     unwrap,
 )
 from ._native import Cancelled, InvalidMeshError, SolveError
@@ -41,5 +43,7 @@ __all__ = [
     "metric_from_direction",
     "metric_from_uv",
     "parameterize",
+    "suggest_cuts",
+    "suggest_seams",
     "unwrap",
 ]

@@ -493,6 +493,101 @@ def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64
     return _native.blend_metric(array, _fraction(amount, "amount"))
 
 
+def suggest_seams(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    seam_edges: npt.ArrayLike | None = None,
+    selected_faces: npt.ArrayLike | None = None,
+    max_length: float | None = None,
+    scale_limit: float = 2.0,
+    qc_limit: float = 1.05,
+    weights: Weights = "uniform",
+    boundary: Boundary = "length",
+    progress: Progress | None = None,
+    factorization: Factorization = "auto",
+) -> npt.NDArray[np.int32]:
+    """Propose seams that lower the distortion of `unwrap` most, beside those that the mesh has.
+
+    Topology comes first: handles are cut open and closed surfaces slit, whatever that takes, because they could not be
+    unwrapped otherwise. Then the most distorted places are joined to the seams one after the other, and each cut is
+    solved before it is proposed, so that unwrapping with it shows lower distortion. A component gets no more seams once
+    `scale_limit` and `qc_limit` are met or nothing helps. Where a plane x, y or z = constant mirrors a component's
+    faces onto the mesh's, its seams come in mirrored pairs or lie on the plane if the edges allow that.
+
+    Args:
+        vertices: (V, 3) positions, any unit.
+        face_offsets: as in `unwrap`.
+        corner_vertices: as in `unwrap`.
+        seam_edges: (S, 2) seams that stay; the proposed ones complete them.
+        selected_faces: (faces,) bool, all faces when left out; only edges between two of them are proposed.
+        max_length: limit of the total length of the proposed seams, in the unit of the vertices; none when left out.
+            What topology needs counts, but is proposed even beyond the limit.
+        scale_limit: a component is good enough when 95 % of its area has a linear scale (root of UV area over 3D area)
+            within this factor of the median, and
+        qc_limit: when its mean quasi-conformal distortion is not above this.
+        weights: of the maps, see `parameterize`.
+        boundary: see `parameterize`.
+        progress: see `Progress`.
+        factorization: see `parameterize`.
+
+    Returns:
+        (S, 2) int32 vertex pairs, the smaller vertex first, cut after cut in the order in which they were found: first
+        what topology needs, then what lowers the distortion most.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh, or an option is out of range.
+        Cancelled: `progress` returned False.
+    """
+    cuts = suggest_cuts(
+        vertices,
+        face_offsets,
+        corner_vertices,
+        seam_edges=seam_edges,
+        selected_faces=selected_faces,
+        max_length=max_length,
+        scale_limit=scale_limit,
+        qc_limit=qc_limit,
+        weights=weights,
+        boundary=boundary,
+        progress=progress,
+        factorization=factorization,
+    )
+    return np.concatenate([np.zeros((0, 2), np.int32), *cuts])
+
+
+def suggest_cuts(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    seam_edges: npt.ArrayLike | None = None,
+    selected_faces: npt.ArrayLike | None = None,
+    max_length: float | None = None,
+    scale_limit: float = 2.0,
+    qc_limit: float = 1.05,
+    weights: Weights = "uniform",
+    boundary: Boundary = "length",
+    progress: Progress | None = None,
+    factorization: Factorization = "auto",
+) -> list[npt.NDArray[np.int32]]:
+    """Return the seams of `suggest_seams` cut by cut, each (n, 2): the first few are those that help most.
+
+    A cut and its mirror image are one. Arguments and errors are those of `suggest_seams`.
+    """
+    polygons = _polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+    edges, offsets = _native.suggest_seams(
+        *polygons,
+        np.inf if max_length is None else _at_least(max_length, 0.0, "max_length"),
+        _at_least(scale_limit, 1.0, "scale_limit"),
+        _at_least(qc_limit, 1.0, "qc_limit"),
+        _patch_options(weights, boundary, factorization, fill_holes=False, area_blend=0.0),
+        _progress(progress),
+    )
+    return np.split(edges, offsets[1:-1]) if len(edges) else []
+
+
 def build_info() -> dict[str, str]:
     """Return the factorisation library ("factorization") and the BLAS behind it ("blas": file and configuration)."""
     return _native.build_info()
@@ -560,6 +655,26 @@ def _unwrap_arguments(
     factorization: str,
 ) -> tuple[Any, int]:
     """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
+    polygons = _polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+    vertices, offsets, corners = polygons[:3]
+    _check_options(method=method)
+    options = _patch_options(weights, boundary, factorization, fill_holes, area_blend)
+    pinned, uv = _corner_pins(pinned_corners, corner_uv, len(corners))
+    soft = _soft_pins(soft_pins, method)
+    all_triangles = bool((np.diff(offsets) == 3).all())
+    tensors = _metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
+    pin_list = _pins(pins, method, soft, len(vertices))
+    arguments = _native.UnwrapArguments(*polygons, method, pin_list, pinned, uv, soft, tensors, options)
+    return arguments, len(vertices)
+
+
+def _polygon_mesh(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    seam_edges: npt.ArrayLike | None,
+    selected_faces: npt.ArrayLike | None,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
     vertices = _vertices(vertices)
     offsets = _index_vector(face_offsets, "face_offsets")
     corners = _indices(corner_vertices, "corner_vertices", None, len(vertices))
@@ -578,17 +693,13 @@ def _unwrap_arguments(
                 f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
                 f"{selected.shape}."
             )
-    _check_options(method=method)
-    options = _patch_options(weights, boundary, factorization, fill_holes, area_blend)
-    pinned, uv = _corner_pins(pinned_corners, corner_uv, len(corners))
-    soft = _soft_pins(soft_pins, method)
-    all_triangles = bool((np.diff(offsets) == 3).all())
-    tensors = _metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
-    pin_list = _pins(pins, method, soft, len(vertices))
-    arguments = _native.UnwrapArguments(
-        vertices, offsets, corners, seams, selected, method, pin_list, pinned, uv, soft, tensors, options
-    )
-    return arguments, len(vertices)
+    return vertices, offsets, corners, seams, selected
+
+
+def _at_least(value: float, least: float, name: str) -> float:
+    if not (isinstance(value, numbers.Real) and value >= least):
+        raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
+    return float(value)
 
 
 def _unwrapped(result: dict[str, Any]) -> Unwrap:

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "spectral_conformal/charts.h"
+#include "spectral_conformal/piece_cutter.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+struct SeamSuggestion {
+  std::vector<std::array<int, 2>> edges;  ///< vertices of the mesh, the smaller first; none twice, none a seam before
+  std::vector<int> cut_offsets{0};  ///< cut i is edges [cut_offsets[i], cut_offsets[i + 1]); mirrored cuts are one
+};
+
+/// Proposes seams that lower the distortion of the spectral maps of a mesh, chart by chart as build_charts cuts it.
+/// First what topology needs, whatever its length: handles are cut open along short loops that do not separate the
+/// surface (see cut_graph.h), closed surfaces along a path between vertices far apart. Then, greedily, from the most
+/// distorted places to the boundary: the prominent extrema of the scale (see field_extrema.h), and the vertices with
+/// the highest QC, are joined to the cuts by cheapest paths (Sheffer and Hart 2002, "Seamster"). Each cut is solved and
+/// kept only if the distortion falls; of several the one is taken that lowers it most for its length. Charts whose
+/// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Charts
+/// that cannot be solved even so get no seams. Throws InvalidMesh for arrays that do not describe a mesh, and
+/// Cancelled.
+SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,168 @@
+"""The seams that are suggested, as scripts see them. What they are made of is tested in tests/native."""
+
+from pathlib import Path
+
+import meshes
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
+
+
+def closed_creature(n=8):
+    """A head with two long ears, closed, of quads, its own mirror image in x: (vertices, face_offsets, corners)."""
+    axis = np.arange(n + 1) - n / 2
+    sides, points = [], {}
+    for normal in range(3):
+        for sign in (-1, 1):
+            grid = np.zeros((n + 1, n + 1), int)
+            for i in range(n + 1):
+                for j in range(n + 1):
+                    position = np.roll([sign * n / 2, axis[i], axis[j]], normal)
+                    grid[i, j] = points.setdefault(tuple(position), len(points))
+            quads = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+            sides.append(quads if sign > 0 else quads[:, ::-1])
+    vertices = np.array(list(points))
+    sphere = vertices / np.linalg.norm(vertices, axis=1, keepdims=True)
+    vertices = sphere + 0.4 * np.maximum(sphere[:, 1:2], 0.0) * [0, 1, 0]
+    for side in (-1, 1):
+        ear = np.array([side * 0.6, 0.0, 0.8])
+        vertices = vertices + 8.0 * np.maximum(sphere @ ear - 0.75, 0.0)[:, None] * ear
+    return vertices, *meshes.polygons(np.concatenate(sides))
+
+
+def quality(mesh, seams):
+    """(mean QC, share of the area within a factor 2 of the median scale), measured independently."""
+    vertices, offsets, corners = mesh
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seams)
+    assert all(chart.status == "solved" for chart in result.charts)
+    area, image = (polygon_areas(points, offsets) for points in (vertices[corners], result.uv))
+    scale = np.log2(image / area) / 2
+    order = np.argsort(scale)
+    median = scale[order][np.searchsorted(np.cumsum(area[order]), area.sum() / 2)]
+    mean_qc = np.average([chart.mean_qc for chart in result.charts], weights=[chart.area for chart in result.charts])
+    return mean_qc, area[np.abs(scale - median) <= 1].sum() / area.sum()
+
+
+def polygon_areas(points, offsets):
+    points = np.c_[points, np.zeros((len(points), 3 - points.shape[1]))]
+    faces = [points[first:last] for first, last in zip(offsets[:-1], offsets[1:])]
+    return np.array([np.linalg.norm(np.cross(p, np.roll(p, -1, axis=0)).sum(0)) / 2 for p in faces])
+
+
+def length(vertices, edges):
+    return np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1).sum()
+
+
+def test_closed_creature_is_unwrapped_within_the_limits():
+    mesh = closed_creature()
+    assert sc.unwrap(*mesh).charts[0].status == "failed"
+    seams = sc.suggest_seams(*mesh)
+    assert seams.dtype == np.int32
+    assert (seams[:, 0] < seams[:, 1]).all()
+    assert len(np.unique(seams, axis=0)) == len(seams)
+    mean_qc, within = quality(mesh, seams)
+    assert mean_qc <= 1.05
+    assert within >= 0.95
+
+
+def test_symmetric_mesh_has_symmetric_seams():
+    vertices, offsets, corners = closed_creature()
+    seams = sc.suggest_seams(vertices, offsets, corners)
+    distance = np.linalg.norm(vertices[:, None] * [-1, 1, 1] - vertices[None], axis=2)
+    image = distance.argmin(axis=1)
+    assert {tuple(sorted(edge)) for edge in image[seams].tolist()} == {tuple(edge) for edge in seams.tolist()}
+
+
+def test_limit_of_the_length_counts_after_what_topology_needs():
+    mesh = closed_creature()
+    needed = sc.suggest_seams(*mesh, max_length=0)
+    whole = sc.suggest_seams(*mesh)
+    half = (length(mesh[0], needed) + length(mesh[0], whole)) / 2
+    limited = sc.suggest_seams(*mesh, max_length=half)
+    assert len(needed) > 0
+    assert (whole[: len(needed)] == needed).all()
+    assert length(mesh[0], limited) <= half
+    shares = [quality(mesh, seams)[1] for seams in (needed, limited, whole)]
+    assert shares[0] < shares[1] <= shares[2]
+
+
+def test_tighter_limits_take_more_seams():
+    mesh = closed_creature()
+    loose, tight = (sc.suggest_seams(*mesh, scale_limit=s, qc_limit=q) for s, q in ((4.0, 10), (1.2, 1.01)))
+    assert length(mesh[0], loose) < length(mesh[0], tight)
+
+
+def test_existing_seams_are_kept_and_completed():
+    mesh = closed_creature()
+    first = sc.suggest_seams(*mesh, max_length=0)
+    rest = sc.suggest_seams(*mesh, seam_edges=first[:, ::-1])
+    assert not {tuple(e) for e in first.tolist()} & {tuple(e) for e in rest.tolist()}
+    assert quality(mesh, np.r_[first, rest])[1] >= 0.95
+    assert len(sc.suggest_seams(*mesh, seam_edges=sc.suggest_seams(*mesh))) == 0
+
+
+def test_only_selected_faces_are_cut():
+    vertices, offsets, corners = closed_creature()
+    upper = np.array([vertices[corners[a:b], 2].mean() > 0.2 for a, b in zip(offsets[:-1], offsets[1:])])
+    seams = sc.suggest_seams(vertices, offsets, corners, selected_faces=upper)
+    allowed = set(corners[np.repeat(upper, 4)].tolist())
+    assert len(seams) > 0
+    assert set(seams.ravel().tolist()) <= allowed
+
+
+def test_flat_mesh_needs_none():
+    vertices, triangles = meshes.random_disk(300)
+    seams = sc.suggest_seams(vertices, *meshes.polygons(triangles))
+    assert seams.shape == (0, 2)
+
+
+def test_same_input_same_seams():
+    mesh = closed_creature()
+    assert np.array_equal(sc.suggest_seams(*mesh), sc.suggest_seams(*mesh))
+
+
+def test_progress_and_cancelling():
+    seen = []
+    mesh = closed_creature()
+    sc.suggest_seams(*mesh, progress=lambda fraction, phase: seen.append(fraction))
+    assert seen == sorted(seen)
+    assert seen[-1] == 1.0
+    with pytest.raises(sc.Cancelled):
+        sc.suggest_seams(*mesh, progress=lambda fraction, phase: fraction < 0.5)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"max_length": -1.0}, "max_length must be a number of at least 0"),
+        ({"max_length": float("nan")}, "max_length"),
+        ({"scale_limit": 0.5}, "scale_limit must be a number of at least 1"),
+        ({"qc_limit": "low"}, "qc_limit"),
+        ({"weights": "heavy"}, "weights must be one of"),
+        ({"factorization": "lu"}, "factorization must be one of"),
+        ({"progress": 3}, "progress must be callable"),
+        ({"seam_edges": [[0, 10**6]]}, "seam_edges has the vertex"),
+        ({"selected_faces": [True]}, "selected_faces must be"),
+    ],
+)
+def test_options_are_checked(options, message):
+    with pytest.raises(ValueError, match=message):
+        sc.suggest_seams(*closed_creature(), **options)
+
+
+def test_mesh_without_faces_is_refused():
+    with pytest.raises(sc.InvalidMeshError, match="no faces"):
+        sc.suggest_seams(np.zeros((3, 3)), [0], [])
+
+
+if SHARED.exists():
+
+    @pytest.mark.parametrize("name", ["spot_closed", "spot_quads_closed", "hand_oded_closed"])
+    def test_real_closed_mesh_comes_within_the_limits(name):
+        vertices, faces = meshes.read_obj(SHARED / f"{name}.obj")
+        mesh = (vertices, *meshes.polygons(faces))
+        mean_qc, within = quality(mesh, sc.suggest_seams(*mesh))
+        assert mean_qc <= 1.05
+        assert within >= 0.95
