@@ -16,7 +16,7 @@ COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = (215, 170)
 ADD, ADD_TO_ACTIVE = (112, 137), (103, 158)
-SELECT, REMOVE, REMOVE_BROKEN = (58, 292), (147, 292), (103, 316)
+ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 292), (58, 314), (147, 314), (103, 338)
 FIRST_ROW, NEXT_ROW = 190, 21
 ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
 

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: an artist makes two extenders and drags their strength while the map follows.
+
+blender --factory-startup --python drive_adjust_extender.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+import driving as drive  # noqa: E402 - found only now
+from extender_sidebar import (  # noqa: E402
+    ADD,
+    ADJUST,
+    click_sidebar,
+    click_vertices,
+    listed,
+    open_grid,
+    pairs,
+)
+from session import VERDICT, override, point_at, screenshot, uv, xdotool  # noqa: E402
+
+
+def raise_a_hill():
+    """Make the grid a surface on which forces matter, and unwrap it."""
+    mesh = bpy.context.edit_object.data
+    for vertex in bmesh.from_edit_mesh(mesh).verts:
+        x, y, _ = vertex.co
+        vertex.co.z = 1.2 * np.exp(-6.0 * ((x - 0.2) ** 2 + (y + 0.1) ** 2))
+    bmesh.update_edit_mesh(mesh)
+    with override("VIEW_3D"):
+        bpy.ops.mesh.select_all(action="SELECT")
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
+        bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
+    yield from drive.show_uvs()
+
+
+def make_two():
+    for pair in ((0, 6), (35, 24)):
+        yield from click_vertices(*pair)
+        yield from click_sidebar(ADD)
+    assert pairs() == [(0, 6), (35, 24)], pairs()
+
+
+def drag(pixels):
+    """Press the button and move the mouse."""
+    yield from click_sidebar(ADJUST)
+    for _ in range(5):
+        xdotool("mousemove_relative", "--", pixels // 5, 0)
+        yield
+
+
+def check_map_undo_and_redo(before, after):
+    point_at("VIEW_3D", 0.3, 0.3)
+    yield
+    yield from drive.check_undo_and_redo(before, after)
+
+
+def drag_and_confirm():
+    before, start = uv(), listed()
+    yield from drag(300)
+    assert np.abs(uv() - before).max() > 0.005
+    screenshot("extender_dragged")
+    assert listed() == start
+    xdotool("click", 1)
+    yield
+    yield
+    after = uv()
+    assert listed()[0] == start[0]
+    name, strength, use = listed()[1]
+    assert strength > 2.0, strength
+    yield from check_map_undo_and_redo(before, after)
+    assert listed() == [start[0], (name, strength, use)]
+
+
+def drag_and_give_up():
+    before, start = uv(), listed()
+    yield from drag(-100)
+    assert not np.array_equal(uv(), before)
+    xdotool("key", "Escape")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    assert listed() == start
+
+
+def type_a_number():
+    start = listed()
+    yield from click_sidebar(ADJUST)
+    xdotool("key", "7", "period", "5")
+    yield
+    yield
+    screenshot("extender_typed")
+    xdotool("key", "Return")
+    yield
+    yield
+    assert listed() == [start[0], (start[1][0], 7.5, True)], listed()
+
+
+def save_and_reopen():
+    before = listed(), pairs(), uv()
+    path = str(VERDICT.with_name("adjusted.blend"))
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    yield
+    bpy.ops.wm.open_mainfile(filepath=path)
+    yield
+    yield
+    assert (listed(), pairs()) == before[:2]
+    np.testing.assert_array_equal(uv(), before[2])
+    screenshot("extender_reopened")
+
+
+def steps():
+    yield from drive.open_uv_editing()
+    yield from open_grid()
+    yield from raise_a_hill()
+    yield from make_two()
+    yield from drag_and_confirm()
+    yield from drag_and_give_up()
+    yield from type_a_number()
+    yield from save_and_reopen()
+
+
+drive.run(steps())
