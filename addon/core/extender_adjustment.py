@@ -9,7 +9,7 @@ from . import live, native, placement, unwrapping
 from .polygon_mesh import PolygonMesh
 
 # Relative residual that the map on screen needs; a pixel is a thousandth of it.
-_TOLERANCE = 1e-5
+_TOLERANCE = 1e-4
 
 
 class AdjustmentError(ValueError):
@@ -53,6 +53,7 @@ class ExtenderAdjustment:
             )
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
+        self._chart: np.ndarray | None = None
         self._shown: np.ndarray | None = None
         self._scale: np.ndarray | None = None
 
@@ -72,10 +73,10 @@ class ExtenderAdjustment:
             raise AdjustmentError(failed[0])
         if result.unused_extenders[-1]:
             raise AdjustmentError("The extender has no effect: pins hold its island; unpin it or use soft pins")
-        chart = np.where(result.solved_corners, result.chart_of_face[self._mesh.face_of_corner()], -1)
         if self._shown is None:
-            self._shown, self._scale = self._start(result.uv, chart, np.array([c.area for c in result.charts]))
-        self._shown = placement.turned_onto(result.uv, self._shown, chart, self._scale)
+            self._chart = result.chart_of_face[self._mesh.face_of_corner()]
+            self._shown, self._scale = self._start(result.uv, self._chart, np.array([c.area for c in result.charts]))
+        self._shown = placement.turned_onto(result.uv, self._shown, self._chart, self._scale)
         return self._mesh.from_isotropic_uv(self._shown[self.corners])
 
     def _start(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -159,7 +159,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
   basis = space.basis();
 
   constexpr int max_corrections = 12;
-  const double negligible = 0.01 * options.tolerance;
+  const double negligible = 0.1 * options.tolerance;
   ComplexVector r;
   for (int k = 0; k < max_corrections; ++k) {
     result.residual = descend(factorization, energy, form, result.vector, r);

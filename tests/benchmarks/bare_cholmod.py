@@ -1,10 +1,13 @@
-"""One bare CHOLMOD analyse + factorise through ctypes: the yardstick of the solver's speed, in the same process."""
+"""Bare CHOLMOD through ctypes: the yardstick of the solver's speed, in the same process."""
 
 from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import statistics
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 import scipy.sparse
@@ -36,10 +39,27 @@ class _Sparse(ctypes.Structure):
     ]
 
 
-def seconds_to_factor(matrix: scipy.sparse.spmatrix) -> tuple[float, float]:
-    """Seconds of cholmod_analyze and of cholmod_factorize with default settings, of a Hermitian matrix."""
+class _Dense(ctypes.Structure):
+    """cholmod_dense."""
+
+    _fields_ = [
+        ("nrow", ctypes.c_size_t),
+        ("ncol", ctypes.c_size_t),
+        ("nzmax", ctypes.c_size_t),
+        ("d", ctypes.c_size_t),
+        ("x", ctypes.c_void_p),
+        ("z", ctypes.c_void_p),
+        ("xtype", ctypes.c_int),
+        ("dtype", ctypes.c_int),
+    ]
+
+
+@contextmanager
+def _factored(matrix: scipy.sparse.spmatrix) -> Iterator[tuple]:
+    """Yield the library, its common and the factor of a Hermitian matrix, by default settings, and two durations."""
     library = ctypes.CDLL("libcholmod.so.3")
     library.cholmod_analyze.restype = ctypes.c_void_p
+    library.cholmod_solve.restype = ctypes.c_void_p
     lower = scipy.sparse.csc_matrix(scipy.sparse.tril(matrix))
     lower.sort_indices()
     indptr = lower.indptr.astype(np.int32)
@@ -55,8 +75,31 @@ def seconds_to_factor(matrix: scipy.sparse.spmatrix) -> tuple[float, float]:
     analyzed = time.perf_counter()
     ok = library.cholmod_factorize(ctypes.byref(sparse), factor, common)
     factored = time.perf_counter()
-    library.cholmod_free_factor(ctypes.byref(factor), common)
-    library.cholmod_finish(common)
-    if not ok:
-        raise RuntimeError("bare CHOLMOD could not factorise the matrix")
-    return analyzed - start, factored - analyzed
+    try:
+        if not ok:
+            raise RuntimeError("bare CHOLMOD could not factorise the matrix")
+        yield library, common, factor, analyzed - start, factored - analyzed
+    finally:
+        library.cholmod_free_factor(ctypes.byref(factor), common)
+        library.cholmod_finish(common)
+
+
+def seconds_to_factor(matrix: scipy.sparse.spmatrix) -> tuple[float, float]:
+    """Seconds of cholmod_analyze and of cholmod_factorize with default settings, of a Hermitian matrix."""
+    with _factored(matrix) as (_library, _common, _factor, analyze, factorize):
+        return analyze, factorize
+
+
+def seconds_to_solve(matrix: scipy.sparse.spmatrix, rounds: int = 15) -> float:
+    """Seconds of one cholmod_solve with the factor of a Hermitian matrix, the median of several."""
+    n = matrix.shape[0]
+    right = np.random.default_rng(0).normal(size=(n, 2)).view(np.complex128).ravel()
+    dense = _Dense(n, 1, n, n, right.ctypes.data, None, _COMPLEX, _DOUBLE)
+    seconds = []
+    with _factored(matrix) as (library, common, factor, _analyze, _factorize):
+        for _ in range(rounds):
+            start = time.perf_counter()
+            solution = ctypes.c_void_p(library.cholmod_solve(0, factor, ctypes.byref(dense), common))
+            seconds.append(time.perf_counter() - start)
+            library.cholmod_free_dense(ctypes.byref(solution), common)
+    return statistics.median(seconds)

@@ -28,10 +28,7 @@ IsometricMap relax(const Patch& patch, const ComplexVector& z, const IsometryOpt
 }
 
 ComplexVector conformal_map(const Patch& patch) {
-  return Solver(patch.chart, patch.positions, Weights::uniform, BoundaryMeasure::length,
-                FactorizationBackend::automatic)
-      .solve({}, {})
-      .z;
+  return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
 }
 
 Distortion distortion(const Patch& patch, const ComplexVector& z) {

@@ -124,8 +124,8 @@ def test_a_small_change_of_strength_takes_few_solves():
     vertices, triangles = cap(n)
     i, j = at(n, -0.9, -0.7), at(n, 0.5, 0.8)
     solver = sc.Solver(vertices, triangles)
-    solver.solve(extenders=[(i, j, 1.0)], tolerance=1e-5)
-    assert solver.solve(extenders=[(i, j, 1.05)], tolerance=1e-5).iterations <= 6
+    solver.solve(extenders=[(i, j, 1.0)], tolerance=1e-4)
+    assert solver.solve(extenders=[(i, j, 1.05)], tolerance=1e-4).iterations <= 6
 
 
 def test_rigidity_keeps_a_collapsing_hole_open():

@@ -1,0 +1,120 @@
+"""Updates a second on screen while an extender is adjusted: solve, write, redraw; 3.4.1 on a virtual screen.
+
+    build/venv/bin/python tests/benchmarks/adjust_on_screen.py [vertices ...]
+
+The screen is drawn by Mesa's software renderer, in the workspace UV Editing, 1600 x 1000 pixels, by default for
+10000 vertices.
+"Still" is Blender's redraw when nothing has changed.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROUNDS = 30
+
+
+def inside(side: int, result: Path) -> None:
+    """Run in Blender: time the parts of an update, in milliseconds."""
+    import addon_utils
+    import bpy
+    import numpy as np
+
+    addon_utils.enable("spectral_unwrap", default_set=True)
+    window = bpy.context.window_manager.windows[0]
+    window.workspace = bpy.data.workspaces["UV Editing"]
+
+    def run() -> None:
+        area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+        region = next(region for region in area.regions if region.type == "WINDOW")
+        with bpy.context.temp_override(window=window, area=area, region=region):
+            bpy.data.objects.remove(bpy.data.objects["Cube"])
+            bpy.ops.mesh.primitive_grid_add(x_subdivisions=side - 1, y_subdivisions=side - 1)
+            mesh = bpy.context.object.data
+            for vertex in mesh.vertices:
+                x, y, _ = vertex.co
+                vertex.co.z = np.exp(-4.0 * ((x - 0.2) ** 2 + (y + 0.1) ** 2))
+            bpy.ops.object.mode_set(mode="EDIT")
+            bpy.ops.mesh.select_all(action="SELECT")
+            bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT")
+            extenders = sys.modules["spectral_unwrap.extenders"]
+            extenders.add(mesh, [(0, side * side // 2)], 1.0)
+            adjusted = sys.modules["spectral_unwrap.adjusted_map"].AdjustedMap(bpy.context, 0)
+            adjusted.show(1.0)
+            seconds = []
+            for strength in np.linspace(1.0, 3.0, ROUNDS + 1)[1:]:
+                start = time.perf_counter()
+                uv = adjusted._adjustment.map(float(strength))  # noqa: SLF001 - the parts are what is measured
+                solved = time.perf_counter()
+                adjusted._write(uv.tolist())  # noqa: SLF001
+                written = time.perf_counter()
+                bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+                seconds.append((solved - start, written - solved, time.perf_counter() - written))
+            start = time.perf_counter()
+            bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=5)
+            still = (time.perf_counter() - start) / 5
+            parts = [*(statistics.median(part) for part in zip(*seconds)), still]
+            result.write_text(" ".join(str(1000 * part) for part in parts))
+        bpy.ops.wm.quit_blender()
+
+    bpy.app.timers.register(run, first_interval=3.0)
+
+
+def measure(vertices: int) -> str:
+    sys.path.insert(0, str(HERE.parent / "blender"))
+    import blenders
+
+    side = round(vertices**0.5)
+    with tempfile.TemporaryDirectory() as folder:
+        result = Path(folder) / "result.txt"
+        server = subprocess.Popen(
+            ["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "+extension", "GLX"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        try:
+            display = f":{server.stdout.readline().strip()}"
+            subprocess.run(
+                [
+                    *(blenders.system_blender(), "--factory-startup", "--window-geometry", "0", "0", "1600", "1000"),
+                    *("--python", __file__, "--", "--inside", str(side), str(result)),
+                ],
+                env={
+                    **os.environ,
+                    **blenders.make_profile(Path(folder), bundles_module=True),
+                    "DISPLAY": display,
+                    "LIBGL_ALWAYS_SOFTWARE": "1",
+                },
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                check=True,
+                timeout=300,
+            )
+        finally:
+            server.terminate()
+            server.wait()
+        solve, write, draw, still = map(float, result.read_text().split())
+    rates = f"{1000 / (solve + write + draw):.1f} | {1000 / (solve + write):.1f}"
+    return f"| {side * side} | {solve:.1f} | {write:.1f} | {draw:.1f} | {still:.1f} | {rates} |"
+
+
+def main() -> None:
+    if "--inside" in sys.argv:
+        inside(int(sys.argv[-2]), Path(sys.argv[-1]))
+        return
+    print("| vertices | solve, ms | write, ms | draw, ms | still, ms | updates a second | without drawing |")
+    print("|---|---|---|---|---|---|---|", flush=True)
+    for vertices in sys.argv[1:] or ["10000"]:
+        print(measure(int(vertices)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
