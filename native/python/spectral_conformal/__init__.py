@@ -6,30 +6,17 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
     result = spectral_conformal.unwrap(vertices, face_offsets, corner_vertices, seam_edges=seams)   # a polygon mesh
 """
 
-from ._api import (
-    Chart,
-    Distortion,
-    Parameterization,
-    Progress,
-    Solver,
-    Unwrap,
-    Unwrapper,
-    blend_metric,
-    build_info,
-    distortion,
-    metric_from_direction,
-    metric_from_uv,
-    parameterize,
-    suggest_cuts,
-    suggest_seams,
-    unwrap,
-)
+from ._api import Solver, Unwrapper, build_info, distortion, parameterize, unwrap
+from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
+from ._seams import suggest_cuts, suggest_seams
+from ._types import Chart, Distortion, Extenders, Parameterization, Progress, Unwrap
 
 __all__ = [
     "Cancelled",
     "Chart",
     "Distortion",
+    "Extenders",
     "InvalidMeshError",
     "Parameterization",
     "Progress",

@@ -1,0 +1,275 @@
+"""Checks and conversions of arguments: what is wrong is named in a ValueError."""
+
+from __future__ import annotations
+
+import numbers
+import operator
+from collections.abc import Mapping
+from typing import Any, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._native import InvalidMeshError
+from ._types import Boundary, Extenders, Factorization, Method, Pins, Progress, Weights
+
+_OPTIONS = {
+    "method": get_args(Method),
+    "weights": get_args(Weights),
+    "boundary": get_args(Boundary),
+    "factorization": get_args(Factorization),
+}
+DEFAULT_TOLERANCE = 1e-8
+# Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
+SOFT_PINS_LIMIT = 1e4
+EXTENDER_LIMIT = 1e4
+HOLE_RIGIDITY_LIMIT = 1e4
+RATIO_LIMIT = 1e4
+_INDEX_LIMIT = np.iinfo(np.int32).max
+
+
+def checked_patch_options(weights: str, boundary: str, factorization: str, fill_holes: bool, area_blend: float) -> Any:  # noqa: ANN401 - the native class has no stub
+    check_options(weights=weights, boundary=boundary, factorization=factorization)
+    fill = checked_flag(fill_holes, "fill_holes")
+    return _native.PatchOptions(weights, boundary, factorization, fill, checked_fraction(area_blend, "area_blend"))
+
+
+def checked_polygon_mesh(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    seam_edges: npt.ArrayLike | None,
+    selected_faces: npt.ArrayLike | None,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
+    vertices = checked_vertices(vertices)
+    offsets = checked_index_vector(face_offsets, "face_offsets")
+    corners = checked_indices(corner_vertices, "corner_vertices", None, len(vertices))
+    if len(offsets) == 0:
+        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+    if len(offsets) == 1:
+        raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
+    if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
+        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing.")
+    seams = None if seam_edges is None else checked_indices(seam_edges, "seam_edges", 2, len(vertices))
+    selected = None
+    if selected_faces is not None:
+        selected = np.asarray(selected_faces)
+        if selected.dtype != np.bool_ or selected.shape != (len(offsets) - 1,):
+            raise ValueError(
+                f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
+                f"{selected.shape}."
+            )
+    return vertices, offsets, corners, seams, selected
+
+
+def checked_at_least(value: float, least: float, name: str) -> float:
+    if not (isinstance(value, numbers.Real) and value >= least):
+        raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
+    return float(value)
+
+
+def check_options(**options: object) -> None:
+    for name, value in options.items():
+        if value not in _OPTIONS[name]:
+            choices = ", ".join(repr(choice) for choice in _OPTIONS[name])
+            raise ValueError(f"{name} must be one of {choices}, not {value!r}.")
+
+
+def checked_progress(progress: Progress | None) -> Progress | None:
+    if progress is not None and not callable(progress):
+        raise ValueError(f"progress must be callable or None, not {type(progress).__name__}.")
+    return progress
+
+
+def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} is no regular array: {error}.") from error
+
+
+def checked_floats(values: npt.ArrayLike, name: str, columns: int) -> npt.NDArray[np.float64]:
+    array = checked_array(values, name)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
+    if len(array) > _INDEX_LIMIT:
+        raise ValueError(f"{name} has {len(array)} rows; at most {_INDEX_LIMIT} can be handled.")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    return checked_floats(vertices, "vertices", 3)
+
+
+def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
+    array = checked_array(values, name)
+    if array.size == 0:
+        array = array.astype(np.int32)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name} must hold integers, not {array.dtype}.")
+    if array.ndim != 1:
+        raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
+    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT or len(array) > _INDEX_LIMIT):
+        raise ValueError(
+            f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {array.min()} to {array.max()}."
+        )
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
+    array = checked_array(values, name)
+    if columns is not None:
+        if array.size == 0:
+            array = np.zeros((0, columns), np.int32)
+        if array.ndim != 2 or array.shape[1] != columns:
+            raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
+    shape = array.shape
+    flat = checked_index_vector(array.ravel() if columns is not None else array, name)
+    if flat.size and flat.max() >= n_vertices:
+        raise ValueError(f"{name} has the vertex {flat.max()}, but there are {n_vertices} vertices.")
+    return flat.reshape(shape) if columns is not None else flat
+
+
+def checked_flag(value: object, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} must be True or False, not {value!r}.")
+    return bool(value)
+
+
+def checked_soft_pins(strength: float, method: str) -> float:
+    if not (isinstance(strength, numbers.Real) and 0.0 <= strength <= SOFT_PINS_LIMIT):
+        raise ValueError(f"soft_pins must lie between 0 and {SOFT_PINS_LIMIT:g}, not {strength!r}.")
+    if strength > 0.0 and method != "spectral":
+        raise ValueError(f"soft_pins need the method 'spectral', not '{method}'.")
+    return float(strength)
+
+
+def checked_hole_rigidity(strength: float, method: str) -> float:
+    if not (isinstance(strength, numbers.Real) and 0.0 <= strength <= HOLE_RIGIDITY_LIMIT):
+        raise ValueError(f"hole_rigidity must lie between 0 and {HOLE_RIGIDITY_LIMIT:g}, not {strength!r}.")
+    if strength > 0.0 and method != "spectral":
+        raise ValueError(f"hole_rigidity needs the method 'spectral', not '{method}'.")
+    return float(strength)
+
+
+def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float]]:
+    result = []
+    for k, extender in enumerate(() if extenders is None else extenders):
+        try:
+            first, second, strength = extender
+            i, j, strength = operator.index(first), operator.index(second), float(strength)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
+        if not (0 <= i < n_vertices and 0 <= j < n_vertices):
+            raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
+        if i == j:
+            raise ValueError(f"Extender {k} joins vertex {i} with itself; give it two different vertices.")
+        if not abs(strength) <= EXTENDER_LIMIT:
+            raise ValueError(
+                f"The strength of extender {k} must lie between {-EXTENDER_LIMIT:g} and {EXTENDER_LIMIT:g}, "
+                f"not {strength!r}."
+            )
+        result.append((i, j, strength))
+    if result and method != "spectral":
+        raise ValueError(f"extenders need the method 'spectral', not '{method}'.")
+    return result
+
+
+def checked_fraction(value: float, name: str) -> float:
+    if not (isinstance(value, numbers.Real) and 0.0 <= value <= 1.0):
+        raise ValueError(f"{name} must lie between 0 and 1, not {value!r}.")
+    return float(value)
+
+
+def checked_metric(
+    metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...]
+) -> npt.NDArray[np.float64] | None:
+    """Check one tensor per face, of one of the sizes; what makes it definite in a face's plane is checked there."""
+    if metric is None:
+        return None
+    array = checked_array(metric, "metric")
+    size = array.shape[-1] if array.ndim == 3 and array.shape[-1] in sizes else sizes[0]
+    tensors = checked_tensors(array, size)
+    if len(tensors) != n_faces:
+        raise ValueError(f"metric has {len(tensors)} tensors, but there are {n_faces} faces.")
+    return tensors
+
+
+def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
+    array = checked_array(metric, "metric")
+    if array.dtype.kind not in "fiu" or array.ndim != 3 or array.shape[1:] != (size, size):
+        raise ValueError(
+            f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
+        )
+    tensors = np.ascontiguousarray(array, dtype=np.float64)
+    if not np.isfinite(tensors).all():
+        raise ValueError("metric has values that are not finite.")
+    size_of = np.abs(tensors).max(axis=(1, 2), initial=0.0)
+    if (np.abs(tensors - tensors.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0) > 1e-9 * size_of).any():
+        raise ValueError("metric must be symmetric.")
+    if size == 2:
+        bad = _native.first_not_positive_definite(tensors)
+        if bad >= 0:
+            raise ValueError(f"The metric of triangle {bad} is not positive definite: {tensors[bad].tolist()}.")
+    return tensors
+
+
+def checked_broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+    array = checked_array(values, name)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+    try:
+        return np.ascontiguousarray(np.broadcast_to(array, shape), dtype=np.float64)
+    except ValueError as error:
+        raise ValueError(f"{name} must have the shape {shape}, not {array.shape}.") from error
+
+
+def checked_corner_pins(
+    pinned_corners: npt.ArrayLike | None, corner_uv: npt.ArrayLike | None, n_corners: int
+) -> tuple[npt.NDArray[np.bool_] | None, npt.NDArray[np.float64] | None]:
+    if pinned_corners is None:
+        return None, None
+    pinned = np.asarray(pinned_corners)
+    if pinned.dtype != np.bool_ or pinned.shape != (n_corners,):
+        raise ValueError(
+            f"pinned_corners must be {n_corners} booleans, one per corner, not {pinned.dtype} of shape {pinned.shape}."
+        )
+    if not pinned.any():
+        return None, None
+    if corner_uv is None:
+        raise ValueError("pinned_corners need corner_uv, the positions of the pins.")
+    uv = checked_floats(corner_uv, "corner_uv", 2)
+    if len(uv) != n_corners:
+        raise ValueError(f"corner_uv has {len(uv)} rows, but there are {n_corners} corners.")
+    return np.ascontiguousarray(pinned), uv
+
+
+def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: int) -> list[tuple[int, float, float]]:
+    if pins is None:
+        return []
+    if not isinstance(pins, Mapping):
+        raise ValueError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
+    if pins and method != "lscm" and not soft_pins:
+        raise ValueError(f"pins need the method 'lscm', or soft_pins with 'spectral'; '{method}' solves without any.")
+    result = []
+    for vertex, position in pins.items():
+        try:
+            index = operator.index(vertex)
+            u, v = (float(x) for x in position)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
+        if not 0 <= index < n_vertices:
+            raise ValueError(f"Vertex {index} is pinned, but there are {n_vertices} vertices.")
+        if not (np.isfinite(u) and np.isfinite(v)):
+            raise ValueError(f"The pin of vertex {index} is not finite: ({u}, {v}).")
+        result.append((index, u, v))
+    return result
+
+
+def checked_tolerance(tolerance: float) -> float:
+    if not (isinstance(tolerance, numbers.Real) and 1e-14 <= tolerance <= 1e-3):
+        raise ValueError(f"tolerance must lie between 1e-14 and 1e-3, not {tolerance!r}.")
+    return float(tolerance)

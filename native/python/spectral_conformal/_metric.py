@@ -1,0 +1,78 @@
+"""Metrics for quasi-conformal maps (section 4.3 of the paper)."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._arguments import RATIO_LIMIT
+
+
+def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return the metric (F, 2, 2) of a map: J^T J. Solved with it, the map comes back up to a similarity.
+
+    Args:
+        vertices: (V, 3) positions, finite.
+        triangles: (F, 3) vertex indices.
+        uv: (V, 2) image of each vertex, finite. Triangles without area in 3D get the identity.
+
+    Raises:
+        ValueError: an array is not of the kind described here, or a triangle's image has no area.
+    """
+    vertices = _arguments.checked_vertices(vertices)
+    triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
+    uv = _arguments.checked_floats(uv, "uv", 2)
+    if len(uv) != len(vertices):
+        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
+    if not (np.isfinite(vertices[triangles]).all() and np.isfinite(uv[triangles]).all()):
+        raise ValueError("vertices or uv has values that are not finite where a triangle uses them.")
+    metric = _native.metric_from_uv(vertices, triangles, uv)
+    bad = _native.first_not_positive_definite(metric)
+    if bad >= 0:
+        raise ValueError(f"The image of triangle {bad} has no area, so the map has no metric there; unfold it first.")
+    return metric
+
+
+def metric_from_direction(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, directions: npt.ArrayLike, ratios: npt.ArrayLike
+) -> npt.NDArray[np.float64]:
+    """Return the metric (F, 2, 2) under which each triangle is `ratio` times as long along a direction.
+
+    Args:
+        vertices: (V, 3) positions, finite.
+        triangles: (F, 3) vertex indices.
+        directions: (F, 3), or (3,) for all: directions in space, of any length, projected into the triangles' planes.
+            Where one is perpendicular to its triangle the metric is the identity.
+        ratios: (F,), or one for all: positive; above 1 the map gets longer along the direction than across it.
+
+    Raises:
+        ValueError: an array is not of the kind described here.
+    """
+    vertices = _arguments.checked_vertices(vertices)
+    triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
+    if not np.isfinite(vertices[triangles]).all():
+        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
+    directions = _arguments.checked_broadcast(directions, "directions", (len(triangles), 3))
+    ratios = _arguments.checked_broadcast(ratios, "ratios", (len(triangles),))
+    if not (np.isfinite(directions).all() and directions.any(axis=1).all()):
+        raise ValueError("directions must be finite and not zero.")
+    if not ((ratios >= 1.0 / RATIO_LIMIT) & (ratios <= RATIO_LIMIT)).all():
+        raise ValueError(f"ratios must lie between {1.0 / RATIO_LIMIT:g} and {RATIO_LIMIT:g}.")
+    return _native.metric_from_direction(vertices, triangles, directions, ratios)
+
+
+def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64]:
+    """Return the metric between the identity (amount 0) and `metric` scaled to determinant 1 (amount 1), (F, 2, 2).
+
+    It is the power G^amount, so that half of the way taken twice is the whole way.
+
+    Args:
+        metric: (F, 2, 2) symmetric positive definite tensors.
+        amount: 0 to 1.
+
+    Raises:
+        ValueError: the metric or amount is not of the kind described here.
+    """
+    array = _arguments.checked_tensors(metric, 2)
+    return _native.blend_metric(array, _arguments.checked_fraction(amount, "amount"))
