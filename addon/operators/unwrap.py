@@ -51,7 +51,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         subtype="FACTOR",
     )
     stretch: FloatProperty(
-        name="Stretch Along Active Edge",
+        name="Edge Stretch",
         description="How much longer the islands get along the direction of the active edge than across it",
         default=1.0,
         min=0.01,

@@ -69,3 +69,14 @@ if (SHARED / "hard" / "hard.json").exists():
             measured = sc.distortion(vertices, np.array(faces), solution.uv)
             assert (solution.turning_number, solution.message, measured.flipped.sum()) == (1, "", 0)
             assert measured.mean_qc < mean_qc
+
+    @pytest.mark.parametrize("name", ["cowhead_bff", "spothead_bff", "goathead", "demosthenes", "face_bff"])
+    def test_the_area_blend_halves_the_spread_of_the_scale_on_heads(name):
+        vertices, faces = meshes.read_obj(SHARED / "real" / f"{name}.obj")
+        spread = {}
+        for amount in (0.0, 1.0):
+            solution = sc.parameterize(vertices, faces, area_blend=amount)
+            measured = sc.distortion(vertices, faces, solution.uv)
+            spread[amount] = measured.log2_scale_deviation
+        assert spread[1.0] < 0.5 * spread[0.0]
+        assert not measured.flipped.any()
