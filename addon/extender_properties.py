@@ -24,16 +24,7 @@ class SpectralExtender(PropertyGroup):
     """One extender of a mesh."""
 
     name: StringProperty(name="Name", description="Name of the extender", update=_on_rename)
-    strength: FloatProperty(
-        name="Strength",
-        description=names.EXTENDER_STRENGTH_DESCRIPTION,
-        default=1.0,
-        min=-names.EXTENDER_STRENGTH_LIMIT,
-        max=names.EXTENDER_STRENGTH_LIMIT,
-        soft_min=-names.EXTENDER_STRENGTH_SOFT_LIMIT,
-        soft_max=names.EXTENDER_STRENGTH_SOFT_LIMIT,
-        update=_on_change,
-    )
+    strength: FloatProperty(**names.EXTENDER_STRENGTH, update=_on_change)
     use: BoolProperty(
         name="Use", description="Let the extender act on the next unwrap", default=True, update=_on_change
     )

@@ -24,15 +24,7 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
     index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
-    strength: FloatProperty(
-        name="Strength",
-        description=names.EXTENDER_STRENGTH_DESCRIPTION,
-        default=1.0,
-        min=-names.EXTENDER_STRENGTH_LIMIT,
-        max=names.EXTENDER_STRENGTH_LIMIT,
-        soft_min=-names.EXTENDER_STRENGTH_SOFT_LIMIT,
-        soft_max=names.EXTENDER_STRENGTH_SOFT_LIMIT,
-    )
+    strength: FloatProperty(**names.EXTENDER_STRENGTH)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

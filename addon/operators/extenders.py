@@ -18,15 +18,7 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     pairs: EnumProperty(name="Pairs", description="Which vertices make a pair", items=names.EXTENDER_PAIRS_ITEMS)
-    strength: FloatProperty(
-        name="Strength",
-        description=names.EXTENDER_STRENGTH_DESCRIPTION,
-        default=1.0,
-        min=-names.EXTENDER_STRENGTH_LIMIT,
-        max=names.EXTENDER_STRENGTH_LIMIT,
-        soft_min=-names.EXTENDER_STRENGTH_SOFT_LIMIT,
-        soft_max=names.EXTENDER_STRENGTH_SOFT_LIMIT,
-    )
+    strength: FloatProperty(**names.EXTENDER_STRENGTH)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

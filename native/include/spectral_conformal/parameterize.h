@@ -45,8 +45,9 @@ struct SolveOptions {
 struct Parameterization {
   ComplexVector z;        ///< (V,) u + i v
   double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
-  double residual =
-      0;  ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area: last change
+  /// |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with forces: the last
+  /// relative change.
+  double residual = 0;
   int iterations = 0;                                   ///< solves with the factor
   int turning_number = 0;                               ///< of the outer boundary loop
   std::string message;                                  ///< remedies and repairs that were needed; empty when none was
@@ -84,7 +85,7 @@ class Solver {
   /// `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its equations; where its boundary
   /// winds round more than once, `message` says so. Throws SolveFailure when nothing passes.
   /// Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them starts
-  /// from the maps of earlier solves.
+  /// from the maps of earlier solves. Their map may wind round more than once; `message` says so.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }

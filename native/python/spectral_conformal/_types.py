@@ -28,10 +28,12 @@ class Parameterization:
     uv: npt.NDArray[np.float64]
     """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
     eigenvalue: float
-    """lambda of L z = lambda B z (Eq. 5) for the given vertices. For "lscm" z*Lz / z*Bz; for "area" B = A."""
+    """lambda of L z = lambda B z (Eq. 5) for the given vertices, forces included in B. For "lscm" z*Lz / z*Bz; for
+    "area" B = A."""
     residual: float
     """|L z - lambda B z| / (largest diagonal entry of L x |z|). For "lscm" |L z| over the free vertices / (largest
-    diagonal entry x extent of the map); for "area" the last relative change of the inverse iteration."""
+    diagonal entry x extent of the map); for "area" and with forces (soft pins, extenders, hole rigidity) the last
+    relative change of the map."""
     iterations: int
     """Solves with the factor."""
     turning_number: int
