@@ -8,7 +8,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import extenders, live_unwrap, mesh_io
+from . import extenders, live_unwrap, mesh_io, subdivision_surface
+from .core import reporting
 from .core.extender_adjustment import AdjustmentError, ExtenderAdjustment
 
 
@@ -19,6 +20,7 @@ class AdjustedMap:
         mesh: the mesh in edit mode.
         index: place of the extender in the mesh's list.
         start: the strength before.
+        note: what the user should know; may be empty.
     """
 
     def __init__(self, context: bpy.types.Context, index: int) -> None:
@@ -53,6 +55,8 @@ class AdjustedMap:
 
     def _take(self, edit_object: bpy.types.Object, ends: tuple[int, int]) -> ExtenderAdjustment:
         settings = live_unwrap.last_settings()
+        subdivided = settings.use_subsurf and subdivision_surface.leading_modifier(edit_object) is not None
+        self.note = reporting.ADJUSTED_WITHOUT_SUBSURF if subdivided else ""
         for all_visible in (False, True):
             polygons = mesh_io.read(edit_object, False, all_visible, settings.correct_aspect).polygons
             unwrapped = polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]

@@ -13,6 +13,9 @@ from .unwrapping import Solution
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
 NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
+ADJUSTED_WITHOUT_SUBSURF = (
+    "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
+)
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}

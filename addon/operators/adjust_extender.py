@@ -83,10 +83,13 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
             self.report({"ERROR"}, "No such extender; choose one in the list")
             return None
         try:
-            return AdjustedMap(context, index)
+            adjusted = AdjustedMap(context, index)
         except (AdjustmentError, NativeModuleError) as error:
             self.report({"ERROR"}, str(error))
             return None
+        if adjusted.note:
+            self.report({"INFO"}, adjusted.note)
+        return adjusted
 
     def _drag(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         moved, self._mouse_x = event.mouse_x - self._mouse_x, event.mouse_x

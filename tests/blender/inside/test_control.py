@@ -124,6 +124,19 @@ def test_extenders_act_on_the_subdivided_mesh():
     assert distance(grid, 1, 140) > before + 1e-4
 
 
+@pytest.mark.parametrize("subdivide", [True, False])
+def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdivide):
+    grid = hill()
+    grid.modifiers.new("Subdivision", "SUBSURF")
+    add_extender(grid, 1, 140, 1.0)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    settings = module("edit_mode_unwrap").Settings(use_subsurf=subdivide)
+    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    reports()
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
+    assert any("without its Subdivision Surface" in text for _, text in reports()) == subdivide
+
+
 def test_adjusting_sets_the_strength_and_keeps_place_and_size():
     grid = hill()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
