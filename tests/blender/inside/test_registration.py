@@ -27,7 +27,7 @@ def test_operator_properties_are_described_as_blender_does():
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-        *("correct_aspect", "placement", "margin_method", "margin"),
+        *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
     }
     described = [
         *properties.values(),
@@ -53,6 +53,9 @@ def test_defaults():
         "correct_aspect": True,
         "placement": "PACK",
         "margin_method": "SCALED",
+        "hole_rigidity": 0.0,
+        "area_blend": 0.0,
+        "stretch": 1.0,
     }
 
 
