@@ -76,6 +76,22 @@ def test_select_failed_is_described():
     assert not operator.description.endswith(".")
 
 
+def test_suggest_seams_is_described():
+    operator = bpy.ops.uv.spectral_suggest_seams.get_rna_type()
+    assert operator.name == "Suggest Seams"
+    properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
+    assert {prop.identifier: prop.default for prop in properties} == {
+        "size_variation": 2.0,
+        "angle_distortion": pytest.approx(1.05),
+        "max_length": 0.0,
+        "cuts": 0,
+        "unwrap": True,
+    }
+    for item in (operator, *properties):
+        assert item.description
+        assert not item.description.endswith(".")
+
+
 def test_menus_and_operator_come_and_go_with_the_add_on():
     for _ in range(2):
         assert _entries() == list(MENUS)
