@@ -19,7 +19,8 @@ from extender_sidebar import TAB, click_sidebar  # noqa: E402
 from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
 
 # Place in the viewport's sidebar, in pixels from its top left corner.
-SUGGEST_SEAMS = (103, 55)
+SUGGEST_SEAMS = (103, 80)
+CUTS_ROW = 1  # of Adjust Last Operation, from the bottom
 HEADER_TO_SUGGEST_SEAMS = 395  # in the UV menu
 WHEEL_UP, WHEEL_DOWN = 4, 5
 
@@ -114,6 +115,26 @@ def check_marked(before_seams, before_uv, after_seams, after_uv):
         np.testing.assert_array_equal(uv(), expected_uv)
 
 
+def adjust_last_operation(before, marked):
+    """Ask for two cuts instead of four, which undoes the step and marks the first two."""
+    yield from drive.open_adjust_last_operation()
+    region = drive.region_of("VIEW_3D", "HUD")
+    drive.move_mouse(region.x + int(0.7 * region.width), region.y + 20 + 22 * CUTS_ROW)
+    yield
+    screenshot("suggest_seams_adjust")
+    xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    yield
+    xdotool("key", "ctrl+a", "type", "2")
+    yield
+    xdotool("key", "Return")
+    yield
+    yield
+    screenshot("suggest_seams_adjusted")
+    assert set() < seams() < marked
+    point_at("VIEW_3D", 0.4, 0.3)
+    yield from check_marked(set(), before, seams(), uv())
+
+
 def steps():
     yield from drive.open_uv_editing()
     yield from open_suzanne()
@@ -147,7 +168,8 @@ def steps():
     np.testing.assert_array_equal(uv(), before)
     screenshot("suggest_seams_cancelled")
 
-    # The same again, this time applied by a click.
+    # The same again, this time applied by a click. Live unwrapping must not make a step of its own of it.
+    bpy.context.scene.spectral_unwrap_live = True
     yield from suggest_by_menu()
     assert shown[0].count == total
     for _ in range(total - 4):
@@ -167,6 +189,8 @@ def steps():
     assert not any(selected())
     assert bpy.context.window_manager.operators[-1].properties.cuts == 4
     yield from check_marked(set(), before, marked, mapped)
+    yield from adjust_last_operation(before, marked)
+    marked, mapped = seams(), uv()
     yield from drive.show_uvs()
     screenshot("suggest_seams_applied")
 

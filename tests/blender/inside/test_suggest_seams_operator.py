@@ -337,12 +337,11 @@ class Instance(SimpleNamespace):
 class Previewed:
     """Drives the modal operator without a window."""
 
-    def __init__(self, monkeypatch, **properties):
+    def __init__(self, monkeypatch, is_waiting=True):
         self.operator_class = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
         defaults = {"size_variation": 2.0, "angle_distortion": 1.05, "max_length": 0.0, "cuts": 0, "unwrap": True}
         # What a bpy operator instance would have.
         self.operator = Instance(**defaults, reported=[])
-        vars(self.operator).update(properties)
         self.operator.report = lambda levels, text: self.operator.reported.append((*levels, text))
         for name, function in vars(self.operator_class).items():
             if callable(function) and not name.startswith("__"):
@@ -373,7 +372,7 @@ class Previewed:
         operators = module("operators.suggest_seams")
         monkeypatch.setattr(operators, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), ops=bpy.ops))
         self.result = self.operator_class.invoke(self.operator, self.context, self.event())
-        if self.result == {"RUNNING_MODAL"}:
+        if is_waiting and self.result == {"RUNNING_MODAL"}:
             self.wait()
 
     def _add_timer(self, _seconds, window):
@@ -504,6 +503,25 @@ def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
     np.testing.assert_array_equal(scenes.read_uv(head), uv)
     assert preview.timers == []
     assert bpy.ops.uv.spectral_suggest_seams.poll()
+
+
+def test_escape_during_the_search_leaves_everything(monkeypatch):
+    head = suzanne()
+    scenes.edit(head)
+    before = scenes.state(head)
+    worker = module("core.worker").Worker
+    # A search that has not ended when the events come.
+    with monkeypatch.context() as patch:
+        patch.setattr(worker, "wait", lambda _self, _seconds: False)
+        preview = Previewed(monkeypatch, is_waiting=False)
+        assert preview.result == {"RUNNING_MODAL"}
+        assert preview.send("TIMER", "NOTHING") == {"PASS_THROUGH"}
+        assert preview.status[-1].startswith("Suggest Seams: ")
+        assert "Esc: Cancel" in preview.status[-1]
+        assert preview.send("ESC") == {"CANCELLED"}
+    assert scenes.state(head) == before
+    assert preview.status[-1] is None
+    assert preview.timers == []
 
 
 def test_meshes_that_changed_meanwhile_are_left_alone(previewed):
