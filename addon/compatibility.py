@@ -16,6 +16,10 @@ _UV_SELECTION_ON_MESH = hasattr(BMLoop, "uv_select_vert")
 SMOOTH_COLOR_SHADER = "SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SMOOTH_COLOR"
 
 
+# The shader that draws lines of any width between the `pos` of three dimensions, in one `color`.
+LINE_SHADER = "POLYLINE_UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_POLYLINE_UNIFORM_COLOR"
+
+
 @dataclass(frozen=True)
 class UVSelection:
     """The UV selection of a mesh: flags per corner, in the order of faces and their corners, and per face."""

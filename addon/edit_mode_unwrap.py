@@ -141,6 +141,24 @@ def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ..
     return tuple(filter(None, notes))
 
 
+def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
+    """Return what to tell the user of an unwrap that took `seconds`, as (level, text) pairs.
+
+    Blender shows the last one in the status bar, all of them in the Info editor.
+    """
+    summary = outcome.summary
+    pairs = (
+        *(("INFO", note) for note in outcome.notes),
+        ("INFO", reporting.remedies(summary)),
+        ("INFO", reporting.pinned(summary)),
+        ("INFO", reporting.information(summary, seconds) if summary.solved else ""),
+        *(("WARNING", warning) for warning in outcome.warnings),
+        ("WARNING", reporting.without_bounds(outcome.without_bounds)),
+        ("WARNING", reporting.failures(summary)),
+    )
+    return [(level, text) for level, text in pairs if text]
+
+
 def read(context: bpy.types.Context, settings: Settings, all_visible: bool = False) -> list[EditMesh]:
     """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap.
 
@@ -161,7 +179,7 @@ def read(context: bpy.types.Context, settings: Settings, all_visible: bool = Fal
 
 
 def read_again(
-    context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh]
+    context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh], all_visible: bool = False
 ) -> list[EditMesh] | None:
     """Read what an earlier `read` returned once more; None if anything in it has changed or gone since.
 
@@ -169,7 +187,7 @@ def read_again(
     """
     if context.mode != "EDIT_MESH":
         return None
-    now = read(context, settings)
+    now = read(context, settings, all_visible)
     same = len(now) == len(edit_meshes) and all(
         new.edit_object == old.edit_object and new.polygons.equals(old.polygons) for new, old in zip(now, edit_meshes)
     )

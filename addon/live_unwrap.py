@@ -18,7 +18,7 @@ import numpy as np
 from bmesh.types import BMesh, BMLoop
 from bpy.app.handlers import persistent
 
-from . import compatibility, edit_mode_unwrap, mesh_io, names
+from . import compatibility, edit_mode_unwrap, mesh_io, mesh_selection, names
 from .core import live
 from .core.native import NativeModuleError
 from .core.polygon_mesh import PolygonMesh
@@ -272,30 +272,11 @@ def _follow_seams(scene: bpy.types.Scene, changed: dict[int, np.ndarray]) -> Non
         solutions = edit_mode_unwrap.solve(edit_meshes, settings)
         with ExitStack() as stack:
             for watch in _state.watches.values():
-                stack.enter_context(_visible_faces_selected(watch.bm))
+                stack.enter_context(mesh_selection.visible_faces_selected(watch.bm))
             outcome = edit_mode_unwrap.write(bpy.context, settings, edit_meshes, solutions)
     _state.watches = _see(scene)
     if outcome.summary.solved:
         _push_undo_step()
-
-
-@contextmanager
-def _visible_faces_selected(bm: BMesh) -> Iterator[None]:
-    """Within, all visible faces are selected, because Blender packs no others."""
-    kinds = (bm.verts, bm.edges, bm.faces)
-    selected = [[element for element in elements if element.select] for elements in kinds]
-    for face in bm.faces:
-        if not face.hide:
-            face.select = True
-    try:
-        yield
-    finally:
-        for elements in reversed(kinds):
-            for element in elements:
-                element.select = False
-        for elements in selected:
-            for element in elements:
-                element.select = True
 
 
 @contextmanager

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The selection of the meshes in edit mode."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import compress
 
@@ -33,6 +34,25 @@ def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.nd
         if layer is not None and not context.scene.tool_settings.use_uv_select_sync:
             compatibility.select_uv_of_faces(bm, layer, flags)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+@contextmanager
+def visible_faces_selected(bm: BMesh) -> Iterator[None]:
+    """Within, all visible faces are selected, because Blender packs no others."""
+    kinds = (bm.verts, bm.edges, bm.faces)
+    selected = [[element for element in elements if element.select] for elements in kinds]
+    for face in bm.faces:
+        if not face.hide:
+            face.select = True
+    try:
+        yield
+    finally:
+        for elements in reversed(kinds):
+            for element in elements:
+                element.select = False
+        for elements in selected:
+            for element in elements:
+                element.select = True
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,13 @@ SELECT_FAILED_DESCRIPTION = (
     "ones if none is selected"
 )
 
+SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
+SUGGEST_SEAMS_LABEL = "Suggest Seams"
+SUGGEST_SEAMS_DESCRIPTION = (
+    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
+    "visible ones if none is selected; then unwrap again"
+)
+
 LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow while their pins are moved, and unwrap again when seams are changed"
@@ -62,7 +69,11 @@ UV_EDITOR_PANEL = "IMAGE_PT_spectral_unwrap"
 UV_EDITOR_EXTENDERS_PANEL = "IMAGE_PT_spectral_extenders"
 
 # Operators after which changed seams lie along the islands of the map as it is.
-OPERATORS_THAT_MARK_SEAMS_OF_A_MAP = ("UV_OT_seams_from_islands", "UV_OT_spectral_unwrap")
+OPERATORS_THAT_MARK_SEAMS_OF_A_MAP = (
+    "UV_OT_seams_from_islands",
+    "UV_OT_spectral_unwrap",
+    "UV_OT_spectral_suggest_seams",
+)
 
 # Blender's menus that list the unwrap operators: 3D viewport, UV editor.
 VIEWPORT_UNWRAP_MENU = "VIEW3D_MT_uv_map"

@@ -55,10 +55,11 @@ class _UnwrapPanel:
         return context.mode == "EDIT_MESH" and getattr(context.space_data, "show_uvedit", True)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operator and the live toggle."""
+        """Draw the operators and the live toggle."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
         layout.operator(names.UNWRAP_OPERATOR)
+        layout.operator(names.SUGGEST_SEAMS_OPERATOR)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
 
 

@@ -31,8 +31,9 @@ def moves_view(event: bpy.types.Event) -> bool:
 class WindowProgress:
     """Progress at the mouse cursor and in the status bar, and a timer that wakes the modal operator to update it."""
 
-    def __init__(self, context: bpy.types.Context) -> None:
-        """Show 0 %."""
+    def __init__(self, context: bpy.types.Context, label: str = names.UNWRAP_LABEL) -> None:
+        """Show 0 % of what the operator with this label does."""
+        self._label = label
         self._window_manager = context.window_manager
         self._window_manager.progress_begin(0, 100)
         self._timer = self._window_manager.event_timer_add(_TIMER_SECONDS, window=context.window)
@@ -42,7 +43,7 @@ class WindowProgress:
         """Show the fraction done and the phase."""
         percent = _percent(fraction)
         self._window_manager.progress_update(percent)
-        parts = (f"{names.UNWRAP_LABEL}: {percent} %", phase, "  Esc: Cancel")
+        parts = (f"{self._label}: {percent} %", phase, "  Esc: Cancel")
         context.workspace.status_text_set(" ".join(part for part in parts if part))
 
     def end(self, context: bpy.types.Context) -> None:
@@ -55,10 +56,10 @@ class WindowProgress:
 
 
 @contextmanager
-def blocking(context: bpy.types.Context) -> Iterator[Progress]:
-    """Yield the progress function of a solve that Blender waits for."""
+def blocking(context: bpy.types.Context, label: str = names.UNWRAP_LABEL) -> Iterator[Progress]:
+    """Yield the progress function of a solve that Blender waits for; `label` is the operator's."""
     if bpy.app.background:
-        yield _printer()
+        yield _printer(label)
         return
     window_manager = context.window_manager
     window_manager.progress_begin(0, 100)
@@ -68,7 +69,7 @@ def blocking(context: bpy.types.Context) -> Iterator[Progress]:
         window_manager.progress_end()
 
 
-def _printer() -> Progress:
+def _printer(label: str) -> Progress:
     """Return a progress function that prints a line when the time for one has come and there is news."""
     printed_at, printed = time.monotonic(), 0
 
@@ -76,7 +77,7 @@ def _printer() -> Progress:
         nonlocal printed_at, printed
         now, percent = time.monotonic(), _percent(fraction)
         if now - printed_at >= _PRINT_SECONDS and percent > printed:
-            print(f"{names.UNWRAP_LABEL}: {percent} % ({phase})", flush=True)
+            print(f"{label}: {percent} % ({phase})", flush=True)
             printed_at, printed = now, percent
 
     return progress

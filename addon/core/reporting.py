@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .map_quality import MapQuality
 from .unwrapping import Solution
 
 # Blender's own sentence where use_subsurf_data has no effect.
@@ -141,6 +142,43 @@ def selected_failed(islands: int, faces: int) -> str:
     if faces == 0:
         return "No islands failed, selection unchanged"
     return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
+
+
+def marked(count: int, length: str) -> str:
+    """Return what Suggest Seams says once `count` cuts are marked, of a length that is given with its unit."""
+    return f"Marked {_count(count, 'cut')} of length {length}"
+
+
+def nothing_to_suggest(is_limited: bool) -> str:
+    """Return the sentence for no suggested seams; `is_limited` where the user gave a greatest length."""
+    reasons = "the islands are even enough already, or no cut makes them better"
+    return f"No seams to suggest: {reasons}{', or none within the length' if is_limited else ''}"
+
+
+def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
+    """Return why meshes got no suggestion, given one text for each, empty where there is nothing to tell."""
+    refused = [f"{name}: {error.rstrip('.')}" for name, error in zip(names, errors) if error]
+    return f"No seams suggested for {'; '.join(refused)}" if refused else ""
+
+
+def preview(count: int, total: int, length: str, total_length: str) -> str:
+    """Return which of the suggested cuts are shown, with lengths that are given with their unit."""
+    if count == total:
+        return f"{_count(total, 'cut')}, length {length}"
+    return f"{count} of {_count(total, 'cut')}, length {length} of {total_length}"
+
+
+def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
+    """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
+    even = f"{_percent(after.even)} of the surface within {factor:.3g} times the median scale"
+    qc = f", mean QC {_qc(after.mean_qc)}" if after.mean_qc == after.mean_qc else ""
+    now = _percent(before.even) + (f", QC {_qc(before.mean_qc)}" if before.mean_qc == before.mean_qc else "")
+    return f"{even}{qc} (now {now})"
+
+
+def _percent(part: float) -> str:
+    # Rounded down, so that only the whole is 100 %.
+    return f"{int(100.0 * part + 1e-9)} %"
 
 
 def without_bounds(count: int) -> str:

@@ -149,12 +149,16 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
 
 def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
     """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
+    return [solve(mesh, options, part) for mesh, part in zip(meshes, parts(meshes, progress))]
+
+
+def parts(meshes: Sequence[PolygonMesh], progress: Progress | None) -> list[Progress | None]:
+    """Return the progress function of each mesh, all together making `progress`; None for each where that is None."""
+    if progress is None:
+        return [None] * len(meshes)
     sizes = np.array([max(1, np.count_nonzero(mesh.selected_faces)) for mesh in meshes], dtype=np.float64)
     ends = np.cumsum(sizes) / sizes.sum()
-    return [
-        solve(mesh, options, progress and _part(progress, end - size, size))
-        for mesh, end, size in zip(meshes, ends.tolist(), (sizes / sizes.sum()).tolist())
-    ]
+    return [_part(progress, end - size, size) for end, size in zip(ends.tolist(), (sizes / sizes.sum()).tolist())]
 
 
 def _part(progress: Progress, start: float, length: float) -> Progress:

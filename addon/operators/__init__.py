@@ -10,11 +10,13 @@ from .extenders import (
     MESH_OT_spectral_extender_select,
 )
 from .select_failed import UV_OT_spectral_select_failed
+from .suggest_seams import UV_OT_spectral_suggest_seams
 from .unwrap import UV_OT_spectral_unwrap
 
 _CLASSES = (
     UV_OT_spectral_unwrap,
     UV_OT_spectral_select_failed,
+    UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,
     MESH_OT_spectral_extender_remove,

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import edit_mode_unwrap, names, progress
-from ..core import reporting, unwrapping
+from ..core import unwrapping
 from ..core.native import NativeModuleError
 from ..packing import Margin, PackingError
 from ..solving import UnwrapInThread
@@ -214,18 +214,6 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         if outcome is None:
             self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
             return {"CANCELLED"}
-        summary = outcome.summary
-        # Blender shows the last report in the status bar, all of them in the Info editor.
-        reports = (
-            *(("INFO", note) for note in outcome.notes),
-            ("INFO", reporting.remedies(summary)),
-            ("INFO", reporting.pinned(summary)),
-            ("INFO", reporting.information(summary, seconds) if summary.solved else ""),
-            *(("WARNING", warning) for warning in outcome.warnings),
-            ("WARNING", reporting.without_bounds(outcome.without_bounds)),
-            ("WARNING", reporting.failures(summary)),
-        )
-        for level, text in reports:
-            if text:
-                self.report({level}, text)
-        return {"FINISHED"} if summary.solved else {"CANCELLED"}
+        for level, text in edit_mode_unwrap.reports(outcome, seconds):
+            self.report({level}, text)
+        return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

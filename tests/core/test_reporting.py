@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from spectral_unwrap.core import reporting
+from spectral_unwrap.core.map_quality import MapQuality
 from spectral_unwrap.core.unwrapping import Solution
 
 
@@ -96,3 +97,31 @@ def test_selecting_failed_islands_is_counted():
 
 def test_refused_meshes_are_named():
     assert reporting.failures(summary(error="no vertices")) == "Not unwrapped: Object: no vertices"
+
+
+def test_marked_cuts():
+    assert reporting.marked(1, "2 m") == "Marked 1 cut of length 2 m"
+    assert reporting.marked(3, "7.5") == "Marked 3 cuts of length 7.5"
+
+
+def test_nothing_to_suggest_names_the_limit_if_there_is_one():
+    assert "length" not in reporting.nothing_to_suggest(is_limited=False)
+    assert "within the length" in reporting.nothing_to_suggest(is_limited=True)
+
+
+def test_meshes_without_suggestion():
+    assert reporting.without_suggestion(["", ""], ["A", "B"]) == ""
+    assert reporting.without_suggestion(["", "No mesh."], ["A", "B"]) == "No seams suggested for B: No mesh"
+
+
+def test_preview_of_cuts():
+    assert reporting.preview(3, 3, "2 m", "2 m") == "3 cuts, length 2 m"
+    assert reporting.preview(1, 3, "1 m", "2 m") == "1 of 3 cuts, length 1 m of 2 m"
+
+
+def test_expected_gain():
+    nan = float("nan")
+    gain = reporting.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271), 2.0)
+    assert gain == "99 % of the surface within 2 times the median scale, mean QC 1.0271 (now 0 %)"
+    gain = reporting.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0), 1.25)
+    assert gain == "100 % of the surface within 1.25 times the median scale, mean QC 1.0000 (now 50 %, QC 1.5000)"

@@ -15,9 +15,9 @@ from session import override, point_at, xdotool  # noqa: E402
 COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = (215, 170)
-ADD, ADD_TO_ACTIVE = (112, 137), (103, 158)
-ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 292), (58, 314), (147, 314), (103, 338)
-FIRST_ROW, NEXT_ROW = 190, 21
+ADD, ADD_TO_ACTIVE = (112, 162), (103, 183)
+ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 317), (58, 339), (147, 339), (103, 363)
+FIRST_ROW, NEXT_ROW = 215, 21
 ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
 
 

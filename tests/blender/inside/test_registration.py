@@ -27,7 +27,7 @@ def test_operator_properties_are_described_as_blender_does():
     properties = {prop.identifier: prop for prop in operator.properties if prop.identifier != "rna_type"}
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
-        *("correct_aspect", "placement", "margin_method", "margin"),
+        *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
     }
     described = [
         *properties.values(),
@@ -53,6 +53,9 @@ def test_defaults():
         "correct_aspect": True,
         "placement": "PACK",
         "margin_method": "SCALED",
+        "hole_rigidity": 0.0,
+        "area_blend": 0.0,
+        "stretch": 1.0,
     }
 
 
@@ -71,6 +74,22 @@ def test_select_failed_is_described():
     assert operator.name == "Select Failed Islands"
     assert operator.description
     assert not operator.description.endswith(".")
+
+
+def test_suggest_seams_is_described():
+    operator = bpy.ops.uv.spectral_suggest_seams.get_rna_type()
+    assert operator.name == "Suggest Seams"
+    properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
+    assert {prop.identifier: prop.default for prop in properties} == {
+        "size_variation": 2.0,
+        "angle_distortion": pytest.approx(1.05),
+        "max_length": 0.0,
+        "cuts": 0,
+        "unwrap": True,
+    }
+    for item in (operator, *properties):
+        assert item.description
+        assert not item.description.endswith(".")
 
 
 def test_menus_and_operator_come_and_go_with_the_add_on():

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cuts that are proposed for several meshes at once, and the first few of them."""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import zip_longest
+
+import numpy as np
+
+from . import native, unwrapping
+from .polygon_mesh import PolygonMesh
+from .unwrapping import Progress
+
+
+@dataclass(frozen=True)
+class Options:
+    """Options of `spectral_conformal.suggest_cuts`, by the names and values it documents.
+
+    `max_length` holds for each mesh by itself, None for no limit.
+    """
+
+    scale_limit: float = 2.0
+    qc_limit: float = 1.05
+    max_length: float | None = None
+    weights: str = "uniform"
+    boundary: str = "length"
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Seams that are worth marking together.
+
+    Attributes:
+        mesh: index of the mesh.
+        edges: (n, 2) int32, vertex pairs.
+        length: sum of the edges' lengths, in object space.
+    """
+
+    mesh: int
+    edges: np.ndarray
+    length: float
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """Cuts of several meshes, the most useful first.
+
+    Attributes:
+        cuts: the first cuts of all meshes, then the second ones, and so on.
+        errors: why a mesh was refused, one text per mesh, empty if it was not.
+    """
+
+    cuts: tuple[Cut, ...]
+    errors: tuple[str, ...]
+
+    @property
+    def length(self) -> float:
+        """The length of all cuts."""
+        return sum(cut.length for cut in self.cuts)
+
+    def edges(self, mesh: int) -> np.ndarray:
+        """Return the edges, (n, 2) int32, of the cuts that are in a mesh."""
+        return np.concatenate([np.empty((0, 2), np.int32), *(cut.edges for cut in self.cuts if cut.mesh == mesh)])
+
+    def part(self, start: int, end: int) -> "Suggestion":
+        """Return the cuts `start` to `end` - 1 alone."""
+        return replace(self, cuts=self.cuts[start:end])
+
+
+def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> Suggestion:
+    """Propose cuts of the selected faces of every mesh. A mesh that is refused does not stop the others.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
+    """
+    found = [_suggest(mesh, options, part) for mesh, part in zip(meshes, unwrapping.parts(meshes, progress))]
+    cuts = [
+        [Cut(index, edges, _length(meshes[index], edges)) for edges in cuts] for index, (cuts, _) in enumerate(found)
+    ]
+    in_turn = (cut for turn in zip_longest(*cuts) for cut in turn if cut is not None)
+    return Suggestion(tuple(in_turn), tuple(error for _, error in found))
+
+
+def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None) -> tuple[list[np.ndarray], str]:
+    """Return the cuts of one mesh, and why it was refused."""
+    try:
+        cuts = native.spectral_conformal().suggest_cuts(
+            mesh.vertices,
+            mesh.face_offsets,
+            mesh.corner_vertices,
+            seam_edges=mesh.seam_edges,
+            selected_faces=mesh.selected_faces,
+            max_length=options.max_length,
+            scale_limit=options.scale_limit,
+            qc_limit=options.qc_limit,
+            weights=options.weights,
+            boundary=options.boundary,
+            progress=progress,
+        )
+    except ValueError as error:
+        return [], str(error)
+    return cuts, ""
+
+
+def _length(mesh: PolygonMesh, edges: np.ndarray) -> float:
+    first, second = segments(mesh, edges).reshape(-1, 2, 3).transpose(1, 0, 2)
+    return float(np.linalg.norm(first - second, axis=1).sum())
+
+
+def segments(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
+    """Return the ends of the edges, (2 n, 3) float64 in object space, edge after edge."""
+    return mesh.vertices[edges].reshape(-1, 3)
+
+
+def cut_open(meshes: Sequence[PolygonMesh], cuts: Suggestion) -> list[PolygonMesh]:
+    """Return the meshes with the cuts among their seams."""
+    return [
+        replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, cuts.edges(index)]))
+        for index, mesh in enumerate(meshes)
+    ]
+
+
+class Search:
+    """`suggest`, which answers the same question again without searching. Only its last answer is kept."""
+
+    def __init__(self) -> None:
+        """Remember nothing yet."""
+        self._last: tuple[bytes, Suggestion] | None = None
+
+    def suggest(self, meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> Suggestion:
+        """Propose cuts as the function `suggest` does."""
+        question = _digest(meshes, options)
+        last = self._last
+        if last is not None and last[0] == question:
+            return last[1]
+        answer = suggest(meshes, options, progress)
+        self._last = (question, answer)
+        return answer
+
+
+def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
+    """Return a digest of everything that the cuts depend on."""
+    digest = hashlib.blake2b(repr(options).encode())
+    for mesh in meshes:
+        arrays = (mesh.vertices, mesh.face_offsets, mesh.corner_vertices, mesh.seam_edges, mesh.selected_faces)
+        for array in arrays:
+            digest.update(repr((array.shape, array.dtype.str)).encode())
+            digest.update(np.ascontiguousarray(array).data)
+    return digest.digest()

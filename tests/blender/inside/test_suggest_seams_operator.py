@@ -1,0 +1,570 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator Suggest Seams: what it marks, what it leaves alone, and its preview."""
+
+import importlib
+import sys
+from types import SimpleNamespace
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+names = importlib.import_module("spectral_unwrap.names")
+
+
+def module(name):
+    return sys.modules[f"spectral_unwrap.{name}"]
+
+
+def primitive(add, **options):
+    """Add one of Blender's primitives, without a UV map."""
+    add(**options)
+    new = bpy.context.object
+    while new.data.uv_layers:
+        new.data.uv_layers.remove(new.data.uv_layers[0])
+    return new
+
+
+def suzanne():
+    return primitive(bpy.ops.mesh.primitive_monkey_add)
+
+
+def seams(edited):
+    return {frozenset(vertex.index for vertex in edge.verts) for edge in scenes.edit_mesh(edited).edges if edge.seam}
+
+
+def seam_length(edited):
+    return sum(edge.calc_length() for edge in scenes.edit_mesh(edited).edges if edge.seam)
+
+
+def state_apart_from_seams(edited):
+    state = scenes.state(edited)
+    state["edges"] = [(select, hide, smooth) for select, hide, _, smooth in state["edges"]]
+    return state
+
+
+def texts(reports, level):
+    return [text for reported, text in reports() if reported == level]
+
+
+def cuts_found(reports):
+    """Return how many cuts were marked, by the operator's report."""
+    (text,) = [text for text in texts(reports, "Info") if text.startswith("Marked ")]
+    return int(text.split()[1])
+
+
+CLOSED = {
+    "cube": lambda: primitive(bpy.ops.mesh.primitive_cube_add),
+    "UV sphere": lambda: primitive(bpy.ops.mesh.primitive_uv_sphere_add),
+    "torus": lambda: primitive(bpy.ops.mesh.primitive_torus_add),
+    "Suzanne": suzanne,
+}
+
+
+@pytest.mark.parametrize("make", CLOSED.values(), ids=CLOSED)
+def test_closed_meshes_are_cut_and_unwrapped_from_nothing(make, reports):
+    solid = make()
+    scenes.edit(solid)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert seams(solid)
+    uv = scenes.read_uv(solid)
+    assert np.isfinite(uv).all()
+    assert (np.ptp(uv, axis=0) > 0.3).any()
+    qc, area = scenes.quasi_conformal(solid)
+    assert np.average(qc, weights=area) < 1.3
+    reported = reports()
+    assert [level for level, _ in reported if level != "Info"] == []
+    assert any(text.startswith("Unwrapped ") for _, text in reported)
+
+
+def test_more_seams_where_less_distortion_is_allowed():
+    head = suzanne()
+    scenes.edit(head)
+    lengths = []
+    for size_variation, angle_distortion in ((4.0, 1.5), (2.0, 1.5), (2.0, 1.1)):
+        for edge in scenes.edit_mesh(head).edges:
+            edge.seam = False
+        limits = {"size_variation": size_variation, "angle_distortion": angle_distortion}
+        assert bpy.ops.uv.spectral_suggest_seams(**limits) == {"FINISHED"}
+        lengths.append(seam_length(head))
+    assert lengths[0] < lengths[1] < lengths[2]
+
+
+def test_length_is_limited():
+    head = suzanne()
+    scenes.edit(head)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    whole = seam_length(head)
+    for edge in scenes.edit_mesh(head).edges:
+        edge.seam = False
+    assert bpy.ops.uv.spectral_suggest_seams(max_length=whole / 2.0) == {"FINISHED"}
+    assert 0.0 < seam_length(head) <= whole / 2.0
+
+
+def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
+    head = suzanne()
+    scenes.edit(head)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    everything, total = seams(head), cuts_found(reports)
+    assert total > 2
+    marked = []
+    for cuts in (1, 2, total + 5):
+        for edge in scenes.edit_mesh(head).edges:
+            edge.seam = False
+        assert bpy.ops.uv.spectral_suggest_seams(cuts=cuts) == {"FINISHED"}
+        assert cuts_found(reports) == min(cuts, total)
+        marked.append(seams(head))
+    assert set() < marked[0] < marked[1] < marked[2] == everything
+
+
+def test_a_property_that_changes_nothing_of_the_search_needs_no_other(monkeypatch):
+    core = module("core.seam_suggestion")
+    searched = []
+    suggest = core.suggest
+    monkeypatch.setattr(module("operators.suggest_seams"), "_search", core.Search())
+    monkeypatch.setattr(core, "suggest", lambda *arguments: searched.append(1) or suggest(*arguments))
+    head = suzanne()
+    scenes.edit(head)
+    for options in ({}, {"cuts": 1}, {"unwrap": False}, {"size_variation": 3.0}):
+        for edge in scenes.edit_mesh(head).edges:
+            edge.seam = False
+        assert bpy.ops.uv.spectral_suggest_seams(**options) == {"FINISHED"}
+    assert len(searched) == 2
+
+
+def test_seams_that_are_there_stay():
+    sphere = CLOSED["UV sphere"]()
+    scenes.edit(sphere)
+    bm = scenes.edit_mesh(sphere)
+    equator = [edge for edge in bm.edges if all(abs(vertex.co.z) < 1e-6 for vertex in edge.verts)]
+    for edge in equator:
+        edge.seam = True
+    before = seams(sphere)
+    assert bpy.ops.uv.spectral_suggest_seams(size_variation=1.2) == {"FINISHED"}
+    assert before < seams(sphere)
+
+
+def test_nothing_but_seams_and_the_map_changes():
+    head = suzanne()
+    head.data.uv_layers.new(name="Other")
+    head.data.uv_layers.new(name="UVMap")
+    head.data.uv_layers.active_index = 1
+    scenes.edit(head)
+    hidden = [face.index for face in scenes.edit_mesh(head).faces if face.calc_center_median().x > 0.6]
+    scenes.select_faces(head, hidden)
+    bpy.ops.mesh.hide()
+    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.set_uv_flags(head, np.arange(len(scenes.read_uv(head))) % 3 == 0)
+    before, uv = state_apart_from_seams(head), scenes.read_uv(head)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert state_apart_from_seams(head) == before
+    left = scenes.corners_of(head, hidden)
+    np.testing.assert_array_equal(scenes.read_uv(head)[left], uv[left])
+    assert not np.array_equal(scenes.read_uv(head), uv)
+    assert all(not edge.seam for edge in scenes.edit_mesh(head).edges if edge.hide)
+
+
+def test_only_selected_faces_are_cut_and_unwrapped():
+    double = scenes.new_object(*two_cubes(), name="Two cubes")
+    scenes.edit(double)
+    scenes.select_faces(double, range(6))
+    uv = scenes.read_uv(double)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert seams(double)
+    assert all(max(edge) < 8 for edge in seams(double))
+    np.testing.assert_array_equal(scenes.read_uv(double)[24:], uv[24:])
+    assert not np.array_equal(scenes.read_uv(double)[:24], uv[:24])
+
+
+def two_cubes():
+    parts = [scenes.cube_parts(), scenes.cube_parts(offset=(3.0, 0.0, 0.0))]
+    return np.vstack([vertices for vertices, _ in parts]), np.vstack([parts[0][1], parts[1][1] + 8])
+
+
+def test_without_selection_all_visible_faces_are_meant():
+    double = scenes.new_object(*two_cubes(), name="Two cubes")
+    scenes.edit(double)
+    scenes.select_faces(double, range(6))
+    bpy.ops.mesh.hide()
+    before, uv = state_apart_from_seams(double), scenes.read_uv(double)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert seams(double)
+    assert all(min(edge) >= 8 for edge in seams(double))
+    assert state_apart_from_seams(double) == before
+    np.testing.assert_array_equal(scenes.read_uv(double)[:24], uv[:24])
+    low, high = scenes.bounds(scenes.read_uv(double)[24:])
+    assert low.min() >= 0.0
+    assert high.max() == pytest.approx(1.0, abs=0.01)
+
+
+def test_several_meshes_are_cut_and_packed_together(reports):
+    solids = [scenes.cube(), scenes.cube(size=2.0, offset=(5.0, 0.0, 0.0), name="Larger")]
+    scenes.edit(*solids)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert cuts_found(reports) % 2 == 0
+    assert all(seams(solid) for solid in solids)
+    assert not scenes.overlap(*(scenes.read_uv(solid) for solid in solids))
+    # One cut of each, then another of the first.
+    for solid in solids:
+        for edge in scenes.edit_mesh(solid).edges:
+            edge.seam = False
+    assert bpy.ops.uv.spectral_suggest_seams(cuts=3) == {"FINISHED"}
+    assert len(seams(solids[0])) > len(seams(solids[1])) > 0
+
+
+def test_without_unwrap_seams_are_all():
+    cube = scenes.cube()
+    scenes.edit(cube)
+    before, uv = state_apart_from_seams(cube), scenes.read_uv(cube)
+    assert bpy.ops.uv.spectral_suggest_seams(unwrap=False) == {"FINISHED"}
+    assert seams(cube)
+    assert state_apart_from_seams(cube) == before
+    np.testing.assert_array_equal(scenes.read_uv(cube), uv)
+
+
+def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
+    cube = scenes.cube()
+    scenes.edit(cube)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    packed = scenes.read_uv(cube)
+    for edge in scenes.edit_mesh(cube).edges:
+        edge.seam = False
+    scenes.write_uv(cube, 0.5 + 0.1 * packed)
+    settings = module("edit_mode_unwrap").Settings(keep_in_place=True)
+    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    low, high = scenes.bounds(scenes.read_uv(cube))
+    assert low.min() >= 0.5 - 1e-5
+    assert high.max() <= 0.6 + 1e-5
+
+
+def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkeypatch, reports):
+    cube = CLOSED["cube"]()
+    cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    scenes.edit(cube)
+    settings = module("edit_mode_unwrap").Settings(use_subsurf=True)
+    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert seams(cube)
+    assert texts(reports, "Warning") == []
+
+
+def test_nothing_to_suggest_changes_nothing(reports):
+    grid = scenes.grid(4, 3)
+    scenes.edit(grid)
+    before, uv = scenes.state(grid), scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"CANCELLED"}
+    assert scenes.state(grid) == before
+    np.testing.assert_array_equal(scenes.read_uv(grid), uv)
+    assert [text for text in texts(reports, "Info") if text.startswith("No seams to suggest")]
+
+
+def test_no_visible_faces(reports):
+    grid = scenes.grid(4, 3)
+    scenes.edit(grid)
+    bpy.ops.mesh.hide()
+    assert bpy.ops.uv.spectral_suggest_seams() == {"CANCELLED"}
+    assert texts(reports, "Warning") == ["No visible faces to cut"]
+
+
+def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
+    solid = scenes.new_object(*two_cubes(), name="Two cubes")
+    solid.data.vertices[0].co.x = float("nan")
+    scenes.edit(solid)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert seams(solid)
+    assert all(min(edge) >= 8 for edge in seams(solid))
+    warnings = texts(reports, "Warning")
+    assert len(warnings) == 1
+    assert warnings[0].startswith("1 of ")
+    assert "not finite" in warnings[0]
+    assert np.isfinite(scenes.read_uv(solid)).all()
+    # Alone, it is told as well.
+    scenes.select_faces(solid, range(6))
+    assert bpy.ops.uv.spectral_suggest_seams() == {"CANCELLED"}
+    assert [text for text in texts(reports, "Warning") if "1 of 1 island failed" in text]
+
+
+def test_a_one_sided_band_is_cut(reports):
+    n = 24
+    angle = np.arange(n) * (2.0 * np.pi / n)
+    sides = [
+        np.stack(
+            [
+                (1.0 + s * np.cos(angle / 2)) * np.cos(angle),
+                (1.0 + s * np.cos(angle / 2)) * np.sin(angle),
+                s * np.sin(angle / 2),
+            ],
+            axis=1,
+        )
+        for s in (-0.3, 0.3)
+    ]
+    faces = [(i, i + 1, n + i + 1, n + i) for i in range(n - 1)] + [(n - 1, n, 0, 2 * n - 1)]
+    band = scenes.new_object(np.vstack(sides), faces, name="Band")
+    scenes.edit(band)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert seams(band)
+    assert texts(reports, "Warning") == []
+
+
+def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
+    cube = scenes.cube()
+    scenes.edit(cube)
+    packing = module("packing")
+
+    def fail(*_arguments):
+        raise packing.PackingError("not today")
+
+    monkeypatch.setattr(packing, "pack", fail)
+    before, uv = scenes.state(cube), scenes.read_uv(cube)
+    with pytest.raises(RuntimeError, match="not today"):
+        bpy.ops.uv.spectral_suggest_seams()
+    assert scenes.state(cube) == before
+    np.testing.assert_array_equal(scenes.read_uv(cube), uv)
+
+
+def test_live_unwrap_does_not_follow():
+    assert "UV_OT_spectral_suggest_seams" in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
+
+
+class Instance(SimpleNamespace):
+    """What stands for an instance of the operator."""
+
+
+class Previewed:
+    """Drives the modal operator without a window."""
+
+    def __init__(self, monkeypatch, is_waiting=True):
+        self.operator_class = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
+        defaults = {"size_variation": 2.0, "angle_distortion": 1.05, "max_length": 0.0, "cuts": 0, "unwrap": True}
+        # What a bpy operator instance would have.
+        self.operator = Instance(**defaults, reported=[])
+        self.operator.report = lambda levels, text: self.operator.reported.append((*levels, text))
+        for name, function in vars(self.operator_class).items():
+            if callable(function) and not name.startswith("__"):
+                setattr(self.operator, name, function.__get__(self.operator))
+        self.status = []
+        self.timers = []
+        manager = SimpleNamespace(
+            modal_handler_add=lambda _operator: None,
+            event_timer_add=self._add_timer,
+            event_timer_remove=self.timers.remove,
+            progress_begin=lambda _low, _high: None,
+            progress_update=lambda _value: None,
+            progress_end=lambda: None,
+        )
+        self.context = SimpleNamespace(
+            edit_object=bpy.context.edit_object,
+            mode="EDIT_MESH",
+            scene=bpy.context.scene,
+            area=None,
+            window=None,
+            objects_in_mode_unique_data=bpy.context.objects_in_mode_unique_data,
+            workspace=SimpleNamespace(status_text_set=self.status.append),
+            screen=SimpleNamespace(areas=[]),
+            temp_override=bpy.context.temp_override,
+            window_manager=manager,
+        )
+        # The package of a window: background mode would execute.
+        operators = module("operators.suggest_seams")
+        monkeypatch.setattr(operators, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), ops=bpy.ops))
+        self.result = self.operator_class.invoke(self.operator, self.context, self.event())
+        if is_waiting and self.result == {"RUNNING_MODAL"}:
+            self.wait()
+
+    def _add_timer(self, _seconds, window):
+        assert window is None
+        self.timers.append(object())
+        return self.timers[-1]
+
+    def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
+        return SimpleNamespace(**{"type": kind, "value": value, "ascii": "", "ctrl": False, **others})
+
+    def send(self, kind, value="PRESS", **others):
+        self.result = self.operator_class.modal(self.operator, self.context, self.event(kind, value, **others))
+        return self.result
+
+    def wait(self):
+        """Let the timer run until nothing is under way."""
+        while self.operator._preview is None and self.result <= {"RUNNING_MODAL", "PASS_THROUGH"}:
+            self.operator._worker.wait(60.0)
+            self.send("TIMER", "NOTHING")
+        if self.operator._preview is not None and self.operator._preview._measuring is not None:
+            self.operator._preview._measuring.wait(60.0)
+            self.send("TIMER", "NOTHING")
+
+
+@pytest.fixture
+def previewed(monkeypatch):
+    head = suzanne()
+    head.data.uv_layers.new(name="UVMap")
+    scenes.edit(head)
+    return head, scenes.state(head), scenes.read_uv(head), Previewed(monkeypatch)
+
+
+def apply(preview):
+    preview.send("RET")
+    preview.wait()
+    return preview.result
+
+
+def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
+    head, before, uv, preview = previewed
+    assert preview.result <= {"RUNNING_MODAL", "PASS_THROUGH"}
+    assert scenes.state(head) == before
+    np.testing.assert_array_equal(scenes.read_uv(head), uv)
+    total = preview.operator._preview.count
+    assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
+    assert "of the surface within 2 times the median scale, mean QC 1.0" in preview.status[-1]
+
+
+@pytest.mark.parametrize(
+    ("more", "fewer"), [("WHEELUPMOUSE", "WHEELDOWNMOUSE"), ("UP_ARROW", "DOWN_ARROW"), ("+", "-")]
+)
+def test_fewer_and_more_cuts_are_shown(previewed, more, fewer):
+    _, _, _, preview = previewed
+
+    def press(key):
+        return preview.send("A", ascii=key) if len(key) == 1 else preview.send(key)
+
+    total = preview.operator._preview.count
+    assert press(more) == {"RUNNING_MODAL"}
+    assert preview.operator._preview.count == total
+    press(fewer)
+    assert preview.operator._preview.count == total - 1
+    assert f"{total - 1} of {total} cuts" in preview.status[-1]
+    for _ in range(total + 2):
+        press(fewer)
+    assert preview.operator._preview.count == 1
+    press(more)
+    assert preview.operator._preview.count == 2
+
+
+def test_page_keys_leap_by_a_tenth(previewed):
+    _, _, _, preview = previewed
+    total = preview.operator._preview.count
+    assert total > 20
+    preview.send("PAGE_DOWN")
+    assert preview.operator._preview.count == total - round(0.1 * total)
+    preview.send("PAGE_UP")
+    assert preview.operator._preview.count == total
+
+
+def test_applying_marks_what_is_shown(previewed):
+    head, _, uv, preview = previewed
+    preview.send("WHEELDOWNMOUSE")
+    count = preview.operator._preview.count
+    assert apply(preview) == {"FINISHED"}
+    assert preview.operator.cuts == count
+    shown, mapped = seams(head), scenes.read_uv(head)
+    assert not np.array_equal(mapped, uv)
+    assert preview.status[-1] is None
+    assert preview.timers == []
+    assert preview.operator.reported[0][1].startswith(f"Marked {count} cuts of length ")
+    # The same as without a window.
+    for edge in scenes.edit_mesh(head).edges:
+        edge.seam = False
+    scenes.write_uv(head, uv)
+    assert bpy.ops.uv.spectral_suggest_seams(cuts=count) == {"FINISHED"}
+    assert seams(head) == shown
+    np.testing.assert_array_equal(scenes.read_uv(head), mapped)
+
+
+def test_applying_all_leaves_the_number_open(previewed):
+    _, _, _, preview = previewed
+    assert apply(preview) == {"FINISHED"}
+    assert preview.operator.cuts == 0
+
+
+@pytest.mark.parametrize("key", ["ESC", "RIGHTMOUSE"])
+def test_escape_leaves_everything(previewed, key):
+    head, before, uv, preview = previewed
+    preview.send("WHEELDOWNMOUSE")
+    assert preview.send(key) == {"CANCELLED"}
+    assert scenes.state(head) == before
+    np.testing.assert_array_equal(scenes.read_uv(head), uv)
+    assert preview.status[-1] is None
+    assert preview.timers == []
+
+
+def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
+    head, before, uv, preview = previewed
+    monkeypatch.setattr(module("operators.suggest_seams"), "_SECONDS_BEFORE_MODAL", -1.0)
+    worker = module("core.worker").Worker
+    # A solve that has not ended when the event comes.
+    monkeypatch.setattr(worker, "wait", lambda _self, _seconds: False)
+    assert preview.send("LEFTMOUSE") == {"RUNNING_MODAL"}
+    assert preview.send("ESC") == {"CANCELLED"}
+    monkeypatch.undo()
+    assert scenes.state(head) == before
+    np.testing.assert_array_equal(scenes.read_uv(head), uv)
+    assert preview.timers == []
+    assert bpy.ops.uv.spectral_suggest_seams.poll()
+
+
+def test_escape_during_the_search_leaves_everything(monkeypatch):
+    head = suzanne()
+    scenes.edit(head)
+    before = scenes.state(head)
+    worker = module("core.worker").Worker
+    # A search that has not ended when the events come.
+    with monkeypatch.context() as patch:
+        patch.setattr(worker, "wait", lambda _self, _seconds: False)
+        preview = Previewed(monkeypatch, is_waiting=False)
+        assert preview.result == {"RUNNING_MODAL"}
+        assert preview.send("TIMER", "NOTHING") == {"PASS_THROUGH"}
+        assert preview.status[-1].startswith("Suggest Seams: ")
+        assert "Esc: Cancel" in preview.status[-1]
+        assert preview.send("ESC") == {"CANCELLED"}
+    assert scenes.state(head) == before
+    assert preview.status[-1] is None
+    assert preview.timers == []
+
+
+def test_meshes_that_changed_meanwhile_are_left_alone(previewed):
+    head, _, _, preview = previewed
+    bm = scenes.edit_mesh(head)
+    bm.verts[0].co.x += 0.5
+    bmesh.update_edit_mesh(head.data)
+    assert apply(preview) == {"CANCELLED"}
+    assert not seams(head)
+    assert preview.operator.reported[-1][0] == "WARNING"
+
+
+def test_view_navigation_goes_on(previewed):
+    _, _, _, preview = previewed
+    assert preview.send("MIDDLEMOUSE") == {"PASS_THROUGH"}
+    assert preview.send("WHEELUPMOUSE", ctrl=True) == {"PASS_THROUGH"}
+    assert preview.send("X", ascii="x") == {"RUNNING_MODAL"}
+
+
+def test_leaving_edit_mode_ends_the_preview(previewed):
+    head, _, _, preview = previewed
+    preview.context.mode = "OBJECT"
+    assert preview.send("TIMER", "NOTHING") == {"CANCELLED"}
+    assert preview.timers == []
+    assert not seams(head)
+
+
+def test_lines_lie_where_the_object_is(monkeypatch):
+    cube = scenes.cube()
+    cube.location = (1.0, 2.0, 3.0)
+    cube.scale = (2.0, 2.0, 2.0)
+    bpy.context.view_layer.update()
+    scenes.edit(cube)
+    preview = Previewed(monkeypatch)
+    points = preview.operator._preview._lines.points(0, preview.operator._preview.count)
+    assert len(points) >= 2 * 5
+    np.testing.assert_allclose(points.min(axis=0), [1.0, 2.0, 3.0], atol=1e-6)
+    np.testing.assert_allclose(points.max(axis=0), [3.0, 4.0, 5.0], atol=1e-6)
+    preview.send("ESC")
+
+
+def test_nothing_to_suggest_shows_no_preview(monkeypatch):
+    scenes.edit(scenes.grid(4, 3))
+    preview = Previewed(monkeypatch)
+    assert preview.result == {"CANCELLED"}
+    assert preview.operator.reported[0][1].startswith("No seams to suggest")
