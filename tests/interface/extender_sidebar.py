@@ -16,7 +16,7 @@ COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = (215, 170)
 ADD, ADD_TO_ACTIVE = (112, 162), (103, 183)
-SELECT, REMOVE, REMOVE_BROKEN = (58, 317), (147, 317), (103, 341)
+ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 317), (58, 339), (147, 339), (103, 363)
 FIRST_ROW, NEXT_ROW = 215, 21
 ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
 
