@@ -58,7 +58,7 @@ def steps():
     before = uv()
 
     point_at("VIEW_3D")
-    yield from choose_from_menu("menu_in_viewport", from_the_end=2)
+    yield from choose_from_menu("menu_in_viewport", from_the_end=3)
     assert last_operator().properties.placement == "PACK"
     unwrapped = uv()
     assert np.isfinite(unwrapped).all()
@@ -86,7 +86,7 @@ def steps():
     point_at("IMAGE_EDITOR")
     xdotool("key", "a")
     yield
-    yield from choose_from_menu("menu_in_uv_editor")
+    yield from choose_from_menu("menu_in_uv_editor", from_the_end=2)
     # The settings are remembered, and in place a second unwrap stays within the same bounds.
     assert last_operator().properties.placement == "KEEP"
     np.testing.assert_allclose(
