@@ -394,8 +394,9 @@ class MeshUnwrapper {
   explicit MeshUnwrapper(const UnwrapArguments& arguments) : arguments_(arguments) {
     // The copies refer to the same arrays, but to a metric of their own.
     if (arguments_.options.metric != nullptr) arguments_.options.metric = arguments_.metric.data();
+    const sc::PolygonMesh mesh = arguments_.arrays.view();
     const py::gil_scoped_release unlocked;
-    unwrapper_ = std::make_unique<sc::Unwrapper>(arguments_.arrays.view(), arguments_.options);
+    unwrapper_ = std::make_unique<sc::Unwrapper>(mesh, arguments_.options);
   }
 
   py::dict solve(const ExtenderList& extenders, double hole_rigidity, double tolerance, const py::object& progress) {
