@@ -507,6 +507,7 @@ def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
 
 def test_escape_during_the_search_leaves_everything(monkeypatch):
     head = suzanne()
+    head.data.uv_layers.new(name="UVMap")
     scenes.edit(head)
     before = scenes.state(head)
     worker = module("core.worker").Worker
