@@ -10,6 +10,7 @@ std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(
 
 std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
   std::vector<std::array<int, 2>> seams;
+  seams.reserve(static_cast<std::size_t>(mesh.n_seam_edges));
   for (int i = 0; i < mesh.n_seam_edges; ++i) {
     seams.push_back(sorted_pair(mesh.seam_edges[i][0], mesh.seam_edges[i][1]));
   }

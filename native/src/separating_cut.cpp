@@ -206,6 +206,7 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
   }
   std::sort(parts.begin(), parts.end());
   std::vector<std::vector<int>> result;
+  result.reserve(parts.size());
   for (auto& part : parts) result.push_back(std::move(part.second));
   return result;
 }
