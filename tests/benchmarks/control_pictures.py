@@ -10,42 +10,22 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
+
 import matplotlib as mpl
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 - the backend comes first
+import meshes  # noqa: E402
 import numpy as np  # noqa: E402
 import spectral_conformal as sc  # noqa: E402
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
 
 
-def torn_hat(around: int = 64) -> tuple[np.ndarray, np.ndarray]:
-    """Make a brim with a crown whose torn edge is longer than the brim; the brim's border is the first `around`."""
-    angle = np.arange(around) * 2 * np.pi / around
-    profile = [(r, 0.0) for r in np.linspace(1, 0.35, 16)] + [(0.35, h) for h in np.linspace(0, 0.5, 12)[1:]]
-    torn = 0.5 * (np.arange(around) % 2)
-    vertices = [
-        (r * np.cos(a), r * np.sin(a), h * (1 + t * (h / 0.5) ** 3)) for r, h in profile for a, t in zip(angle, torn)
-    ]
-    k, i = (x.ravel() for x in np.meshgrid(np.arange(len(profile) - 1), np.arange(around), indexing="ij"))
-    a, b = k * around + i, k * around + (i + 1) % around
-    return np.array(vertices), np.r_[np.c_[a, b, b + around], np.c_[a, b + around, a + around]]
-
-
-def bulge(n: int = 61) -> tuple[np.ndarray, np.ndarray]:
-    """Make a square with a deep bulge, which a conformal map shrinks."""
-    t = np.linspace(-1, 1, n)
-    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
-    i, j = (a.ravel() for a in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij"))
-    a = i * n + j
-    triangles = np.r_[np.c_[a, a + n, a + n + 1], np.c_[a, a + n + 1, a + 1]]
-    return np.c_[x, y, 1.8 * np.exp(-5 * (x**2 + y**2))], triangles
-
-
 def draw_hole_rigidity(folder: Path) -> None:
     """Draw the torn hat, and its map without and with rigidity."""
-    vertices, triangles = torn_hat()
+    vertices, triangles = meshes.torn_hat()
     brim = np.r_[np.arange(64), 0]
     solver = sc.Solver(vertices, triangles)
     figure = plt.figure(figsize=(12, 4.4))
@@ -74,7 +54,8 @@ def draw_hole_rigidity(folder: Path) -> None:
 
 def draw_area_blend(folder: Path) -> None:
     """Draw the maps of the bulge from keeping angles to keeping areas, coloured by scale."""
-    vertices, triangles = bulge()
+    vertices, quads = meshes.bulge(61, 1.8)
+    triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
     figure, axes = plt.subplots(1, 3, figsize=(12, 4.2))
     for panel, amount in zip(axes, (0.0, 0.5, 1.0)):
         solution = sc.parameterize(vertices, triangles, area_blend=amount)

@@ -74,6 +74,30 @@ def saddle_quads(n):
     return np.c_[x, y, x**2 - y**2], grid_quads(n, n)
 
 
+def bulge(n, height):
+    """A deep round bulge on a square, which a conformal map shrinks."""
+    t = np.linspace(-1, 1, n)
+    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
+    return np.c_[x, y, height * np.exp(-5 * (x**2 + y**2))], grid_quads(n, n)
+
+
+def torn_hat(around=64, rings=16, stack=12, radius=0.35, height=0.5, tear=0.25):
+    """A brim with a crown whose torn edge is longer than the brim, so that it is taken for the outer boundary.
+    The brim's border is the first `around` vertices."""
+    angle = np.arange(around) * 2 * np.pi / around
+    profile = [(r, 0.0) for r in np.linspace(1, radius, rings)]
+    profile += [(radius, h) for h in np.linspace(0, height, stack)[1:]]
+    torn = 1 + tear / height * (np.arange(around) % 2)
+    vertices = [
+        (r * np.cos(a), r * np.sin(a), h * (1 + (t - 1) * (h / height) ** 3))
+        for r, h in profile
+        for a, t in zip(angle, torn)
+    ]
+    k, i = (a.ravel() for a in np.meshgrid(np.arange(len(profile) - 1), np.arange(around), indexing="ij"))
+    a, b = k * around + i, k * around + (i + 1) % around
+    return np.array(vertices), np.r_[np.c_[a, b, b + around], np.c_[a, b + around, a + around]]
+
+
 def polygons(faces):
     """(face_offsets, corner_vertices) of a list of corner lists."""
     sizes = [len(face) for face in faces]

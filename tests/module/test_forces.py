@@ -27,22 +27,6 @@ def distance(uv, i, j):
     return np.linalg.norm(uv[i] - uv[j])
 
 
-def hat(around=64, rings=16, stack=12, radius=0.35, height=0.5, tear=0.25):
-    """A brim with a crown whose torn edge is longer than the brim, so that it is taken for the outer boundary."""
-    angle = np.arange(around) * 2 * np.pi / around
-    profile = [(r, 0.0) for r in np.linspace(1, radius, rings)]
-    profile += [(radius, h) for h in np.linspace(0, height, stack)[1:]]
-    torn = 1 + tear / height * (np.arange(around) % 2)
-    vertices = [
-        (r * np.cos(a), r * np.sin(a), h * (1 + (t - 1) * (h / height) ** 3))
-        for r, h in profile
-        for a, t in zip(angle, torn)
-    ]
-    k, i = (a.ravel() for a in np.meshgrid(np.arange(len(profile) - 1), np.arange(around), indexing="ij"))
-    a, b = k * around + i, k * around + (i + 1) % around
-    return np.array(vertices), np.r_[np.c_[a, b, b + around], np.c_[a, b + around, a + around]]
-
-
 @pytest.mark.parametrize("factorization", ["auto", "eigen"])
 def test_strength_zero_changes_nothing(factorization):
     vertices, triangles = meshes.bumpy_disk(600, holes=2)
@@ -152,7 +136,7 @@ def test_a_small_change_of_strength_takes_few_solves():
 
 
 def test_rigidity_keeps_a_collapsing_hole_open():
-    vertices, triangles = hat()
+    vertices, triangles = meshes.torn_hat()
     brim = np.arange(64)
     solver = sc.Solver(vertices, triangles)
 

@@ -89,16 +89,9 @@ def test_blending_moves_from_the_identity_to_the_metric():
     assert deviations[-1] < 1e-9
 
 
-def bulge(n, height):
-    """A deep round bulge on a square, which a conformal map shrinks."""
-    t = np.linspace(-1, 1, n)
-    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
-    return np.c_[x, y, height * np.exp(-5 * (x**2 + y**2))], meshes.grid_quads(n, n)
-
-
 @pytest.mark.parametrize("height", [1.0, 1.8])
 def test_the_area_blend_evens_the_scale_without_flips(height):
-    vertices, quads = bulge(41, height)
+    vertices, quads = meshes.bulge(41, height)
     triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
     before = sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles).uv)
     spreads, angles = [], []
@@ -116,7 +109,7 @@ def test_the_area_blend_evens_the_scale_without_flips(height):
 
 
 def test_the_area_blend_unfolds_flips_of_the_conformal_map():
-    vertices, quads = bulge(41, 2.5)
+    vertices, quads = meshes.bulge(41, 2.5)
     triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
     assert sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles).uv).flipped.any()
     relaxed = sc.distortion(vertices, triangles, sc.parameterize(vertices, triangles, area_blend=1.0).uv)
@@ -125,13 +118,13 @@ def test_the_area_blend_unfolds_flips_of_the_conformal_map():
 
 
 def test_unwrap_takes_the_area_blend_and_metrics_of_polygons():
-    vertices, quads = bulge(31, 1.5)
+    vertices, quads = meshes.bulge(31, 1.5)
     offsets, corners = meshes.polygons(quads)
     plain = sc.unwrap(vertices, offsets, corners)
     blended = sc.unwrap(vertices, offsets, corners, area_blend=1.0)
     assert blended.charts[0].flipped == 0
     assert blended.charts[0].mean_qc > plain.charts[0].mean_qc
-    flat, flat_quads = bulge(9, 0.0)
+    flat, flat_quads = meshes.bulge(9, 0.0)
     offsets, corners = meshes.polygons(flat_quads)
     stretched = np.tile(np.diag([9.0, 1.0, 1.0]), (len(flat_quads), 1, 1))
     result = sc.unwrap(flat, offsets, corners, metric=stretched)
