@@ -72,10 +72,6 @@ double eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, c
   return lambda;
 }
 
-std::string winding(int turning_number) {
-  return "The boundary of the map winds round " + std::to_string(turning_number) + " times instead of once";
-}
-
 std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
 
 std::string count(int n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
@@ -465,7 +461,7 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
     const bool winds_once = std::abs(result.turning_number) == 1;
     // A strong attraction has such maps as its true optimum: the pair meets where the map branches.
     if (method == Method::spectral && !winds_once && !settings.has_forces()) {
-      why = winding(result.turning_number);
+      why = describe_winding(result.turning_number);
       continue;
     }
     if (with_virtual != nullptr) *with_virtual = eigenvector.z;
@@ -473,7 +469,8 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
     watch.lap("placement");
     result.message = attempt.remedy;
     if (!winds_once) {
-      result.message += winding(result.turning_number) + (settings.has_forces() ? "; weaken the extenders. " : ". ");
+      result.message +=
+          describe_winding(result.turning_number) + (settings.has_forces() ? "; weaken the extenders. " : ". ");
     }
     result.timings = set_up_timings_;
     result.timings.insert(result.timings.end(), timings.begin(), timings.end());
@@ -551,7 +548,7 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
                        "clean up degenerate faces, or pin other vertices.");
   }
   if (std::abs(result.turning_number) != 1) {
-    result.message = winding(result.turning_number) + ". ";
+    result.message = describe_winding(result.turning_number) + ". ";
   }
   result.z.conservativeResize(n_vertices_);
   if (hold) {

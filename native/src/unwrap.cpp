@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "spectral_conformal/turning_number.h"
+
 namespace spectral_conformal {
 
 std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric) {
@@ -129,9 +131,8 @@ class ChartUnwrapper {
       }
       const Parameterization solution = solver_->solve(options, pins_, progress);
       if (options.has_forces() && std::abs(solution.turning_number) != 1) {
-        throw SolveFailure(
-            "The boundary of the map winds round " + std::to_string(solution.turning_number) + " times instead of once",
-            "weaken or remove extenders, or lower the hole rigidity.");
+        throw SolveFailure(describe_winding(solution.turning_number),
+                           "weaken or remove extenders, or lower the hole rigidity.");
       }
       report.solved = true;
       measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "spectral_conformal/types.h"
 
@@ -14,5 +15,8 @@ namespace spectral_conformal {
 /// extent has 0.
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
                    const std::vector<double>& coverage, const ComplexVector& map);
+
+/// What to say of a map whose turning number is neither 1 nor -1.
+std::string describe_winding(int turning_number);
 
 }  // namespace spectral_conformal
