@@ -4,6 +4,14 @@
 #include <cmath>
 
 namespace spectral_conformal {
+namespace {
+
+/// The inverse-area weights of triangles that are tiny or thin beyond this, or both, are held back, so that no entry of
+/// L grows beyond it, relative to the mean triangle's. Beyond about 1e13 rounding breaks the factorisation.
+constexpr double greatest_entry = 1e12;
+
+}  // namespace
+
 ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
                                  std::vector<std::array<int, 3>> triangles, std::vector<double> coverage,
                                  Weights weights, std::size_t n_virtual)
@@ -42,7 +50,9 @@ void ConformalEnergy::weigh() {
 
 double ConformalEnergy::weight(std::size_t triangle) const {
   const double share = coverage_[triangle];
-  return weights_ == Weights::uniform ? share : share * weight_unit_ / shapes_[triangle].area();
+  if (weights_ == Weights::uniform) return share;
+  const TriangleShape& shape = shapes_[triangle];
+  return share / std::max(shape.area() / weight_unit_, 1 / (greatest_entry * shape.relative_height()));
 }
 
 void ConformalEnergy::assemble(int n_vertices) {

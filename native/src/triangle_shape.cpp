@@ -12,6 +12,12 @@ double triangle_area(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const
   return 0.5 * (p1 - p0).cross(p2 - p0).norm();
 }
 
+double TriangleShape::relative_height() const {
+  const double second = x2 * x2 + y2 * y2;
+  const double third = (x2 - x1) * (x2 - x1) + y2 * y2;
+  return x1 * y2 / std::max({x1 * x1, second, third});
+}
+
 double TriangleShape::quasi_conformal_distortion(Complex d1, Complex d2) const {
   const double conformal = std::abs(holomorphic_part(d1, d2));
   const double anticonformal = std::abs(antiholomorphic_part(d1, d2));

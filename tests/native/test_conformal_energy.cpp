@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -209,6 +210,32 @@ TEST_CASE("nearly degenerate triangles are clamped, counted and leave the matrix
     }
     CHECK(energy.area() == doctest::Approx(area).epsilon(1e-13));
   }
+}
+
+TEST_CASE("inverse-area weights of tiny and thin triangles are held back, those of others are not") {
+  Mesh mesh = flat_grid(3, 3);
+  const Patch clean(mesh);
+  const HermitianMatrix before = clean.energy(Weights::inverse_area).matrix();
+  mesh.points[5] = mesh.points[6] + Eigen::Vector3d(0, 1e-9, 0);
+  const Patch patch(mesh);
+  const ConformalEnergy energy = patch.energy(Weights::inverse_area);
+  REQUIRE(energy.clamped_triangles() == 0);
+  CHECK(dense(energy.matrix()).cwiseAbs().maxCoeff() < 1e13);
+  CHECK(dense(energy.matrix()).cwiseAbs().maxCoeff() > 1e11);
+  // Triangles of aspect 1e5 keep their weight: L is that of the formula.
+  mesh.points[5] = mesh.points[6] + Eigen::Vector3d(0, 1e-5, 0);
+  const Patch thin(mesh);
+  const ConformalEnergy weighted = thin.energy(Weights::inverse_area);
+  double largest = 0;
+  for (const auto& [a, b, c] : thin.chart.triangles) {
+    const double area =
+        triangle_area(thin.positions.row(a), thin.positions.row(b), thin.positions.row(c)) / weighted.weight_unit();
+    const double longest = std::max({(thin.positions.row(a) - thin.positions.row(b)).squaredNorm(),
+                                     (thin.positions.row(b) - thin.positions.row(c)).squaredNorm(),
+                                     (thin.positions.row(c) - thin.positions.row(a)).squaredNorm()});
+    largest = std::max(largest, longest / (4 * area * weighted.weight_unit()) / area);
+  }
+  CHECK(dense(weighted.matrix()).cwiseAbs().maxCoeff() > 0.5 * largest);
 }
 
 TEST_CASE("with the metric of a map the energy of that map vanishes, and its area does not change") {

@@ -68,6 +68,16 @@ TEST_CASE("a triangle below the least height is lifted to it, whichever side is 
   CHECK_FALSE(lay_out({0, 0, 0}, {2, 0, 0}, {0.5, 4 * least, 0}).clamped);
 }
 
+TEST_CASE("the relative height is that over the longest side, whichever that is") {
+  const double height = 0.25;
+  const Eigen::Vector3d corners[3] = {{0, 0, 0}, {2, 0, 0}, {0.7, 2 * height, 0}};
+  for (int k = 0; k < 3; ++k) {
+    const TriangleShape shape = lay_out(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    CHECK(shape.relative_height() == doctest::Approx(height));
+  }
+  CHECK(lay_out({0, 0, 0}, {1, 0, 0}, {0.4, 0, 0}).relative_height() == doctest::Approx(TriangleShape::minimum_height));
+}
+
 TEST_CASE("two coinciding corners are clamped, three become equilateral") {
   const Point p(1, 2, 3), q(2, 2, 3);
   for (const TriangleShape& shape : {lay_out(p, p, q), lay_out(p, q, p), lay_out(q, p, p)}) {

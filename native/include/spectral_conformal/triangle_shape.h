@@ -12,6 +12,8 @@ struct TriangleShape {
   double x2 = 0;
   double y2 = 1;
   double area() const { return 0.5 * x1 * y2; }
+  /// Height over the longest side, relative to that side.
+  double relative_height() const;
   /// Whether the shape was clamped, see lay_out.
   bool clamped = false;
 
