@@ -106,8 +106,8 @@ sc::FactorizationBackend backend_named(const std::string& name) {
 }
 
 sc::PatchOptions patch_options(const std::string& weights, const std::string& boundary, const std::string& backend,
-                               bool fill_holes, double area_blend) {
-  return {weights_named(weights), boundary_named(boundary), backend_named(backend), fill_holes, area_blend};
+                               bool fill_holes, double area_blend, bool fold_free) {
+  return {weights_named(weights), boundary_named(boundary), backend_named(backend), fill_holes, area_blend, fold_free};
 }
 
 /// Takes the GIL for the call; None and anything true go on. Python's exceptions pass through, and Ctrl-C is heard even

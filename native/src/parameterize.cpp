@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
 
 #include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/eigenproblem.h"
+#include "spectral_conformal/fold_free_map.h"
 #include "spectral_conformal/hole_filling.h"
 #include "spectral_conformal/isometric_map.h"
 #include "spectral_conformal/pin_attraction.h"
@@ -92,6 +94,62 @@ std::string repairs(const Chart& chart, int clamped) {
   }
   if (clamped > 0) text += count(clamped, "degenerate triangle", "degenerate triangles") + ": given a minimal height. ";
   return text;
+}
+
+/// Moves a map so that its only pin is met.
+void move_onto_pin(const Pins& pins, ComplexVector& z) {
+  const auto& [vertex, position] = *pins.begin();
+  z.array() += position - z[vertex];
+  z[vertex] = position;
+}
+
+/// Whether pins act as a soft force.
+bool is_attracted(const SolveOptions& options) { return options.method == Method::spectral && options.soft_pins > 0; }
+
+std::string four_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.5g", value);
+  return text;
+}
+
+/// What was done to keep the map free of folds and what it cost; `before` is the mean QC of the given map, where there
+/// was one.
+std::string describe(const FoldFreeMap& map, const std::string& failure, double before, double after,
+                     int turning_number, bool held) {
+  std::string text;
+  if (map.is_embedding) {
+    text = failure.empty() ? "The folds left no room to unfold them" : failure;
+    text += ": replaced by an embedding, relaxed without folding it; mean QC ";
+    text += failure.empty() ? four_digits(before) + " -> " + four_digits(after) + ". " : four_digits(after) + ". ";
+  } else if (map.folded < map.folded_before) {
+    text = count(map.folded_before - map.folded, "folded triangle", "folded triangles") + " unfolded; mean QC " +
+           four_digits(before) + " -> " + four_digits(after) + ". ";
+  }
+  if (map.folded > 0) {
+    text += count(map.folded, "triangle", "triangles") +
+            (held ? " could not be unfolded between the pins; move or remove pins. "
+                  : " could not be unfolded in double precision; add seams that make the patch flatter. ");
+  } else if (!map.is_locally_injective) {
+    text += describe_winding(turning_number) + (held ? "; move or remove pins. " : "; add seams. ");
+  }
+  return text;
+}
+
+/// What to say of triangles that shrink so far that the coordinates' digits do not tell their corners apart; "" for
+/// none.
+std::string describe_unresolved(const ConformalEnergy& energy, const ComplexVector& z) {
+  // Leaves three digits to the shape of a triangle.
+  constexpr double least_part = 1e-13;
+  const double least = least_part * (z.array() - z.mean()).abs().maxCoeff();
+  int unresolved_triangles = 0;
+  for (std::size_t t = 0; t + energy.n_virtual() < energy.triangles().size(); ++t) {
+    const auto& [a, b, c] = energy.triangles()[t];
+    const double longest = std::max(std::norm(z[b] - z[a]), std::norm(z[c] - z[a]));
+    if (longest < least * least && !energy.shapes()[t].clamped) ++unresolved_triangles;
+  }
+  if (unresolved_triangles == 0) return "";
+  return count(unresolved_triangles, "triangle shrinks", "triangles shrink") +
+         " below what double precision resolves; add seams that make the patch flatter. ";
 }
 
 }  // namespace
@@ -253,27 +311,104 @@ bool SolveOptions::has_forces() const {
 }
 
 Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& progress) {
-  const bool attracted = options.method == Method::spectral && options.soft_pins > 0;
-  if (options.method != Method::lscm && pins.size() > 1 && !attracted) {
+  if (options.method != Method::lscm && pins.size() > 1 && !is_attracted(options)) {
     throw std::invalid_argument("Several pins need the method 'lscm', or soft_pins with 'spectral'.");
   }
   if (options.method != Method::spectral && options.has_forces()) {
     throw std::invalid_argument("Extenders and hole rigidity need the method 'spectral'.");
   }
-  Parameterization result;
-  if (options.method == Method::lscm) {
-    blend_area(part(progress, 0.0, 0.5));
-    result = solve_pinned(pins, progress);
-  } else {
-    result = solve_with_remedies(options, attracted ? pins : Pins{}, progress);
-    if (!pins.empty() && !fit_to_pins(result.z, pins)) {
-      throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
-    }
+  Parameterization result =
+      options_.fold_free ? solve_fold_free(options, pins, progress) : solve_with_folds(options, pins, progress);
+  if (options.method != Method::lscm && !pins.empty() && !fit_to_pins(result.z, pins)) {
+    throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
   }
-  result.message += repairs_;
+  result.message += describe_unresolved(*energy_, result.z) + repairs_;
   if (!result.message.empty()) result.message.pop_back();  // the space after the last sentence
   report(progress, 1.0, "done");
   return result;
+}
+
+Parameterization Solver::solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress) {
+  if (options.method != Method::lscm) {
+    return solve_with_remedies(options, is_attracted(options) ? pins : Pins{}, progress);
+  }
+  blend_area(part(progress, 0.0, 0.5));
+  return solve_pinned(pins, progress);
+}
+
+Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins& pins, const Progress& progress) {
+  Parameterization result;
+  std::string failure;
+  try {
+    result = solve_with_folds(options, pins, part(progress, 0.0, 0.5));
+  } catch (const SolveFailure& problem) {
+    // Hard pins have no other map; everything else has the embedding.
+    if (options.method == Method::lscm && pins.size() > 1) throw;
+    failure = problem.reason();
+    result.timings = set_up_timings_;
+  }
+  unfold(options, pins, failure, part(progress, 0.5, 1.0), result);
+  return result;
+}
+
+double Solver::mean_distortion(const ComplexVector& z) const {
+  double sum = 0;
+  double area = 0;
+  for (std::size_t t = 0; t + energy_->n_virtual() < energy_->triangles().size(); ++t) {
+    const TriangleShape& shape = energy_->shapes()[t];
+    if (shape.clamped) continue;
+    const auto& [a, b, c] = energy_->triangles()[t];
+    const double weight = energy_->coverage()[t] * shape.area();
+    sum += weight * shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
+    area += weight;
+  }
+  return area > 0 ? sum / area : 1;
+}
+
+ComplexVector Solver::with_virtual_vertices(const ComplexVector& z) const {
+  ComplexVector all = ComplexVector::Zero(energy_->n_vertices());
+  all.head(n_vertices_) = z;
+  Eigen::VectorXd neighbours = Eigen::VectorXd::Zero(all.size());
+  for (std::size_t t = energy_->triangles().size() - energy_->n_virtual(); t < energy_->triangles().size(); ++t) {
+    const auto& triangle = energy_->triangles()[t];
+    for (int k = 0; k < 3; ++k) {
+      const int middle = triangle[k];
+      const int corner = triangle[(k + 1) % 3];
+      if (middle < n_vertices_ || corner >= n_vertices_) continue;
+      all[middle] += z[corner];
+      neighbours[middle] += 1;
+    }
+  }
+  for (Eigen::Index v = n_vertices_; v < all.size(); ++v) all[v] /= std::max(neighbours[v], 1.0);
+  return all;
+}
+
+void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::string& failure, const Progress& progress,
+                    Parameterization& result) {
+  Stopwatch watch(result.timings);
+  const bool held = options.method == Method::lscm && pins.size() > 1;
+  std::vector<char> held_vertices(held ? static_cast<std::size_t>(n_vertices_) : 0, 0);
+  if (held) {
+    for (const auto& pin : pins) held_vertices[pin.first] = 1;
+  }
+  std::vector<BoundaryLoop> loops{outer_};
+  loops.insert(loops.end(), inner_.begin(), inner_.end());
+  const double before = result.z.size() > 0 ? mean_distortion(result.z) : 0;
+  FoldFreeMap map = fold_free_map({*energy_, positions_, loops, held_vertices, options_.backend}, result.z, progress);
+  watch.lap("unfolding");
+  if (map.folded_before == 0 && !map.is_embedding && failure.empty() && std::abs(result.turning_number) == 1) return;
+  result.z = std::move(map.z);
+  if (!held && !place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
+    throw SolveFailure("The map has no positive area", "add seams that make the patch flatter.");
+  }
+  if (options.method == Method::lscm && pins.size() == 1) move_onto_pin(pins, result.z);
+  const ComplexVector z = with_virtual_vertices(result.z);
+  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), z);
+  ComplexVector r;
+  const double lambda = eigen_residual(*energy_, form_, z, r);
+  result.eigenvalue = lambda * lambda_unit(Method::spectral);
+  result.residual = r.norm() / (largest_diagonal(energy_->matrix()) * result.z.norm());
+  result.message += describe(map, failure, before, mean_distortion(result.z), result.turning_number, held);
 }
 
 Parameterization Solver::solve_with_remedies(const SolveOptions& options, const Pins& attractors,
@@ -558,11 +693,7 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
     if (!place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
       throw SolveFailure("The pinned map has no positive area", "use the spectral method, or pin other vertices.");
     }
-    if (pins.size() == 1) {
-      const auto& [vertex, position] = *pins.begin();
-      result.z.array() += position - result.z[vertex];
-      result.z[vertex] = position;
-    }
+    if (pins.size() == 1) move_onto_pin(pins, result.z);
   }
   watch.lap("placement");
   return result;

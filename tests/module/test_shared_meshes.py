@@ -40,6 +40,28 @@ if (SHARED / "hard" / "hard.json").exists():
         allowed = 1 if expected == "solve_flips" or name == "tube_open" else 0
         assert sum(chart.flipped for chart in solved) <= allowed
 
+    @pytest.mark.parametrize("name", sorted(HARD))
+    def test_hard_mesh_is_fold_free_on_request(name):
+        vertices, faces = meshes.read_obj(SHARED / "hard" / f"{name}.obj")
+        if not faces:
+            return
+        offsets, corners = meshes.polygons(faces)
+        result = sc.unwrap(vertices, offsets, corners, fold_free=True)
+        for chart in result.charts:
+            if chart.status == "solved":
+                assert (chart.flipped, abs(chart.turning_number)) == (0, 1)
+            else:
+                assert HARD[name]["expect"] == "reject"
+
+    # Their conformal maps wind round 2 to 33 times, or have folds that leave no room.
+    @pytest.mark.parametrize("name", ["cycloidal_trimesh", "plate_holes_trimesh", "sword_quaddom", "tower_holes_8k"])
+    def test_real_mesh_is_embedded_where_its_conformal_map_is_none(name):
+        vertices, faces = meshes.read_obj(SHARED / "real" / f"{name}.obj")
+        solution = sc.parameterize(vertices, faces, fold_free=True)
+        assert "replaced by an embedding" in solution.message
+        assert solution.turning_number == 1
+        assert not sc.distortion(vertices, faces, solution.uv).flipped.any()
+
     @pytest.mark.parametrize("name", ["scale_1e-6", "scale_1e6", "offset_1e6"])
     def test_scale_and_place_do_not_matter(name):
         expected = sc.unwrap(*_mesh("scale_1")).uv

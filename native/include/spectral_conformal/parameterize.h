@@ -30,6 +30,9 @@ struct PatchOptions {
   /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
   /// (isometric_map.h), and its metric, blended with the identity, is that of all solves (section 4.3).
   double area_blend = 0;
+  /// All solves end with no flipped triangle and a turning number of 1 or -1, at some cost in distortion: see
+  /// fold_free_map.h.
+  bool fold_free = false;
 };
 
 /// What one solve of a Solver may vary.
@@ -86,6 +89,9 @@ class Solver {
   /// winds round more than once, `message` says so. Throws SolveFailure when nothing passes.
   /// Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them starts
   /// from the maps of earlier solves. Their map may wind round more than once; `message` says so.
+  /// With `fold_free` flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced
+  /// by an embedding; `message` says what was done, what that cost, and where it could not be done. The eigenvalue is
+  /// then the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
@@ -121,6 +127,13 @@ class Solver {
   Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress,
                                      ComplexVector* with_virtual = nullptr);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
+  Parameterization solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress);
+  Parameterization solve_fold_free(const SolveOptions& options, const Pins& pins, const Progress& progress);
+  void unfold(const SolveOptions& options, const Pins& pins, const std::string& failure, const Progress& progress,
+              Parameterization& result);
+  double mean_distortion(const ComplexVector& z) const;
+  /// z (chart vertices,) with the middles of filled holes.
+  ComplexVector with_virtual_vertices(const ComplexVector& z) const;
   double lambda_unit(Method method) const;
 
   Positions positions_;  ///< centred, largest extent 1; added vertices of filled holes at the end

@@ -37,6 +37,7 @@ class Solver:
         fill_holes: bool = False,
         metric: npt.ArrayLike | None = None,
         area_blend: float = 0.0,
+        fold_free: bool = False,
         factorization: Factorization = "auto",
         progress: Progress | None = None,
     ) -> None:
@@ -44,7 +45,9 @@ class Solver:
 
         Arguments and errors are those of `parameterize`.
         """
-        options = _arguments.checked_patch_options(weights, boundary, factorization, fill_holes, area_blend)
+        options = _arguments.checked_patch_options(
+            weights, boundary, factorization, fill_holes=fill_holes, area_blend=area_blend, fold_free=fold_free
+        )
         self._n_vertices, self._native = _assemble(vertices, triangles, metric, options)
         self._native.factorize(_arguments.checked_progress(progress))
 
@@ -83,6 +86,7 @@ def parameterize(
     fill_holes: bool = False,
     metric: npt.ArrayLike | None = None,
     area_blend: float = 0.0,
+    fold_free: bool = False,
     tolerance: float = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
     factorization: Factorization = "auto",
@@ -116,6 +120,11 @@ def parameterize(
         area_blend: 0 keeps angles; towards 1 the map gives them up for areas: the patch is unfolded conformally,
             relaxed towards an isometry, and solved again with the metric of that map, blended with the identity. On top
             of `metric` where both are given.
+        fold_free: end without a flipped triangle and with a turning number of 1 or -1, at some cost in distortion.
+            Folded triangles are unfolded where they are; where that leaves some, or the map winds round more than once
+            or there is none, an embedding that is one-to-one by theorem is relaxed without folding it. `message` says
+            what was done and what it cost, and where several pins leave no room. Triangles without area in 3D have no
+            fold; of a quad's two splits the first is kept unfolded.
         tolerance: relative residual at which the eigenvalue iteration stops, between 1e-14 and 1e-3.
         progress: see `Progress`.
         factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen.
@@ -129,7 +138,9 @@ def parameterize(
         SolveError: no attempt passed the numerical checks.
         Cancelled: `progress` returned False.
     """
-    options = _arguments.checked_patch_options(weights, boundary, factorization, fill_holes, area_blend)
+    options = _arguments.checked_patch_options(
+        weights, boundary, factorization, fill_holes=fill_holes, area_blend=area_blend, fold_free=fold_free
+    )
     n_vertices, solver = _assemble(vertices, triangles, metric, options)
     return _solve(solver, n_vertices, method, pins, soft_pins, extenders, hole_rigidity, tolerance, progress)
 
@@ -176,6 +187,7 @@ def unwrap(
     fill_holes: bool = False,
     metric: npt.ArrayLike | None = None,
     area_blend: float = 0.0,
+    fold_free: bool = False,
     tolerance: float = DEFAULT_TOLERANCE,
     progress: Progress | None = None,
     factorization: Factorization = "auto",
@@ -208,6 +220,7 @@ def unwrap(
             and the map is conformal for these lengths; positive definite on the face's plane. For a mesh of triangles
             also (faces, 2, 2) as in `parameterize`.
         area_blend: see `parameterize`.
+        fold_free: see `parameterize`.
         method: this and the other options as in `parameterize`.
         weights: see `parameterize`.
         boundary: see `parameterize`.
@@ -235,6 +248,7 @@ def unwrap(
         fill_holes=fill_holes,
         metric=metric,
         area_blend=area_blend,
+        fold_free=fold_free,
         factorization=factorization,
     )
     return _unwrapped(
@@ -273,6 +287,7 @@ class Unwrapper:
         fill_holes: bool = False,
         metric: npt.ArrayLike | None = None,
         area_blend: float = 0.0,
+        fold_free: bool = False,
         factorization: Factorization = "auto",
     ) -> None:
         """Cut the mesh into charts. Arguments and errors are those of `unwrap`."""
@@ -292,6 +307,7 @@ class Unwrapper:
             fill_holes=fill_holes,
             metric=metric,
             area_blend=area_blend,
+            fold_free=fold_free,
             factorization=factorization,
         )
         self._method = method
@@ -376,13 +392,16 @@ def _unwrap_arguments(
     fill_holes: bool,
     metric: npt.ArrayLike | None,
     area_blend: float,
+    fold_free: bool,
     factorization: str,
 ) -> tuple[Any, int]:
     """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
     polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
     vertices, offsets, corners = polygons[:3]
     _arguments.check_options(method=method)
-    options = _arguments.checked_patch_options(weights, boundary, factorization, fill_holes, area_blend)
+    options = _arguments.checked_patch_options(
+        weights, boundary, factorization, fill_holes=fill_holes, area_blend=area_blend, fold_free=fold_free
+    )
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
     soft = _arguments.checked_soft_pins(soft_pins, method)
     all_triangles = bool((np.diff(offsets) == 3).all())

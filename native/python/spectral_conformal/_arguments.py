@@ -29,10 +29,13 @@ RATIO_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 
 
-def checked_patch_options(weights: str, boundary: str, factorization: str, fill_holes: bool, area_blend: float) -> Any:  # noqa: ANN401 - the native class has no stub
+def checked_patch_options(
+    weights: str, boundary: str, factorization: str, *, fill_holes: bool, area_blend: float, fold_free: bool
+) -> Any:  # noqa: ANN401 - the native class has no stub
     check_options(weights=weights, boundary=boundary, factorization=factorization)
     fill = checked_flag(fill_holes, "fill_holes")
-    return _native.PatchOptions(weights, boundary, factorization, fill, checked_fraction(area_blend, "area_blend"))
+    blend = checked_fraction(area_blend, "area_blend")
+    return _native.PatchOptions(weights, boundary, factorization, fill, blend, checked_flag(fold_free, "fold_free"))
 
 
 def checked_polygon_mesh(

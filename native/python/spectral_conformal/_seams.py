@@ -98,7 +98,9 @@ def suggest_cuts(
         np.inf if max_length is None else _arguments.checked_at_least(max_length, 0.0, "max_length"),
         _arguments.checked_at_least(scale_limit, 1.0, "scale_limit"),
         _arguments.checked_at_least(qc_limit, 1.0, "qc_limit"),
-        _arguments.checked_patch_options(weights, boundary, factorization, fill_holes=False, area_blend=0.0),
+        _arguments.checked_patch_options(
+            weights, boundary, factorization, fill_holes=False, area_blend=0.0, fold_free=False
+        ),
         _arguments.checked_progress(progress),
     )
     return np.split(edges, offsets[1:-1]) if len(edges) else []

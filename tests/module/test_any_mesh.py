@@ -1,0 +1,274 @@
+"""Degenerate triangles that the rest must not notice, extreme shrinkage, and maps without folds."""
+
+import degenerate
+import meshes
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+KINDS = {"caps": degenerate.caps, "needles": degenerate.needles, "points": degenerate.points}
+
+
+def unwrapped(vertices, triangles, **options):
+    """The map per vertex and the only chart of a triangle mesh."""
+    result = sc.unwrap(vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel(), **options)
+    (chart,) = result.charts
+    uv = np.zeros((len(vertices), 2))
+    uv[triangles.ravel()] = result.uv
+    return uv, chart
+
+
+def image_areas(uv, triangles):
+    a, b, c = (uv[triangles[:, k]] for k in range(3))
+    return ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+
+
+@pytest.fixture(scope="module")
+def clean():
+    return meshes.bumpy_disk(300)
+
+
+class TestDegenerateTriangles:
+    @pytest.mark.parametrize("height", [0.0, 1e-14, 1e-9])
+    @pytest.mark.parametrize("kind", KINDS)
+    @pytest.mark.parametrize("options", [{}, {"factorization": "eigen"}, {"method": "area"}, {"area_blend": 1.0}])
+    def test_the_rest_does_not_notice(self, clean, kind, height, options):
+        vertices, triangles = clean
+        reference = degenerate.with_middles(*clean) if kind == "points" else clean
+        expected, _ = unwrapped(*reference, **options)
+        uv, chart = unwrapped(*KINDS[kind](vertices, triangles, height), **options)
+        assert chart.status == "solved"
+        assert chart.flipped == 0
+        n = len(vertices)
+        # A height of 1e-9 is one in the mesh, too. Measured: below 1e-10 without area_blend, 1e-8 with it.
+        assert meshes.similarity_deviation(uv[:n], expected[:n]) < (1e-7 if "area_blend" in options else 1e-8)
+        # Needles of 1e-9 of an edge may be thinner than 1e-10 of another.
+        assert "degenerate" in chart.message or height == 1e-9
+
+    @pytest.mark.parametrize("kind", KINDS)
+    def test_the_rest_does_not_notice_with_pinned_lscm(self, clean, kind):
+        vertices, triangles = clean
+        pins = {0: (0.0, 0.0), 5: (1.0, 0.0)}
+        reference = degenerate.with_middles(*clean) if kind == "points" else clean
+        expected = sc.parameterize(*reference, method="lscm", pins=pins).uv
+        uv = sc.parameterize(*KINDS[kind](vertices, triangles, 0.0), method="lscm", pins=pins).uv
+        n = len(vertices)
+        assert np.abs(uv[:n] - expected[:n]).max() < 1e-6
+
+    @pytest.mark.parametrize("height", [0.0, 1e-14, 1e-8])
+    @pytest.mark.parametrize("kind", KINDS)
+    def test_inverse_area_weights_are_kept(self, clean, kind, height):
+        vertices, triangles = clean
+        reference = degenerate.with_middles(*clean) if kind == "points" else clean
+        expected, _ = unwrapped(*reference, weights="inverse_area")
+        uv, chart = unwrapped(*KINDS[kind](vertices, triangles, height), weights="inverse_area")
+        assert chart.flipped == 0
+        assert "instead" not in chart.message
+        assert (
+            meshes.similarity_deviation(uv[: len(vertices)], expected[: len(vertices)]) < 5e-3
+        )  # halved triangles count twice
+
+    @pytest.mark.parametrize("weights", ["uniform", "inverse_area"])
+    def test_area_ratios_of_1e12(self, clean, weights):
+        uv, chart = unwrapped(*degenerate.nested(*clean, 1e-6), weights=weights)
+        assert (chart.status, chart.message, chart.flipped) == ("solved", "", 0)
+        coarse, _ = unwrapped(*degenerate.nested(*clean, 1e-2), weights=weights)
+        n = len(clean[0])
+        # Beyond the third ring or so nothing is added that the map could use.
+        assert meshes.similarity_deviation(uv[:n], coarse[:n]) < (1e-5 if weights == "uniform" else 2e-2)
+
+
+def finger(sides, rings):
+    """A tube of unit radius, closed at its far end: rings of squares, each split in two, then a tip."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    step = 2 * np.pi / sides
+    ring = np.c_[np.cos(angle), np.sin(angle)]
+    vertices = np.vstack([np.c_[ring, np.full(sides, k * step)] for k in range(rings)] + [[[0, 0, rings * step]]])
+    k, q = (x.ravel() for x in np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij"))
+    a, b = k * sides + q, k * sides + (q + 1) % sides
+    last = (rings - 1) * sides + np.arange(sides)
+    tip = np.c_[last, np.roll(last, -1), np.full(sides, rings * sides)]
+    return vertices, np.vstack([np.c_[a, b, b + sides], np.c_[a, b + sides, a + sides], tip])
+
+
+def ring_radii(sides, rings):
+    """The radii of the rings of finger's map, relative to the first: the equations of its inner vertices, whose map is
+    rho_k exp(2 pi i q / sides), from the tip outwards. Each radius is larger than the last: accurate to its own digits.
+    """
+    vertices, triangles = finger(sides, 4)
+    turn = np.exp(2j * np.pi / sides)
+    factor = np.r_[np.tile(turn ** np.arange(sides), 4), 0]
+
+    def coefficients(ring):
+        """Of the ring before, the ring itself and the one after, in the equation of its first vertex."""
+        row = np.zeros(len(vertices), complex)
+        for triangle in triangles[(triangles == ring * sides).any(1)]:
+            for k in range(3):
+                apex, i, j = np.roll(triangle, -k)
+                u, w = vertices[i] - vertices[apex], vertices[j] - vertices[apex]
+                cotangent = u.dot(w) / np.linalg.norm(np.cross(u, w))
+                for this, other, area in ((i, j, 0.5j), (j, i, -0.5j)):
+                    if this == ring * sides:
+                        row[this] += cotangent / 2
+                        row[other] += -cotangent / 2 + area
+        parts = row * factor
+        return [parts[(ring + d) * sides : (ring + d + 1) * sides].sum() for d in (-1, 0, 1)]
+
+    before, own, _ = coefficients(3)
+    radii = [1.0 + 0j, -own / before]
+    before, own, after = coefficients(2)
+    while len(radii) < rings:
+        radii.append(-(own * radii[-1] + after * radii[-2]) / before)
+    radii = np.abs(radii[::-1])
+    return radii / radii[0]
+
+
+class TestExtremeShrinkage:
+    @pytest.mark.parametrize("factorization", ["auto", "eigen"])
+    @pytest.mark.parametrize("rings", [20, 40, 70])  # scales down to 6e-4, 3e-7 and 2e-12 of the largest
+    def test_the_map_is_right_relative_to_itself(self, rings, factorization):
+        vertices, triangles = finger(16, rings)
+        solution = sc.parameterize(vertices, triangles, factorization=factorization)
+        z = solution.uv @ [1, 1j]
+        radii = np.abs(z[:-1] - z[-1]).reshape(rings, 16)
+        expected = ring_radii(16, rings)
+        assert expected[-1] < 1e-3
+        assert np.abs(radii / radii[0] / expected[:, None] - 1).max() < 1e-8
+        assert solution.residual < 1e-15
+        assert (solution.turning_number, solution.message) == (1, "")
+
+    def test_it_says_where_double_precision_ends(self):
+        vertices, triangles = finger(16, 120)
+        solution = sc.parameterize(vertices, triangles)
+        assert "below what double precision resolves" in solution.message
+        # What can be resolved is right, however little the rest means.
+        z = solution.uv @ [1, 1j]
+        radii = np.abs(z[:-1] - z[-1]).reshape(120, 16).mean(1)
+        expected = ring_radii(16, 120)
+        resolved = expected > 1e-12
+        assert np.abs(radii / radii[0] / expected - 1)[resolved].max() < 1e-6
+
+    def test_fold_free_ends_the_shrinkage_where_it_must(self):
+        vertices, triangles = finger(16, 120)
+        uv, chart = unwrapped(vertices, triangles, fold_free=True)
+        assert (image_areas(uv, triangles) > 0).all()
+        assert chart.turning_number == 1
+
+
+def floater(offset):
+    """Three triangles around one inner vertex that stands aside (Floater 1998): beyond -1 the map folds one of them."""
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, offset, 1]], float)
+    return vertices, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
+
+
+def rough_grid(n, roughness, seed, dropped=0.0):
+    """A grid of triangles, every vertex moved at random, some cells left out: its conformal map has folds."""
+    rng = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
+    vertices = np.stack([x, y, 0 * x], -1).reshape(-1, 3) + roughness * rng.normal(size=(n * n, 3)) / n
+    index = np.arange(n * n).reshape(n, n)
+    kept = rng.random((n - 1, n - 1)) >= dropped
+    a, b, c, d = (part[kept] for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))
+    return meshes.without_unused(vertices, meshes.without_bow_ties(np.vstack([np.c_[a, b, c], np.c_[a, c, d]])))
+
+
+class TestFoldFree:
+    @pytest.mark.parametrize("weights", ["uniform", "inverse_area"])
+    @pytest.mark.parametrize("offset", [-1.0, -1.5, -3.0, -10.0])
+    def test_floater(self, offset, weights):
+        vertices, triangles = floater(offset)
+        plain, chart = unwrapped(vertices, triangles, weights=weights)
+        assert (image_areas(plain, triangles) < 1e-9).any()
+        uv, chart = unwrapped(vertices, triangles, weights=weights, fold_free=True)
+        assert (image_areas(uv, triangles) > 0).all()
+        assert (chart.flipped, chart.turning_number) == (0, 1)
+        assert "mean QC" in chart.message
+
+    @pytest.mark.parametrize("seed", range(12))
+    def test_rough_surfaces_with_and_without_holes(self, seed):
+        vertices, triangles = rough_grid(6 + 3 * seed, (0.5, 1.0, 2.0)[seed % 3], seed, dropped=(0.0, 0.1)[seed % 2])
+        result = sc.unwrap(vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel(), fold_free=True)
+        for chart in result.charts:
+            corners = (3 * chart.faces[:, None] + np.arange(3)).ravel()
+            areas = image_areas(result.uv[corners], np.arange(len(corners)).reshape(-1, 3))
+            assert (areas > 0).all()
+            assert (chart.status, chart.flipped, abs(chart.turning_number)) == ("solved", 0, 1)
+
+    def test_the_rough_surfaces_do_have_folds_otherwise(self):
+        assert sum(unwrapped(*rough_grid(20, 2.0, seed))[1].flipped for seed in range(4)) > 10
+
+    def test_a_map_without_folds_is_left_as_it_is(self):
+        vertices, triangles = meshes.bumpy_disk(300)
+        plain, free = (sc.parameterize(vertices, triangles, fold_free=flag) for flag in (False, True))
+        assert np.array_equal(plain.uv, free.uv)
+        assert free.message == ""
+        assert "unfolding" in free.timings
+
+    def test_a_boundary_that_winds_round_more_than_once_is_replaced_by_an_embedding(self):
+        # A long spiral staircase: its one boundary loop winds round several times in the conformal map.
+        turn = np.linspace(0, 10 * np.pi, 400)
+        inner, outer = 0.2, 1.0
+        rise = 0.02 * turn
+        vertices = np.vstack(
+            [np.c_[r * np.cos(turn), r * np.sin(turn), rise] for r in (inner, 0.5 * (inner + outer), outer)]
+        )
+        n = len(turn)
+        i = np.arange(n - 1)
+        triangles = np.vstack(
+            [np.c_[a + i, a + n + i, a + n + i + 1] for a in (0, n)]
+            + [np.c_[a + i, a + n + i + 1, a + i + 1] for a in (0, n)]
+        )
+        uv, chart = unwrapped(vertices, triangles, fold_free=True)
+        assert (image_areas(uv, triangles) > 0).all()
+        assert abs(chart.turning_number) == 1
+
+    def test_the_same_from_all_functions(self):
+        vertices, triangles = rough_grid(15, 2.0, 3)
+        expected = sc.parameterize(vertices, triangles, fold_free=True)
+        assert (image_areas(expected.uv, triangles) > 0).all()
+        again = sc.Solver(vertices, triangles, fold_free=True).solve()
+        assert np.array_equal(again.uv, expected.uv)
+        mesh = (vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel())
+        assert np.array_equal(sc.unwrap(*mesh, fold_free=True).uv, expected.uv[triangles.ravel()])
+        assert np.array_equal(sc.Unwrapper(*mesh, fold_free=True).solve().uv, expected.uv[triangles.ravel()])
+
+    def test_pins_are_held_and_what_they_leave_no_room_for_is_said(self):
+        vertices, triangles = rough_grid(12, 1.5, 5)
+        pins = {0: (0.0, 0.0), 143: (1.0, 1.0)}
+        solution = sc.parameterize(vertices, triangles, method="lscm", pins=pins, fold_free=True)
+        for vertex, position in pins.items():
+            assert tuple(solution.uv[vertex]) == position
+        assert (image_areas(solution.uv, triangles) > 0).all()
+        flat, faces = meshes.random_disk(60)
+        crossed = {v: tuple(flat[v, :2] * [-1, 1]) for v in range(len(flat))}
+        solution = sc.parameterize(flat, faces, method="lscm", pins=crossed, fold_free=True)
+        assert "could not be unfolded between the pins" in solution.message
+        assert all(tuple(solution.uv[v]) == place for v, place in crossed.items())
+
+    def test_one_pin_is_met(self):
+        vertices, triangles = rough_grid(12, 2.0, 7)
+        for options in ({"method": "lscm"}, {"method": "spectral", "soft_pins": 1.0}):
+            solution = sc.parameterize(vertices, triangles, pins={4: (3.0, -2.0)}, fold_free=True, **options)
+            assert np.allclose(solution.uv[4], (3.0, -2.0))
+            assert (image_areas(solution.uv, triangles) > 0).all()
+
+    @pytest.mark.parametrize("method", ["spectral", "lscm", "fiedler", "area"])
+    @pytest.mark.parametrize("options", [{}, {"fill_holes": True}, {"area_blend": 0.5}, {"boundary": "vertex"}])
+    def test_with_every_method_and_option(self, method, options):
+        vertices, triangles = rough_grid(14, 2.0, 9, dropped=0.05)
+        uv, chart = unwrapped(vertices, triangles, method=method, fold_free=True, **options)
+        assert (chart.status, chart.flipped, abs(chart.turning_number)) == ("solved", 0, 1)
+        assert (image_areas(uv, triangles) > 0).all()
+
+    def test_quads_keep_their_first_split(self):
+        vertices, faces = meshes.saddle_quads(8)
+        vertices = vertices + 0.05 * np.random.default_rng(1).normal(size=vertices.shape)
+        offsets, corners = meshes.polygons(faces)
+        result = sc.unwrap(vertices, offsets, corners, fold_free=True)
+        split = offsets[:-1, None] + [[0, 1, 2, 0, 2, 3]]
+        assert (image_areas(result.uv, split.reshape(-1, 3)) > 0).all()
+
+    def test_the_flag_is_checked(self):
+        vertices, triangles = meshes.bumpy_disk(60)
+        with pytest.raises(ValueError, match="fold_free must be True or False"):
+            sc.parameterize(vertices, triangles, fold_free="yes")
