@@ -334,8 +334,9 @@ py::dict result_of(const sc::Unwrap& unwrapped) {
                            py::arg("residual") = chart.residual, py::arg("iterations") = chart.iterations,
                            py::arg("turning_number") = chart.turning_number, py::arg("mean_qc") = chart.mean_qc,
                            py::arg("max_qc") = chart.max_qc, py::arg("flipped") = chart.flipped,
-                           py::arg("method") = name_of(chart.method), py::arg("n_pins") = chart.n_pins,
-                           py::arg("n_vertices") = chart.n_vertices, py::arg("area") = chart.area));
+                           py::arg("overlapping") = chart.overlapping, py::arg("method") = name_of(chart.method),
+                           py::arg("n_pins") = chart.n_pins, py::arg("n_vertices") = chart.n_vertices,
+                           py::arg("area") = chart.area));
   }
   return py::dict(py::arg("uv") = uv, py::arg("solved_corners") = copy(unwrapped.solved_corners),
                   py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts,

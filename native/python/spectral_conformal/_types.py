@@ -90,6 +90,8 @@ class Chart:
     max_qc: float
     flipped: int
     """Faces with a flipped triangle."""
+    overlapping: int
+    """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
     method: Method
     """The one used: "lscm" for a chart with several pins, unless they are soft."""
     n_pins: int
