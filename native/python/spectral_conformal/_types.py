@@ -72,6 +72,17 @@ class Distortion:
 
 
 @dataclass(frozen=True)
+class MapDefects:
+    """Faces of a UV map that lie the wrong way round or on others."""
+
+    flipped: npt.NDArray[np.bool_]
+    """(faces,) a triangle of the face is wound against the majority (by UV area) of its island, after orienting the
+    island's faces consistently; False for faces that are not selected."""
+    overlapping: npt.NDArray[np.bool_]
+    """(faces,) covers part of another face; False for faces that are not selected."""
+
+
+@dataclass(frozen=True)
 class Chart:
     """What became of one chart of `unwrap`."""
 
