@@ -64,9 +64,11 @@ def write_uv_selection(bm: BMesh, layer: BMLayerItem, selection: UVSelection) ->
             uv.select_edge = edge
 
 
-def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
-    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection."""
+def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool = False) -> None:
+    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection, with `extend` a part of it."""
     for face, flag in zip(bm.faces, selected):
+        if extend and not flag:
+            continue
         for loop in face.loops:
             if _UV_SELECTION_ON_MESH:
                 loop.uv_select_vert = loop.uv_select_edge = flag
@@ -75,6 +77,19 @@ def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> N
                 uv.select = uv.select_edge = flag
         if _UV_SELECTION_ON_MESH:
             face.uv_select = flag
+
+
+def derive_uv_selection(bm: BMesh) -> None:
+    """Let sync selection follow a changed mesh selection: 5.0 would go on to show the finer UV selection beside it."""
+    if _UV_SELECTION_ON_MESH:
+        bm.uv_select_sync_valid = False
+
+
+def sticky_selection(context: bpy.types.Context) -> str:
+    """Return which UVs the UV editor selects together: "DISABLED", "SHARED_LOCATION" or "SHARED_VERTEX"."""
+    # A setting of each UV editor before it became one of the scene.
+    in_scene = getattr(context.scene.tool_settings, "uv_sticky_select_mode", None)
+    return in_scene or context.area.spaces.active.uv_editor.sticky_select_mode
 
 
 def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
