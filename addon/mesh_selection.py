@@ -60,7 +60,7 @@ def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.n
         corners = _stuck_corners(bm, layer, flags, sticky)
         if extend:
             corners = (np.array(corners) | compatibility.selected_uv_corners(bm, layer)).tolist()
-        compatibility.select_uv_corners(bm, layer, corners)
+        compatibility.select_uv_corners(bm, layer, corners, only_shown=True)
         bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
 
 

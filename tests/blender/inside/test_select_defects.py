@@ -195,6 +195,31 @@ def test_in_the_uv_editor_only_uvs_are_selected_of_what_it_shows(uv_editor):
     assert selected_uv_faces(edited) == [2, 3]
 
 
+@pytest.mark.parametrize("from_uv_editor", [False, True])
+def test_uvs_that_are_not_shown_keep_their_selection(uv_editor, from_uv_editor):
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
+    edited = folded_grid(fold=4.0, columns=6)
+    scenes.select_faces(edited, [0])
+    bpy.ops.mesh.hide()
+    scenes.select_faces(edited, [2, 3, 4, 5])
+    scenes.set_uv_flags(edited, scenes.corners_of(edited, [0, 1, 2]))
+    with bpy.context.temp_override(**(uv_editor if from_uv_editor else {})):
+        assert bpy.ops.uv.spectral_select_defects(overlapping=False) == {"FINISHED"}
+    # The viewport shows all but face 0, the UV editor those that were selected.
+    assert selected_uv_faces(edited) == ([0, 1, 4, 5] if from_uv_editor else [0, 4, 5])
+    assert scenes.edit_mesh(edited).faces[0].hide
+
+
+def test_sync_selection_follows_the_mesh():
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    edited = folded_grid()
+    bm = scenes.edit_mesh(edited)
+    if hasattr(bm, "uv_select_sync_valid"):  # from 5.0: a UV selection beside the mesh's, which would go on to be shown
+        bm.uv_select_sync_valid = True
+    assert bpy.ops.uv.spectral_select_defects() == {"FINISHED"}
+    assert not getattr(scenes.edit_mesh(edited), "uv_select_sync_valid", False)
+
+
 def test_in_the_uv_editor_uvs_at_one_place_are_selected_together(uv_editor):
     bpy.context.scene.tool_settings.use_uv_select_sync = False
     edited = folded_grid(fold=4.0)
