@@ -64,9 +64,14 @@ def write_uv_selection(bm: BMesh, layer: BMLayerItem, selection: UVSelection) ->
             uv.select_edge = edge
 
 
-def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
-    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection."""
+def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool = False) -> None:
+    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection, with `extend` a part of it.
+
+    Hidden faces keep theirs.
+    """
     for face, flag in zip(bm.faces, selected):
+        if face.hide or (extend and not flag):
+            continue
         for loop in face.loops:
             if _UV_SELECTION_ON_MESH:
                 loop.uv_select_vert = loop.uv_select_edge = flag
@@ -77,11 +82,29 @@ def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> N
             face.uv_select = flag
 
 
-def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool]) -> None:
-    """Make the `selected` corners, one flag per corner, the whole UV selection, with edges and faces between them."""
+def derive_uv_selection(bm: BMesh) -> None:
+    """Let sync selection follow a changed mesh selection: 5.0 would go on to show the finer UV selection beside it."""
+    if _UV_SELECTION_ON_MESH:
+        bm.uv_select_sync_valid = False
+
+
+def sticky_selection(context: bpy.types.Context) -> str:
+    """Return which UVs the UV editor selects together: "DISABLED", "SHARED_LOCATION" or "SHARED_VERTEX"."""
+    # A setting of each UV editor before it became one of the scene.
+    in_scene = getattr(context.scene.tool_settings, "uv_sticky_select_mode", None)
+    return in_scene or context.area.spaces.active.uv_editor.sticky_select_mode
+
+
+def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool], only_shown: bool = False) -> None:
+    """Make the `selected` corners, one flag per corner, the whole UV selection, with edges and faces between them.
+
+    With `only_shown`, faces that the UV editor does not show without sync selection keep theirs.
+    """
     flags = iter(selected)
     for face in bm.faces:
         corners = [next(flags) for _ in face.loops]
+        if only_shown and not (face.select and not face.hide):
+            continue
         for index, loop in enumerate(face.loops):
             edge = corners[index] and corners[(index + 1) % len(corners)]
             if _UV_SELECTION_ON_MESH:

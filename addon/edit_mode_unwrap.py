@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import mesh_io, packing
+from . import mesh_io, names, packing
 from .core import reporting, unwrapping
 from .core.unwrapping import Solution
 from .mesh_io import EditMesh
@@ -151,7 +151,7 @@ def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
         *(("INFO", note) for note in outcome.notes),
         ("INFO", reporting.remedies(summary)),
         ("INFO", reporting.pinned(summary)),
-        ("INFO", reporting.information(summary, seconds) if summary.solved else ""),
+        ("INFO", reporting.information(summary, seconds, names.SELECT_DEFECTS_LABEL) if summary.solved else ""),
         *(("WARNING", warning) for warning in outcome.warnings),
         ("WARNING", reporting.without_bounds(outcome.without_bounds)),
         ("WARNING", reporting.failures(summary)),

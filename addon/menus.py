@@ -19,6 +19,7 @@ def _draw_in_viewport(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
     _draw_unwrap(self.layout)
     self.layout.operator(names.SELECT_FAILED_OPERATOR)
+    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
     self.layout.operator(names.SUGGEST_SEAMS_OPERATOR)
 
 
@@ -34,6 +35,7 @@ def _draw_in_uv_editor(self: bpy.types.Menu, context: bpy.types.Context) -> None
 def _draw_in_select_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
     self.layout.operator(names.SELECT_FAILED_OPERATOR)
+    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
 
 
 def _entries() -> list[tuple[type, Callable]]:

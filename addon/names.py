@@ -12,6 +12,12 @@ SELECT_FAILED_DESCRIPTION = (
     "ones if none is selected"
 )
 
+SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
+SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
+SELECT_DEFECTS_DESCRIPTION = (
+    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map"
+)
+
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 SUGGEST_SEAMS_LABEL = "Suggest Seams"
 SUGGEST_SEAMS_DESCRIPTION = (

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .map_defects import Defects
 from .map_quality import MapQuality
 from .unwrapping import Solution
 
@@ -17,6 +18,8 @@ NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge
 ADJUSTED_WITHOUT_SUBSURF = (
     "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
 )
+NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
+NO_UV_MAP = "There is no UV map to look at; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
@@ -31,6 +34,7 @@ class Summary:
         mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
         max_qc: largest quasi-conformal distortion of a triangle.
         flipped: number of faces with a flipped triangle.
+        overlapping: number of faces that cover others of their chart.
         failures: how many charts failed for each reason.
         remedies: how many charts were solved after each repair or change of method.
         pinned: how many charts with two or more pins were solved by each method.
@@ -41,6 +45,7 @@ class Summary:
     mean_qc: float
     max_qc: float
     flipped: int
+    overlapping: int
     failures: Counter[str]
     remedies: Counter[str]
     pinned: Counter[str]
@@ -62,6 +67,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         mean_qc=sum(chart.mean_qc * (chart.area / area) for chart in solved) if area > 0.0 else float("nan"),
         max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
         flipped=sum(chart.flipped for chart in solved),
+        overlapping=sum(chart.overlapping for chart in solved),
         failures=Counter(chart.message for chart in charts if chart.status != "solved"),
         remedies=Counter(chart.message for chart in solved if chart.message),
         pinned=Counter(chart.method for chart in solved if chart.n_pins > 1),
@@ -69,11 +75,19 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     )
 
 
-def information(summary: Summary, seconds: float) -> str:
-    """Return the sentence for a call that solved at least one chart; `seconds` is the whole operator's time."""
+def information(summary: Summary, seconds: float, where_to_see: str) -> str:
+    """Return the sentence for a call that solved at least one chart.
+
+    `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
+    """
+    defects = _count(summary.flipped, "flipped face")
+    if summary.overlapping:
+        defects += f", {_count(summary.overlapping, 'overlapping face')}"
+    if summary.flipped or summary.overlapping:
+        defects += f" (see {where_to_see})"
     return (
         f"Unwrapped {_count(summary.solved, 'island')}: mean QC {_qc(summary.mean_qc)}, "
-        f"maximum QC {_qc(summary.max_qc)}, {_count(summary.flipped, 'flipped face')}, {seconds:.2f} s"
+        f"maximum QC {_qc(summary.max_qc)}, {defects}, {seconds:.2f} s"
     )
 
 
@@ -142,6 +156,23 @@ def selected_failed(islands: int, faces: int) -> str:
     if faces == 0:
         return "No islands failed, selection unchanged"
     return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
+
+
+def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
+    """Return what Select Flipped and Overlapping says of the defects of each mesh, given which kinds were chosen."""
+    kinds = [
+        ("flipped", sum(int(found.flipped.sum()) for found in defects) if flipped else 0),
+        ("overlapping", sum(int(found.overlapping.sum()) for found in defects) if overlapping else 0),
+        ("with UVs that are not finite", sum(int(found.not_finite.sum()) for found in defects)),
+    ]
+    total = sum(int(found.chosen(flipped, overlapping).sum()) for found in defects)
+    if total == 0:
+        wanted = " or ".join(
+            name for name, is_wanted in (("flipped", flipped), ("overlapping", overlapping)) if is_wanted
+        )
+        return f"No {wanted} faces, selection unchanged"
+    counts = ", ".join(f"{count} {name}" for name, count in kinds if count)
+    return f"Selected {_count(total, 'face')}: {counts}"
 
 
 def marked(count: int, length: str) -> str:

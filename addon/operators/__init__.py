@@ -9,6 +9,7 @@ from .extenders import (
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,
 )
+from .select_defects import UV_OT_spectral_select_defects
 from .select_failed import UV_OT_spectral_select_failed
 from .suggest_seams import UV_OT_spectral_suggest_seams
 from .unwrap import UV_OT_spectral_unwrap
@@ -16,6 +17,7 @@ from .unwrap import UV_OT_spectral_unwrap
 _CLASSES = (
     UV_OT_spectral_unwrap,
     UV_OT_spectral_select_failed,
+    UV_OT_spectral_select_defects,
     UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,

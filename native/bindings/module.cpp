@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -16,6 +17,7 @@
 
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/factorization.h"
+#include "spectral_conformal/map_defects.h"
 #include "spectral_conformal/metric.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/seam_suggestion.h"
@@ -324,6 +326,22 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
   return result;
 }
 
+py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_vertices, const Array<double>& corner_uv,
+                     const std::optional<Array<bool>>& selected_faces, bool between_islands) {
+  sc::PolygonMesh mesh;
+  mesh.n_vertices = std::numeric_limits<int>::max();  // they are not looked at
+  mesh.face_offsets = face_offsets.data();
+  mesh.n_faces = static_cast<int>(face_offsets.shape(0)) - 1;
+  mesh.corner_vertices = corner_vertices.data();
+  if (selected_faces) mesh.selected_faces = selected_faces->data();
+  sc::MapDefects defects;
+  {
+    const py::gil_scoped_release unlocked;
+    defects = sc::find_map_defects(mesh, corner_uv.data(), between_islands);
+  }
+  return py::dict(py::arg("flipped") = copy(defects.flipped), py::arg("overlapping") = copy(defects.overlapping));
+}
+
 py::dict result_of(const sc::Unwrap& unwrapped) {
   py::array_t<double> uv({static_cast<py::ssize_t>(unwrapped.uv.rows()), static_cast<py::ssize_t>(2)});
   std::copy_n(unwrapped.uv.data(), unwrapped.uv.size(), uv.mutable_data());
@@ -334,8 +352,9 @@ py::dict result_of(const sc::Unwrap& unwrapped) {
                            py::arg("residual") = chart.residual, py::arg("iterations") = chart.iterations,
                            py::arg("turning_number") = chart.turning_number, py::arg("mean_qc") = chart.mean_qc,
                            py::arg("max_qc") = chart.max_qc, py::arg("flipped") = chart.flipped,
-                           py::arg("method") = name_of(chart.method), py::arg("n_pins") = chart.n_pins,
-                           py::arg("n_vertices") = chart.n_vertices, py::arg("area") = chart.area));
+                           py::arg("overlapping") = chart.overlapping, py::arg("method") = name_of(chart.method),
+                           py::arg("n_pins") = chart.n_pins, py::arg("n_vertices") = chart.n_vertices,
+                           py::arg("area") = chart.area));
   }
   return py::dict(py::arg("uv") = uv, py::arg("solved_corners") = copy(unwrapped.solved_corners),
                   py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts,
@@ -514,6 +533,7 @@ PYBIND11_MODULE(_native, module) {
       .def(py::init<const UnwrapArguments&>())
       .def("solve", &MeshUnwrapper::solve);
   module.def("distortion", &distortion);
+  module.def("map_defects", &map_defects);
   module.def("unwrap", &unwrap);
   module.def("metric_from_uv", &metric_from_uv);
   module.def("metric_from_direction", &metric_from_direction);

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "spectral_conformal/overlap.h"
 #include "spectral_conformal/triangle_shape.h"
 
 namespace spectral_conformal {
@@ -96,25 +95,6 @@ MappedChart map_chart(const PolygonMesh& mesh, Chart chart, const PatchOptions& 
     return result;
   }
   measure_faces(positions, result);
-  return result;
-}
-
-std::vector<int> overlapping_faces(const MappedChart& mapped) {
-  const Chart& chart = mapped.chart;
-  if (!mapped.solved) return {};
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<int> face;
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    triangles.push_back(chart.triangles[t]);
-    face.push_back(chart.triangle_face[t]);
-    // Of the two splits of a quad, two triangles each in a row, the first.
-    if (chart.coverage[t] != 1.0 && face.size() > 1 && face[face.size() - 2] == face.back()) t += 2;
-  }
-  const std::vector<bool> covering = overlapping_triangles(triangles, mapped.z);
-  std::vector<int> result;
-  for (std::size_t t = 0; t < face.size(); ++t) {
-    if (covering[t] && (result.empty() || result.back() != face[t])) result.push_back(face[t]);
-  }
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "spectral_conformal/overlap.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -37,7 +39,7 @@ struct Overlaps {
 
   explicit Overlaps(const std::vector<std::shared_ptr<const MappedChart>>& charts) {
     for (const auto& mapped : charts) {
-      faces.push_back(overlapping_faces(*mapped));
+      faces.push_back(mapped->solved ? overlapping_faces(mapped->chart, mapped->z) : std::vector<int>{});
       for (const int face : faces.back()) area += mapped->area[face];
     }
   }

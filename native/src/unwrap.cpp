@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "spectral_conformal/overlap.h"
 #include "spectral_conformal/turning_number.h"
 
 namespace spectral_conformal {
@@ -136,6 +137,7 @@ class ChartUnwrapper {
       }
       report.solved = true;
       measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
+      report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
       report.message = solution.message;
       report.eigenvalue = solution.eigenvalue;
       report.residual = solution.residual;

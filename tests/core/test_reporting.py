@@ -6,11 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from spectral_unwrap.core import reporting
+from spectral_unwrap.core.map_defects import Defects
 from spectral_unwrap.core.map_quality import MapQuality
 from spectral_unwrap.core.unwrapping import Solution
 
 
-def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, method="spectral", n_pins=0):
+def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="spectral", n_pins=0):
     return SimpleNamespace(
         status="solved",
         message="",
@@ -18,6 +19,7 @@ def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, method="spectral", n_pi
         mean_qc=mean_qc,
         max_qc=max_qc,
         flipped=flipped,
+        overlapping=overlapping,
         method=method,
         n_pins=n_pins,
     )
@@ -26,7 +28,15 @@ def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, method="spectral", n_pi
 def failed(message):
     nan = float("nan")
     return SimpleNamespace(
-        status="failed", message=message, area=nan, mean_qc=nan, max_qc=nan, flipped=0, method="", n_pins=0
+        status="failed",
+        message=message,
+        area=nan,
+        mean_qc=nan,
+        max_qc=nan,
+        flipped=0,
+        overlapping=0,
+        method="",
+        n_pins=0,
     )
 
 
@@ -48,10 +58,35 @@ def test_mean_does_not_overflow(area):
 
 
 def test_information():
-    one = reporting.information(summary(solved(1.0, 1.01, 1.5, 1)), 0.257)
-    assert one == "Unwrapped 1 island: mean QC 1.0100, maximum QC 1.5000, 1 flipped face, 0.26 s"
-    two = reporting.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0)
+    one = reporting.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select")
+    assert one == "Unwrapped 1 island: mean QC 1.0100, maximum QC 1.5000, 0 flipped faces, 0.26 s"
+    two = reporting.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0, "Select")
     assert two == "Unwrapped 2 islands: mean QC 1.0000, maximum QC 1.23e+04, 0 flipped faces, 12.00 s"
+
+
+@pytest.mark.parametrize(
+    ("flipped", "overlapping", "said"),
+    [
+        (1, 0, ", 1 flipped face (see Select), "),
+        (0, 12, ", 0 flipped faces, 12 overlapping faces (see Select), "),
+        (3, 1, ", 3 flipped faces, 1 overlapping face (see Select), "),
+    ],
+)
+def test_information_tells_where_to_see_defects(flipped, overlapping, said):
+    charts = solved(flipped=flipped, overlapping=overlapping), solved()
+    assert said in reporting.information(summary(*charts), 1.0, "Select")
+
+
+def test_selected_defects():
+    first = Defects(np.array([True, True, False]), np.array([False, True, True]), np.array([False, False, False]))
+    second = Defects(np.array([False]), np.array([False]), np.array([True]))
+    both = [first, second]
+    said = reporting.selected_defects(both, True, True)
+    assert said == "Selected 4 faces: 2 flipped, 2 overlapping, 1 with UVs that are not finite"
+    assert reporting.selected_defects([first], False, True) == "Selected 2 faces: 2 overlapping"
+    none = Defects(*(np.zeros(2, dtype=bool),) * 3)
+    assert reporting.selected_defects([none], True, True) == "No flipped or overlapping faces, selection unchanged"
+    assert reporting.selected_defects([none, none], False, True) == "No overlapping faces, selection unchanged"
 
 
 def test_no_failures_no_warning():

@@ -58,7 +58,7 @@ def steps():
     before = uv()
 
     point_at("VIEW_3D")
-    yield from choose_from_menu("menu_in_viewport", from_the_end=3)
+    yield from choose_from_menu("menu_in_viewport", from_the_end=4)
     assert last_operator().properties.placement == "PACK"
     unwrapped = uv()
     assert np.isfinite(unwrapped).all()

@@ -21,7 +21,7 @@ from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa
 # Place in the viewport's sidebar, in pixels from its top left corner.
 SUGGEST_SEAMS = (103, 80)
 CUTS_ROW = 1  # of Adjust Last Operation, from the bottom
-HEADER_TO_SUGGEST_SEAMS = 395  # in the UV menu
+HEADER_TO_SUGGEST_SEAMS = 417  # in the UV menu
 WHEEL_UP, WHEEL_DOWN = 4, 5
 
 shown = []

@@ -98,6 +98,15 @@ def torn_hat(around=64, rings=16, stack=12, radius=0.35, height=0.5, tear=0.25):
     return np.array(vertices), np.r_[np.c_[a, b, b + around], np.c_[a, b + around, a + around]]
 
 
+def spiral_ramp(turns, along=60, across=4):
+    """The quads of a flat ramp that climbs slowly round an axis: beyond one turn its conformal map covers itself."""
+    angle, radius = np.meshgrid(
+        np.linspace(0, 2 * np.pi * turns, along + 1), np.linspace(2, 3, across + 1), indexing="ij"
+    )
+    vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.05 * angle], axis=-1).reshape(-1, 3)
+    return vertices, grid_quads(along + 1, across + 1)
+
+
 def polygons(faces):
     """(face_offsets, corner_vertices) of a list of corner lists."""
     sizes = [len(face) for face in faces]

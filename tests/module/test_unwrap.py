@@ -58,6 +58,17 @@ def test_report_takes_the_better_split_of_a_quad():
     assert chart.flipped == 0
 
 
+@pytest.mark.parametrize("turns", [0.9, 1.25])
+def test_overlap_of_a_chart_without_flips_is_counted(turns):
+    vertices, quads = meshes.spiral_ramp(turns)
+    offsets, corners = meshes.polygons(quads)
+    (chart,) = sc.unwrap(vertices, offsets, corners).charts
+    assert (chart.status, chart.flipped, chart.turning_number) == ("solved", 0, 1)
+    # Both ends, one over the other: twice a quarter of 1.25 turns is 0.4 of the faces.
+    expected = 0.0 if turns < 1.0 else 2.0 * (turns - 1.0) / turns
+    assert chart.overlapping / len(quads) == pytest.approx(expected, abs=0.04)
+
+
 def test_corner_order_does_not_matter():
     vertices, quads = meshes.saddle_quads(9)
     offsets, corners = meshes.polygons(quads)

@@ -31,7 +31,6 @@ TEST_CASE("a flat patch is not distorted") {
     CHECK(quality.area > 20);
     CHECK(quality.within_limit == doctest::Approx(1));
     CHECK(quality.distortion() < 1e-9);
-    CHECK(overlapping_faces(*chart).empty());
   }
 }
 
@@ -53,22 +52,7 @@ TEST_CASE("what cannot be solved has no map, and infinite distortion") {
   for (const Mesh& mesh : {tetrahedron(), torus(6, 5), ring(9, 1)}) {
     const auto chart = mapped(mesh);
     CHECK_FALSE(chart->solved);
-    CHECK(overlapping_faces(*chart).empty());
     CHECK(std::isinf(map_quality({chart}, 2).distortion()));
-  }
-}
-
-TEST_CASE("overlapping faces are found, the two splits of a quad not taken for an overlap") {
-  for (const Mesh& mesh : {quad_grid(4, 1), flat_grid(4, 1)}) {
-    MappedChart chart = *mapped(mesh);
-    for (Eigen::Index v = 0; v < chart.z.size(); ++v) {
-      // Folded over at x = 3.2, so that what lies beyond covers what lies before.
-      const Eigen::Vector3d& p = mesh.points[chart.chart.vertices[v]];
-      chart.z[v] = Complex(3.2 - std::abs(p.x() - 3.2), p.y());
-    }
-    const std::vector<int> faces = overlapping_faces(chart);
-    CHECK_FALSE(faces.empty());
-    CHECK(std::find(faces.begin(), faces.end(), 0) == faces.end());
   }
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("one inside another, two that coincide, and a folded neighbour overlap
 
 TEST_CASE("contacts less deep than rounding do not count, whatever the scale") {
   const Triangles two{{0, 1, 2}, {3, 4, 5}};
-  for (const double scale : {1e-12, 1.0, 1e12}) {
+  for (const double scale : {1e-200, 1e-12, 1.0, 1e12, 1e200}) {
     ComplexVector z(6);
     for (const double depth : {1e-12, 1e-6}) {
       z << 0.0, 1.0, Complex(0, 1), Complex(0, depth), Complex(0, depth - 1), Complex(1, depth - 1);
@@ -93,6 +93,56 @@ TEST_CASE("contacts less deep than rounding do not count, whatever the scale") {
       CHECK(overlapping_triangles(two, z) == std::vector<bool>{depth > 1e-9, depth > 1e-9});
     }
   }
+}
+
+TEST_CASE("a collapsed triangle covers nothing") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  ComplexVector z(6);
+  z << 0.0, 4.0, Complex(0, 4), Complex(1, 1), Complex(1, 1), Complex(1, 1);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{false, false});
+  z[4] = Complex(-3, -5);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{false, false});
+  z[5] = Complex(1.5, 1);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
+}
+
+TEST_CASE("triangles of one face do not count as covering each other, nor what single precision cannot resolve") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  ComplexVector z(6);
+  z << 0.0, 1.0, Complex(0, 1), Complex(0.1, 0.1), Complex(1.1, 0.1), Complex(0.1, 1.1);
+  CHECK(overlapping_triangles(two, z, {0, 1}) == std::vector<bool>{true, true});
+  CHECK(overlapping_triangles(two, z, {7, 7}) == std::vector<bool>{false, false});
+  for (const double depth : {1e-7, 1e-6}) {
+    z << 0.0, 1.0, Complex(0, 1), Complex(0, depth), Complex(0, depth - 1), Complex(1, depth - 1);
+    CHECK(overlapping_triangles(two, z, {}, 2.5e-7)[0] == (depth > 2.5e-7));
+    CHECK(overlapping_triangles(two, z)[0]);
+    z.array() += 100.0;
+    CHECK_FALSE(overlapping_triangles(two, z, {}, 2.5e-7)[0]);
+  }
+}
+
+TEST_CASE("overlapping faces are found, the two splits of a quad not taken for an overlap") {
+  for (const Mesh& mesh : {quad_grid(4, 1), flat_grid(4, 1)}) {
+    const Patch patch(mesh);
+    ComplexVector z = flat_map(patch.positions);
+    CHECK(overlapping_faces(patch.chart, z).empty());
+    CHECK(overlapping_faces(patch.chart, z.conjugate()).empty());
+    // Folded over at x = 3.2, so that what lies beyond covers what lies before.
+    for (Complex& p : z) p = Complex(3.2 - std::abs(p.real() - 3.2), p.imag());
+    const std::vector<int> faces = overlapping_faces(patch.chart, z);
+    CHECK_FALSE(faces.empty());
+    CHECK(std::find(faces.begin(), faces.end(), 0) == faces.end());
+    CHECK(std::is_sorted(faces.begin(), faces.end()));
+  }
+}
+
+TEST_CASE("a quad that folds over covers itself only, unless it reaches its neighbour") {
+  const Patch patch(quad_grid(2, 1));
+  ComplexVector z = flat_map(patch.positions);
+  z[0] = Complex(0.4, 0.8);  // the first quad crosses itself
+  CHECK(overlapping_faces(patch.chart, z).empty());
+  z[0] = Complex(1.4, 0.5);
+  CHECK(overlapping_faces(patch.chart, z) == std::vector<int>{0, 1});
 }
 
 TEST_CASE("no triangles") { CHECK(overlapping_triangles({}, {}).empty()); }

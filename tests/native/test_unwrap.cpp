@@ -112,6 +112,28 @@ TEST_CASE("a chart's distortion is that of its map") {
   CHECK(result.charts[0].max_qc == doctest::Approx(distortion.max_qc).epsilon(1e-12));
 }
 
+TEST_CASE("a ramp that climbs round an axis more than once overlaps in its map, without a flip") {
+  for (const double turns : {0.9, 1.25}) {
+    constexpr int n = 40;
+    Mesh ramp;
+    for (int i = 0; i <= n; ++i) {
+      const double angle = 2 * 3.14159265358979323846 * turns * i / n;
+      for (const double radius : {2.0, 2.5, 3.0}) {
+        ramp.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle);
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      for (const int a : {3 * i, 3 * i + 1}) ramp.add({a, a + 1, a + 4, a + 3});
+    }
+    const Unwrap result = unwrapped(ramp);
+    REQUIRE(result.charts[0].solved);
+    CHECK(result.charts[0].flipped == 0);
+    CHECK(result.charts[0].turning_number == 1);
+    CHECK((result.charts[0].overlapping > n / 2) == (turns > 1));
+    CHECK((result.charts[0].overlapping == 0) == (turns < 1));
+  }
+}
+
 TEST_CASE("every method and option reaches the solver") {
   const Mesh mesh = perforated_grid(7, 7);
   std::vector<double> eigenvalues;

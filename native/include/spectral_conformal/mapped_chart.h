@@ -22,9 +22,6 @@ struct MappedChart {
 /// Solves a chart of `mesh`. Where it cannot be solved, `solved` is false. Throws Cancelled.
 MappedChart map_chart(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress);
 
-/// The faces of the chart, as indices into its `faces`, whose images cover others; none where it is not solved.
-std::vector<int> overlapping_faces(const MappedChart& mapped);
-
 /// Distortion of several charts together.
 struct MapQuality {
   bool solved = true;            ///< all charts are

@@ -46,6 +46,7 @@ struct UnwrappedChart {
   double mean_qc = unknown;  ///< of one triangulation: of a quad's two splits the less distorted one
   double max_qc = unknown;
   int flipped = 0;                   ///< faces with a flipped triangle
+  int overlapping = 0;               ///< faces that cover part of another face; duplicates are not looked at
   Method method = Method::spectral;  ///< the one used: Method::lscm for a chart with several pins
   int n_pins = 0;                    ///< pinned vertices
   int n_vertices = 0;

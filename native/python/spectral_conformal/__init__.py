@@ -6,11 +6,11 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
     result = spectral_conformal.unwrap(vertices, face_offsets, corner_vertices, seam_edges=seams)   # a polygon mesh
 """
 
-from ._api import Solver, Unwrapper, build_info, distortion, parameterize, unwrap
+from ._api import Solver, Unwrapper, build_info, distortion, map_defects, parameterize, unwrap
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
 from ._seams import suggest_cuts, suggest_seams
-from ._types import Chart, Distortion, Extenders, Parameterization, Progress, Unwrap
+from ._types import Chart, Distortion, Extenders, MapDefects, Parameterization, Progress, Unwrap
 
 __all__ = [
     "Cancelled",
@@ -18,6 +18,7 @@ __all__ = [
     "Distortion",
     "Extenders",
     "InvalidMeshError",
+    "MapDefects",
     "Parameterization",
     "Progress",
     "SolveError",
@@ -27,6 +28,7 @@ __all__ = [
     "blend_metric",
     "build_info",
     "distortion",
+    "map_defects",
     "metric_from_direction",
     "metric_from_uv",
     "parameterize",

@@ -46,24 +46,33 @@ def checked_polygon_mesh(
     selected_faces: npt.ArrayLike | None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
     vertices = checked_vertices(vertices)
-    offsets = checked_index_vector(face_offsets, "face_offsets")
     corners = checked_indices(corner_vertices, "corner_vertices", None, len(vertices))
-    if len(offsets) == 0:
-        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+    offsets = checked_index_vector(face_offsets, "face_offsets")
     if len(offsets) == 1:
         raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
-    if offsets[0] != 0 or offsets[-1] != len(corners) or (np.diff(offsets) < 0).any():
-        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {len(corners)}, without decreasing.")
+    offsets = checked_face_offsets(offsets, len(corners))
     seams = None if seam_edges is None else checked_indices(seam_edges, "seam_edges", 2, len(vertices))
-    selected = None
-    if selected_faces is not None:
-        selected = np.asarray(selected_faces)
-        if selected.dtype != np.bool_ or selected.shape != (len(offsets) - 1,):
-            raise ValueError(
-                f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
-                f"{selected.shape}."
-            )
-    return vertices, offsets, corners, seams, selected
+    return vertices, offsets, corners, seams, checked_face_selection(selected_faces, len(offsets) - 1)
+
+
+def checked_face_offsets(face_offsets: npt.ArrayLike, n_corners: int) -> npt.NDArray[np.int32]:
+    offsets = checked_index_vector(face_offsets, "face_offsets")
+    if len(offsets) == 0:
+        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+    if offsets[0] != 0 or offsets[-1] != n_corners or (np.diff(offsets) < 0).any():
+        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {n_corners}, without decreasing.")
+    return offsets
+
+
+def checked_face_selection(selected_faces: npt.ArrayLike | None, n_faces: int) -> npt.NDArray[np.bool_] | None:
+    if selected_faces is None:
+        return None
+    selected = np.asarray(selected_faces)
+    if selected.dtype != np.bool_ or selected.shape != (n_faces,):
+        raise ValueError(
+            f"selected_faces must be {n_faces} booleans, one per face, not {selected.dtype} of shape {selected.shape}."
+        )
+    return selected
 
 
 def checked_at_least(value: float, least: float, name: str) -> float:
@@ -244,10 +253,14 @@ def checked_corner_pins(
         return None, None
     if corner_uv is None:
         raise ValueError("pinned_corners need corner_uv, the positions of the pins.")
+    return np.ascontiguousarray(pinned), checked_corner_uv(corner_uv, n_corners)
+
+
+def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int) -> npt.NDArray[np.float64]:
     uv = checked_floats(corner_uv, "corner_uv", 2)
     if len(uv) != n_corners:
         raise ValueError(f"corner_uv has {len(uv)} rows, but there are {n_corners} corners.")
-    return np.ascontiguousarray(pinned), uv
+    return uv
 
 
 def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: int) -> list[tuple[int, float, float]]:

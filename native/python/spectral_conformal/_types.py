@@ -72,6 +72,17 @@ class Distortion:
 
 
 @dataclass(frozen=True)
+class MapDefects:
+    """Faces of a UV map that lie the wrong way round or on others."""
+
+    flipped: npt.NDArray[np.bool_]
+    """(faces,) a triangle of the face is wound against the majority (by UV area) of its island, after orienting the
+    island's faces consistently; False for faces that are not selected."""
+    overlapping: npt.NDArray[np.bool_]
+    """(faces,) covers part of another face; False for faces that are not selected."""
+
+
+@dataclass(frozen=True)
 class Chart:
     """What became of one chart of `unwrap`."""
 
@@ -90,6 +101,8 @@ class Chart:
     max_qc: float
     flipped: int
     """Faces with a flipped triangle."""
+    overlapping: int
+    """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
     method: Method
     """The one used: "lscm" for a chart with several pins, unless they are soft."""
     n_pins: int

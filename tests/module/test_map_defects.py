@@ -1,0 +1,147 @@
+import meshes
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+
+def mapped_quads(n=9, m=6):
+    """A flat grid of quads with its positions as map: (offsets, corners, uv)."""
+    offsets, corners = meshes.polygons(meshes.grid_quads(n, m))
+    return offsets, corners, np.c_[corners // m, corners % m].astype(np.float64)
+
+
+def test_agrees_with_distortion_on_triangles():
+    vertices, triangles = meshes.random_disk(300)
+    uv = vertices[:, :2] + np.random.default_rng(0).normal(scale=0.015, size=(len(vertices), 2))
+    uv[:, 0] *= -1.0
+    measured = sc.distortion(vertices, triangles, uv)
+    offsets, corners = meshes.polygons(triangles)
+    defects = sc.map_defects(offsets, corners, uv[corners])
+    assert 0 < measured.flipped.sum() < len(triangles) / 4
+    assert np.array_equal(defects.flipped, measured.flipped)
+    assert np.array_equal(defects.overlapping, measured.overlapping)
+
+
+def test_a_clean_unwrap_has_none_also_in_single_precision():
+    vertices, quads = meshes.saddle_quads(40)
+    offsets, corners = meshes.polygons(quads)
+    uv = sc.unwrap(vertices, offsets, corners).uv
+    for precision in (np.float64, np.float32):
+        defects = sc.map_defects(offsets, corners, uv.astype(precision), between_islands=True)
+        assert not defects.flipped.any()
+        assert not defects.overlapping.any()
+
+
+def test_overlap_of_a_chart_is_found_in_its_map():
+    vertices, quads = meshes.spiral_ramp(1.25)
+    offsets, corners = meshes.polygons(quads)
+    result = sc.unwrap(vertices, offsets, corners)
+    defects = sc.map_defects(offsets, corners, result.uv)
+    assert not defects.flipped.any()
+    assert defects.overlapping.sum() == result.charts[0].overlapping
+
+
+def test_islands_on_top_of_each_other_count_when_asked():
+    offsets, corners, uv = mapped_quads()
+    second = np.arange(len(corners)) >= len(corners) // 2
+    uv[second] -= [4.0, 0.0]
+    assert not sc.map_defects(offsets, corners, uv).overlapping.any()
+    assert sc.map_defects(offsets, corners, uv, between_islands=True).overlapping.all()
+    uv[second] += [4.0 - 1e-7, 0.0]  # beside each other, as far as single precision tells
+    assert not sc.map_defects(offsets, corners, uv, between_islands=True).overlapping.any()
+
+
+def test_faces_that_are_not_selected_do_not_count():
+    offsets, corners, uv = mapped_quads()
+    uv[:4] = np.nan
+    uv[4:8] = [[0, 1], [1, 2], [2, 2], [1, 1]]
+    selected = np.ones(len(offsets) - 1, bool)
+    selected[0] = False
+    defects = sc.map_defects(offsets, corners, uv, selected_faces=selected, between_islands=True)
+    assert not defects.flipped[0]
+    assert not defects.overlapping[0]
+    assert defects.overlapping[1]
+
+
+def mixed_polygons(rng):
+    """Triangles, quads and pentagons of a grid with a noisy map, as a list of corner lists and (V, 2) images."""
+    n = 9
+    faces = []
+    for a, b, c, d in meshes.grid_quads(n, n).tolist():
+        kind = rng.integers(3)
+        if kind == 0:
+            faces += [[a, b, c], [a, c, d]]
+        else:
+            faces.append([a, b, c, d])
+    # Pentagons: triangles merged with the quads before them, where they share an edge.
+    for i in range(len(faces) - 2, -1, -1):
+        quad, triangle = faces[i], faces[i + 1]
+        shared = [v for v in quad if v in triangle]
+        if len(quad) == 4 and len(triangle) == 3 and len(shared) == 2:
+            (apex,) = set(triangle) - set(shared)
+            at = next(k for k in range(4) if {quad[k], quad[(k + 1) % 4]} == set(shared))
+            faces[i : i + 2] = [quad[: at + 1] + [apex] + quad[at + 1 :]]
+    vertices = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), axis=-1).reshape(-1, 2)
+    return faces, vertices + rng.normal(scale=0.35, size=vertices.shape)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_order_winding_and_mirroring_do_not_matter(seed):
+    rng = np.random.default_rng(seed)
+    faces, image = mixed_polygons(rng)
+    assert {len(face) for face in faces} == {3, 4, 5}
+    offsets, corners = meshes.polygons(faces)
+    for between in (False, True):
+        expected = sc.map_defects(offsets, corners, image[corners], between_islands=between)
+        assert 0 < expected.flipped.sum() < len(faces) / 2
+        assert (expected.overlapping | ~expected.flipped).sum() > 0.8 * len(faces)
+        order = rng.permutation(len(faces))
+        changed = [list(np.roll(faces[i], rng.integers(5)))[:: rng.choice([-1, 1])] for i in order]
+        offsets_changed, corners_changed = meshes.polygons(changed)
+        uv = 2.0 * image[corners_changed] * [-1.0, 1.0]
+        found = sc.map_defects(offsets_changed, corners_changed, uv, between_islands=between)
+        assert np.array_equal(found.flipped, expected.flipped[order])
+        assert np.array_equal(found.overlapping, expected.overlapping[order])
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_arbitrary_arrays_are_answered_or_refused(seed):
+    rng = np.random.default_rng(seed)
+    sizes = rng.integers(0, 8, size=rng.integers(1, 60))
+    offsets = np.r_[0, np.cumsum(sizes)]
+    corners = rng.integers(0, rng.integers(1, 30), size=offsets[-1])
+    scale = 10.0 ** rng.integers(-300, 300) if seed % 3 else 1.0
+    uv = scale * rng.integers(-3, 4, size=(len(corners), 2)).astype(float)
+    defects = sc.map_defects(offsets, corners, uv, between_islands=bool(seed % 2))
+    assert defects.flipped.shape == defects.overlapping.shape == sizes.shape
+    assert not defects.overlapping[sizes < 3].any()
+    if len(corners):
+        uv[rng.integers(len(corners))] = rng.choice([np.nan, np.inf, -np.inf])
+        with pytest.raises(sc.InvalidMeshError, match="is not finite"):
+            sc.map_defects(offsets, corners, uv)
+
+
+def test_without_faces():
+    defects = sc.map_defects([0], [], np.zeros((0, 2)))
+    assert defects.flipped.shape == defects.overlapping.shape == (0,)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"corner_uv": [[0, 0], [1, 0], [np.nan, 1]]}, r"corner 2 \(face 0\) is not finite"),
+        ({"corner_uv": [[0, 0], [1, 0]]}, "corner_uv has 2 rows"),
+        ({"corner_uv": [0, 1, 2]}, "corner_uv must have the shape"),
+        ({"face_offsets": []}, "face_offsets is empty"),
+        ({"face_offsets": [0, 2]}, "face_offsets must rise"),
+        ({"corner_vertices": [0, 1, -2]}, "corner_vertices must lie between"),
+        ({"corner_vertices": [0, 1, 2**31 - 1]}, "refers to vertex 2147483647"),
+        ({"corner_vertices": [0, 1, 2**31]}, "corner_vertices must lie between"),
+        ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
+        ({"between_islands": 1}, "between_islands must be"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, said):
+    good = {"face_offsets": [0, 3], "corner_vertices": [0, 1, 2], "corner_uv": [[0, 0], [1, 0], [0, 1]]}
+    with pytest.raises(ValueError, match=said):
+        sc.map_defects(**{**good, **arguments})
