@@ -124,11 +124,16 @@ def _warnings(
     """Return what extenders and stretching could not do."""
     warnings = [
         reporting.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
+        reporting.too_small(sum(map(_too_small_faces, edit_meshes, solutions))),
         reporting.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
         warnings.append(reporting.NO_ACTIVE_EDGE)
     return tuple(filter(None, warnings))
+
+
+def _too_small_faces(edit_mesh: EditMesh, solution: unwrapping.Solution) -> int:
+    return solution.too_small_faces(edit_mesh.polygons.face_offsets)
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:
@@ -150,6 +155,7 @@ def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
     pairs = (
         *(("INFO", note) for note in outcome.notes),
         ("INFO", reporting.remedies(summary)),
+        ("INFO", reporting.unfolded(summary)),
         ("INFO", reporting.pinned(summary)),
         ("INFO", reporting.information(summary, seconds, names.SELECT_DEFECTS_LABEL) if summary.solved else ""),
         *(("WARNING", warning) for warning in outcome.warnings),

@@ -7,6 +7,9 @@ Blender calls a chart an island; so do these sentences.
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from .map_defects import Defects
 from .map_quality import MapQuality
@@ -35,6 +38,9 @@ class Summary:
         max_qc: largest quasi-conformal distortion of a triangle.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that cover others of their chart.
+        unfolded: number of folded triangles that were unfolded on request.
+        embedded: number of charts whose map was replaced by an embedding on request.
+        mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
         failures: how many charts failed for each reason.
         remedies: how many charts were solved after each repair or change of method.
         pinned: how many charts with two or more pins were solved by each method.
@@ -46,6 +52,9 @@ class Summary:
     max_qc: float
     flipped: int
     overlapping: int
+    unfolded: int
+    embedded: int
+    mean_qc_change: tuple[float, float] | None
     failures: Counter[str]
     remedies: Counter[str]
     pinned: Counter[str]
@@ -62,14 +71,19 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     charts = [chart for solution in solutions for chart in solution.charts]
     solved = [chart for chart in charts if chart.status == "solved"]
     area = sum(chart.area for chart in solved)
+    changed = [chart for chart in solved if _is_unfolded(chart)]
     return Summary(
         solved=len(solved),
         mean_qc=sum(chart.mean_qc * (chart.area / area) for chart in solved) if area > 0.0 else float("nan"),
         max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
         flipped=sum(chart.flipped for chart in solved),
         overlapping=sum(chart.overlapping for chart in solved),
+        unfolded=sum(chart.unfolded for chart in changed),
+        embedded=sum(chart.is_embedding for chart in changed),
+        mean_qc_change=_mean_qc_change(changed),
         failures=Counter(chart.message for chart in charts if chart.status != "solved"),
-        remedies=Counter(chart.message for chart in solved if chart.message),
+        # What unfolding did has a sentence of its own, with numbers that differ from chart to chart.
+        remedies=Counter(chart.message for chart in solved if chart.message and not _is_unfolded(chart)),
         pinned=Counter(chart.method for chart in solved if chart.n_pins > 1),
         refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
     )
@@ -88,6 +102,48 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
     return (
         f"Unwrapped {_count(summary.solved, 'island')}: mean QC {_qc(summary.mean_qc)}, "
         f"maximum QC {_qc(summary.max_qc)}, {defects}, {seconds:.2f} s"
+    )
+
+
+def _is_unfolded(chart: Any) -> bool:  # noqa: ANN401 - a chart of the native module, which core does not import
+    return bool(chart.unfolded or chart.is_embedding) and not chart.flipped
+
+
+def _mean_qc_change(charts: Sequence[Any]) -> tuple[float, float] | None:
+    """Return the mean QC before and after unfolding, weighted by area, of the charts that had a map before."""
+    mapped = [chart for chart in charts if not np.isnan(chart.mean_qc_before)]
+    area = sum(chart.area for chart in mapped)
+    if not area > 0.0:
+        return None
+    return tuple(
+        sum(value(chart) * (chart.area / area) for chart in mapped)
+        for value in (lambda chart: chart.mean_qc_before, lambda chart: chart.mean_qc)
+    )
+
+
+def unfolded(summary: Summary) -> str:
+    """Return what was unfolded on request and what it cost; empty if nothing was."""
+    parts = []
+    if summary.unfolded:
+        parts.append(f"{_count(summary.unfolded, 'folded triangle')} unfolded")
+    if summary.embedded:
+        parts.append(f"{_count(summary.embedded, 'island')} replaced by an embedding, relaxed without folding it")
+    if not parts:
+        return ""
+    cost = ""
+    if summary.mean_qc_change is not None:
+        before, after = summary.mean_qc_change
+        cost = f"; mean QC of these islands {_qc(before)} before, {_qc(after)} after"
+    return f"Fold-free: {', '.join(parts)}{cost}"
+
+
+def too_small(faces: int) -> str:
+    """Return the warning for faces that Blender's single precision cannot hold; empty for none."""
+    if not faces:
+        return ""
+    return (
+        f"{_count(faces, 'face')} {'shrinks' if faces == 1 else 'shrink'} below what Blender's UV coordinates resolve; "
+        "add seams that make the island flatter, or raise Angle to Area"
     )
 
 

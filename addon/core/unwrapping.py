@@ -24,6 +24,7 @@ class Options:
     soft_pins: float = 0.0
     hole_rigidity: float = 0.0
     area_blend: float = 0.0
+    fold_free: bool = False
     stretch: float = 1.0
     """How much longer the map is along `PolygonMesh.stretch_direction` than across it, where the mesh has one."""
 
@@ -52,6 +53,23 @@ class Solution:
     def solved_corners(self) -> np.ndarray:
         """(C,) bool, the corners that get new coordinates."""
         return self.chart_of_corner >= 0
+
+    def too_small_faces(self, face_offsets: np.ndarray) -> int:
+        """Return how many solved faces are so small beside their chart that Blender's single precision merges them.
+
+        `face_offsets` (F + 1,) are the mesh's. A UV near 1 has steps of 2^-24; a face of less than eight has no shape.
+        """
+        solved = np.flatnonzero(self.solved_corners[face_offsets[:-1]])
+        if not len(solved):
+            return 0
+        chart = self.chart_of_corner[face_offsets[solved]]
+        low, high = (extreme.reduceat(self.uv, face_offsets[:-1])[solved] for extreme in (np.minimum, np.maximum))
+        chart_low = np.full((len(self.charts), 2), np.inf)
+        chart_high = -chart_low
+        np.minimum.at(chart_low, chart, low)
+        np.maximum.at(chart_high, chart, high)
+        extent = (chart_high - chart_low).max(axis=1)[chart]
+        return int(np.count_nonzero((high - low).max(axis=1) < extent * 2.0**-21))
 
     @property
     def pinned_corners(self) -> np.ndarray:
@@ -105,6 +123,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "boundary": options.boundary,
         "fill_holes": options.fill_holes,
         "area_blend": options.area_blend,
+        "fold_free": options.fold_free,
         "metric": _stretched_space(mesh, options.stretch) if stretched else None,
         **_pins(mesh, options),
     }

@@ -50,6 +50,11 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         max=1.0,
         subtype="FACTOR",
     )
+    fold_free: BoolProperty(
+        name="Fold-Free",
+        description="Leave no flipped faces: unfold those of the conformal map, at some cost in angles. Islands that "
+        "cannot be unfolded where they are get another map, which takes longer",
+    )
     stretch: FloatProperty(
         name="Edge Stretch",
         description="How much longer the islands get along the direction of the active edge than across it",
@@ -112,6 +117,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         row.active = self.method == "SPECTRAL"
         row.prop(self, "hole_rigidity")
         layout.separator()
+        layout.prop(self, "fold_free")
         layout.prop(self, "area_blend")
         layout.prop(self, "stretch")
         layout.separator()
@@ -201,6 +207,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
                 soft_pins=self.soft_pin_strength if self.soft_pins and self.method == "SPECTRAL" else 0.0,
                 hole_rigidity=self.hole_rigidity,
                 area_blend=self.area_blend,
+                fold_free=self.fold_free,
                 stretch=self.stretch,
             ),
             keep_in_place=self.placement == names.KEEP,

@@ -281,6 +281,9 @@ class PatchSolver {
     result["residual"] = solution.residual;
     result["iterations"] = solution.iterations;
     result["turning_number"] = solution.turning_number;
+    result["unfolded"] = solution.unfolded;
+    result["is_embedding"] = solution.is_embedding;
+    result["mean_qc_before"] = solution.mean_qc_before;
     result["message"] = solution.message;
     result["timings"] = timings;
     return result;
@@ -352,7 +355,9 @@ py::dict result_of(const sc::Unwrap& unwrapped) {
                            py::arg("residual") = chart.residual, py::arg("iterations") = chart.iterations,
                            py::arg("turning_number") = chart.turning_number, py::arg("mean_qc") = chart.mean_qc,
                            py::arg("max_qc") = chart.max_qc, py::arg("flipped") = chart.flipped,
-                           py::arg("overlapping") = chart.overlapping, py::arg("method") = name_of(chart.method),
+                           py::arg("overlapping") = chart.overlapping, py::arg("unfolded") = chart.unfolded,
+                           py::arg("is_embedding") = chart.is_embedding,
+                           py::arg("mean_qc_before") = chart.mean_qc_before, py::arg("method") = name_of(chart.method),
                            py::arg("n_pins") = chart.n_pins, py::arg("n_vertices") = chart.n_vertices,
                            py::arg("area") = chart.area));
   }

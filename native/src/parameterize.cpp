@@ -393,10 +393,13 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
   }
   std::vector<BoundaryLoop> loops{outer_};
   loops.insert(loops.end(), inner_.begin(), inner_.end());
-  const double before = result.z.size() > 0 ? mean_distortion(result.z) : 0;
+  const double before = result.z.size() > 0 ? mean_distortion(result.z) : std::numeric_limits<double>::quiet_NaN();
   FoldFreeMap map = fold_free_map({*energy_, positions_, loops, held_vertices, options_.backend}, result.z, progress);
   watch.lap("unfolding");
   if (map.folded_before == 0 && !map.is_embedding && failure.empty() && std::abs(result.turning_number) == 1) return;
+  result.unfolded = map.is_embedding ? map.folded_before : map.folded_before - map.folded;
+  result.is_embedding = map.is_embedding;
+  result.mean_qc_before = before;
   result.z = std::move(map.z);
   if (!held && !place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
     throw SolveFailure("The map has no positive area", "add seams that make the patch flatter.");

@@ -143,6 +143,9 @@ class ChartUnwrapper {
       report.residual = solution.residual;
       report.iterations = solution.iterations;
       report.turning_number = solution.turning_number;
+      report.unfolded = solution.unfolded;
+      report.is_embedding = solution.is_embedding;
+      report.mean_qc_before = solution.mean_qc_before;
       for (const std::size_t k : acting) result.unused_extenders[k] = false;
       write(report.faces, solution.z, result);
     } catch (const InvalidMesh& problem) {

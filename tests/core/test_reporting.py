@@ -11,8 +11,9 @@ from spectral_unwrap.core.map_quality import MapQuality
 from spectral_unwrap.core.unwrapping import Solution
 
 
-def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="spectral", n_pins=0):
+def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="spectral", n_pins=0, **unfolding):
     return SimpleNamespace(
+        **{"unfolded": 0, "is_embedding": False, "mean_qc_before": float("nan"), **unfolding},
         status="solved",
         message="",
         area=area,
@@ -87,6 +88,36 @@ def test_selected_defects():
     none = Defects(*(np.zeros(2, dtype=bool),) * 3)
     assert reporting.selected_defects([none], True, True) == "No flipped or overlapping faces, selection unchanged"
     assert reporting.selected_defects([none, none], False, True) == "No overlapping faces, selection unchanged"
+
+
+def test_unfolding_tells_what_it_cost():
+    unfolded = solved(3.0, 1.25, unfolded=5, mean_qc_before=1.05)
+    replaced = solved(1.0, 1.5, unfolded=1, is_embedding=True, mean_qc_before=1.25)
+    without_map = solved(1.0, 9.0, is_embedding=True)
+    for chart in (unfolded, replaced, without_map):
+        chart.message = "what the module says"
+    result = summary(unfolded, replaced, without_map, solved())
+    assert reporting.unfolded(result) == (
+        "Fold-free: 6 folded triangles unfolded, 2 islands replaced by an embedding, relaxed without folding it; "
+        "mean QC of these islands 1.1000 before, 1.3125 after"
+    )
+    assert reporting.remedies(result) == ""
+    assert reporting.unfolded(summary(without_map)).endswith("relaxed without folding it")
+    assert reporting.unfolded(summary(solved())) == ""
+
+
+def test_what_could_not_be_unfolded_is_a_remedy_that_failed():
+    stuck = solved(unfolded=2, flipped=1, mean_qc_before=1.1)
+    stuck.message = "1 triangle could not be unfolded between the pins; move or remove pins."
+    result = summary(stuck)
+    assert reporting.unfolded(result) == ""
+    assert "could not be unfolded" in reporting.remedies(result)
+
+
+def test_faces_below_single_precision():
+    assert reporting.too_small(0) == ""
+    assert reporting.too_small(1).startswith("1 face shrinks below")
+    assert reporting.too_small(12).startswith("12 faces shrink below")
 
 
 def test_no_failures_no_warning():

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -51,8 +52,12 @@ struct Parameterization {
   /// |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with forces: the last
   /// relative change.
   double residual = 0;
-  int iterations = 0;                                   ///< solves with the factor
-  int turning_number = 0;                               ///< of the outer boundary loop
+  int iterations = 0;         ///< solves with the factor
+  int turning_number = 0;     ///< of the outer boundary loop
+  int unfolded = 0;           ///< folded triangles that PatchOptions::fold_free has unfolded
+  bool is_embedding = false;  ///< whether it had to replace the map by an embedding
+  /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
+  double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
   std::string message;                                  ///< remedies and repairs that were needed; empty when none was
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };

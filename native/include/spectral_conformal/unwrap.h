@@ -45,7 +45,10 @@ struct UnwrappedChart {
   int turning_number = 0;
   double mean_qc = unknown;  ///< of one triangulation: of a quad's two splits the less distorted one
   double max_qc = unknown;
-  int flipped = 0;                   ///< faces with a flipped triangle
+  int flipped = 0;   ///< faces with a flipped triangle
+  int unfolded = 0;  ///< this and the next two: see Parameterization
+  bool is_embedding = false;
+  double mean_qc_before = unknown;
   int overlapping = 0;               ///< faces that cover part of another face; duplicates are not looked at
   Method method = Method::spectral;  ///< the one used: Method::lscm for a chart with several pins
   int n_pins = 0;                    ///< pinned vertices

@@ -38,6 +38,12 @@ class Parameterization:
     """Solves with the factor."""
     turning_number: int
     """Of the longest boundary loop: 1 for a map that does not wind round itself, -1 if that loop is a hole of it."""
+    unfolded: int
+    """Folded triangles that `fold_free` has unfolded."""
+    is_embedding: bool
+    """Whether `fold_free` had to replace the map by an embedding."""
+    mean_qc_before: float
+    """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
     message: str
     """Remedies that were needed (the eigenvalue is then of the form and weights named here) and repaired faces; empty
     when there was none."""
@@ -103,6 +109,12 @@ class Chart:
     """Faces with a flipped triangle."""
     overlapping: int
     """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
+    unfolded: int
+    """Folded triangles that `fold_free` has unfolded."""
+    is_embedding: bool
+    """Whether `fold_free` had to replace the map by an embedding."""
+    mean_qc_before: float
+    """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
     method: Method
     """The one used: "lscm" for a chart with several pins, unless they are soft."""
     n_pins: int

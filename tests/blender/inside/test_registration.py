@@ -28,6 +28,7 @@ def test_operator_properties_are_described_as_blender_does():
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
         *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
+        "fold_free",
     }
     described = [
         *properties.values(),
@@ -55,6 +56,7 @@ def test_defaults():
         "margin_method": "SCALED",
         "hole_rigidity": 0.0,
         "area_blend": 0.0,
+        "fold_free": False,
         "stretch": 1.0,
     }
 
