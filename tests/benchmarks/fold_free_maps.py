@@ -1,0 +1,75 @@
+"""What maps without folds cost: flips, mean QC and time of rough surfaces, fingers and, where they are, shared meshes.
+
+    build/venv/bin/python tests/benchmarks/fold_free_maps.py [folder of OBJ files]
+
+The time is a ratio: with fold_free over without, in the same run. The folder is that of the shared real meshes beside
+the project by default.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
+
+import meshes  # noqa: E402 - found only now
+import numpy as np  # noqa: E402
+import spectral_conformal as sc  # noqa: E402
+from test_any_mesh import finger, floater, rough_grid  # noqa: E402
+
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
+LARGEST = 100_000  # vertices
+
+
+def row(name: str, vertices: np.ndarray, faces: list[list[int]]) -> str | None:
+    """Return one line of the table, or None for a mesh whose map has no folds."""
+    mesh = (vertices, *meshes.polygons(faces))
+    start = time.perf_counter()
+    plain = sc.unwrap(*mesh)
+    middle = time.perf_counter()
+    if all(chart.status == "solved" and not chart.flipped for chart in plain.charts):
+        return None
+    free = sc.unwrap(*mesh, fold_free=True)
+    end = time.perf_counter()
+    if all(chart.status != "solved" for chart in free.charts):
+        return None  # closed, one-sided
+
+    def total(charts: list, value: str) -> str:
+        solved = [chart for chart in charts if chart.status == "solved"]
+        if not solved:
+            return "no map"
+        area = sum(chart.area for chart in solved)
+        qc = sum(chart.mean_qc * chart.area for chart in solved) / area
+        return f"{qc:.4g}" if value == "qc" else str(sum(chart.flipped for chart in solved))
+
+    way = "embedding" if any(chart.is_embedding for chart in free.charts) else "in place"
+    return (
+        f"{name:24}{len(vertices):>8}{total(plain.charts, 'flipped'):>8} ->{total(free.charts, 'flipped'):>3}"
+        f"{total(plain.charts, 'qc'):>12} ->{total(free.charts, 'qc'):>8}  {way:10}"
+        f"{middle - start:8.2f} s x{(end - middle) / (middle - start):5.1f}"
+    )
+
+
+def main() -> None:
+    """Print the table."""
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else SHARED
+    cases = [(f"floater {offset:g}", *floater(offset)) for offset in (-1.0, -2.0, -5.0)]
+    cases += [(f"rough grid {n} x {n}", *rough_grid(n, 2.0, 3)) for n in (20, 60, 150)]
+    cases += [(f"finger of {rings} rings", *finger(16, rings)) for rings in (120, 200)]
+    print(f"{'':24}{'vertices':>8}{'flipped':>14}{'mean QC':>23}  {'':10}{'time':>10}")
+    for name, vertices, triangles in cases:
+        line = row(name, vertices, triangles.tolist())
+        if line:
+            print(line, flush=True)
+    for path in sorted(folder.glob("*.obj")):
+        vertices, faces = meshes.read_obj(path)
+        if len(vertices) <= LARGEST:
+            line = row(path.stem, vertices, faces)
+            if line:
+                print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main()
