@@ -124,7 +124,8 @@ std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   const Eigen::RowVector3d high = positions.colwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
-  if (!(extent > std::numeric_limits<double>::min() * 1e16) || !std::isfinite(extent)) {
+  // Within these limits areas, and eigenvalues in the units of the input, are doubles too.
+  if (!(extent > 1e-100 && extent < 1e100)) {
     return "The patch has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
            "delete or rescale it.";
   }

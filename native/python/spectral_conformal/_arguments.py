@@ -27,6 +27,7 @@ EXTENDER_LIMIT = 1e4
 HOLE_RIGIDITY_LIMIT = 1e4
 RATIO_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
+_SIZE_LIMIT = _native.SIZE_LIMIT
 
 
 def checked_patch_options(weights: str, boundary: str, factorization: str, fill_holes: bool, area_blend: float) -> Any:  # noqa: ANN401 - the native class has no stub
@@ -54,24 +55,29 @@ def checked_polygon_mesh(
     seams = None if seam_edges is None else checked_indices(seam_edges, "seam_edges", 2, len(vertices))
     selected = None
     if selected_faces is not None:
-        selected = np.asarray(selected_faces)
-        if selected.dtype != np.bool_ or selected.shape != (len(offsets) - 1,):
-            raise ValueError(
-                f"selected_faces must be {len(offsets) - 1} booleans, one per face, not {selected.dtype} of shape "
-                f"{selected.shape}."
-            )
+        selected = checked_flags(selected_faces, "selected_faces", len(offsets) - 1, "face")
     return vertices, offsets, corners, seams, selected
+
+
+def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.NDArray[np.bool_]:
+    array = checked_array(values, name)
+    if array.dtype != np.bool_ or array.shape != (n,):
+        raise ValueError(f"{name} must be {n} booleans, one per {item}, not {array.dtype} of shape {array.shape}.")
+    return np.ascontiguousarray(array)
 
 
 def checked_at_least(value: float, least: float, name: str) -> float:
     if not (isinstance(value, numbers.Real) and value >= least):
         raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError as error:
+        raise ValueError(f"{name} is too large for a floating-point number; take math.inf for no limit.") from error
 
 
 def check_options(**options: object) -> None:
     for name, value in options.items():
-        if value not in _OPTIONS[name]:
+        if not isinstance(value, str) or value not in _OPTIONS[name]:
             choices = ", ".join(repr(choice) for choice in _OPTIONS[name])
             raise ValueError(f"{name} must be one of {choices}, not {value!r}.")
 
@@ -83,21 +89,32 @@ def checked_progress(progress: Progress | None) -> Progress | None:
 
 
 def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked values; fill them or leave them out.")
     try:
-        return np.asarray(values)
-    except ValueError as error:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{name} is no regular array: {error}.") from error
+    if array.ndim and len(array) > _SIZE_LIMIT + 1:  # of offsets there is one more
+        raise ValueError(
+            f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."
+        )
+    return array
+
+
+def contiguous_floats(array: np.ndarray, name: str) -> npt.NDArray[np.float64]:
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+    # Wider floats that a double does not hold become infinite, and are named as such.
+    with np.errstate(over="ignore"):
+        return np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
 
 
 def checked_floats(values: npt.ArrayLike, name: str, columns: int) -> npt.NDArray[np.float64]:
     array = checked_array(values, name)
-    if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
-    if len(array) > _INDEX_LIMIT:
-        raise ValueError(f"{name} has {len(array)} rows; at most {_INDEX_LIMIT} can be handled.")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return contiguous_floats(array, name)
 
 
 def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -112,17 +129,20 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
         raise ValueError(f"{name} must hold integers, not {array.dtype}.")
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
-    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT or len(array) > _INDEX_LIMIT):
+    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT):
         raise ValueError(
             f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {array.min()} to {array.max()}."
         )
-    return np.ascontiguousarray(array, dtype=np.int32)
+    # A copy: the native module must not read past an array because the caller changes an index later.
+    return np.array(array, dtype=np.int32)
 
 
 def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
     array = checked_array(values, name)
+    if array.size > _SIZE_LIMIT:
+        raise ValueError(f"{name} has {array.size} entries; at most {_SIZE_LIMIT} can be numbered. Split the mesh.")
     if columns is not None:
-        if array.size == 0:
+        if array.shape[:1] == (0,):
             array = np.zeros((0, columns), np.int32)
         if array.ndim != 2 or array.shape[1] != columns:
             raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
@@ -157,11 +177,17 @@ def checked_hole_rigidity(strength: float, method: str) -> float:
 
 def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float]]:
     result = []
-    for k, extender in enumerate(() if extenders is None else extenders):
+    try:
+        triples = iter(() if extenders is None else extenders)
+    except TypeError as error:
+        raise ValueError(
+            f"extenders must be (vertex, vertex, strength) triples, not a {type(extenders).__name__}."
+        ) from error
+    for k, extender in enumerate(triples):
         try:
             first, second, strength = extender
             i, j, strength = operator.index(first), operator.index(second), float(strength)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
         if not (0 <= i < n_vertices and 0 <= j < n_vertices):
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
@@ -204,7 +230,7 @@ def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]
         raise ValueError(
             f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
         )
-    tensors = np.ascontiguousarray(array, dtype=np.float64)
+    tensors = contiguous_floats(array, "metric")
     if not np.isfinite(tensors).all():
         raise ValueError("metric has values that are not finite.")
     size_of = np.abs(tensors).max(axis=(1, 2), initial=0.0)
@@ -219,12 +245,11 @@ def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]
 
 def checked_broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     array = checked_array(values, name)
-    if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     try:
-        return np.ascontiguousarray(np.broadcast_to(array, shape), dtype=np.float64)
+        array = np.broadcast_to(array, shape)
     except ValueError as error:
         raise ValueError(f"{name} must have the shape {shape}, not {array.shape}.") from error
+    return contiguous_floats(array, name)
 
 
 def checked_corner_pins(
@@ -232,11 +257,7 @@ def checked_corner_pins(
 ) -> tuple[npt.NDArray[np.bool_] | None, npt.NDArray[np.float64] | None]:
     if pinned_corners is None:
         return None, None
-    pinned = np.asarray(pinned_corners)
-    if pinned.dtype != np.bool_ or pinned.shape != (n_corners,):
-        raise ValueError(
-            f"pinned_corners must be {n_corners} booleans, one per corner, not {pinned.dtype} of shape {pinned.shape}."
-        )
+    pinned = checked_flags(pinned_corners, "pinned_corners", n_corners, "corner")
     if not pinned.any():
         return None, None
     if corner_uv is None:
@@ -244,7 +265,7 @@ def checked_corner_pins(
     uv = checked_floats(corner_uv, "corner_uv", 2)
     if len(uv) != n_corners:
         raise ValueError(f"corner_uv has {len(uv)} rows, but there are {n_corners} corners.")
-    return np.ascontiguousarray(pinned), uv
+    return pinned, uv
 
 
 def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: int) -> list[tuple[int, float, float]]:
@@ -259,7 +280,7 @@ def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: i
         try:
             index = operator.index(vertex)
             u, v = (float(x) for x in position)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
         if not 0 <= index < n_vertices:
             raise ValueError(f"Vertex {index} is pinned, but there are {n_vertices} vertices.")
