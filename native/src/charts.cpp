@@ -319,7 +319,8 @@ class ChartBuilder {
       chart.triangle_face.push_back(index);
       return;
     }
-    corners_.resize(size, 3);
+    // Not resize: Eigen 3.4 frees the old memory twice where there is no new one.
+    if (corners_.rows() != size) corners_ = Positions(size, 3);
     for (int i = 0; i < size; ++i) {
       const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner(i)]);
       corners_.row(i) << p[0], p[1], p[2];

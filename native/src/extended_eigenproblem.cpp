@@ -84,7 +84,8 @@ class RitzSpace {
   void rayleigh_ritz() {
     const Matrix projected = images_.adjoint() * forces_;
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (projected + projected.adjoint()));
-    coefficients_ = solver.eigenvectors();
+    // Not assigned as it is: Eigen 3.4 frees the old memory twice where there is none for the new size.
+    coefficients_ = Matrix(solver.eigenvectors());
     mu_ = solver.eigenvalues().tail(1).value();
   }
 
