@@ -317,7 +317,7 @@ GARBAGE = (
     {0: (np.nan, 0)}, {2**70: (0, 0)}, {0.5: (0, 0)}, [(0, 1)], [(0, 1, np.nan)], [(0, 2**70, 1)], [(0, 1, 10**400)],
     [[]], {0: (10**400, 0)}, object(), np.float32(0.5), np.int8(1), np.bool_(True), np.array(0.5), np.zeros(2),
     np.array("length"), np.array(["length", "vertex"]), decimal.Decimal("0.5"), fractions.Fraction(1, 2), range(3),
-    iter([1]), memoryview(b"abc"), np.datetime64("2020-01-01"), NoArray(), 10**400, "1e-8", np.ma.masked,
+    {1: 2}.keys(), memoryview(b"abc"), np.datetime64("2020-01-01"), NoArray(), 10**400, "1e-8", np.ma.masked,
 )  # fmt: skip
 
 
