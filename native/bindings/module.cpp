@@ -546,4 +546,5 @@ PYBIND11_MODULE(_native, module) {
   module.def("first_not_positive_definite", &first_not_positive_definite);
   module.def("suggest_seams", &suggest_seams);
   module.def("build_info", &build_info);
+  module.attr("SIZE_LIMIT") = sc::size_limit;
 }

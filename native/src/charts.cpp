@@ -319,7 +319,8 @@ class ChartBuilder {
       chart.triangle_face.push_back(index);
       return;
     }
-    corners_.resize(size, 3);
+    // Not resize: Eigen 3.4 frees the old memory twice where there is no new one.
+    if (corners_.rows() != size) corners_ = Positions(size, 3);
     for (int i = 0; i < size; ++i) {
       const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner(i)]);
       corners_.row(i) << p[0], p[1], p[2];
@@ -348,6 +349,15 @@ class ChartBuilder {
 }  // namespace
 
 void validate(const PolygonMesh& mesh) {
+  const auto check_size = [](int n, const char* what) {
+    if (n <= size_limit) return;
+    throw InvalidMesh("The mesh has " + std::to_string(n) + " " + what + "; at most " + std::to_string(size_limit) +
+                      " can be numbered. Split it into several meshes.");
+  };
+  check_size(mesh.n_vertices, "vertices");
+  check_size(mesh.n_faces, "faces");
+  check_size(mesh.n_faces > 0 ? mesh.face_offsets[mesh.n_faces] : 0, "face corners");
+  check_size(mesh.n_seam_edges, "seam edges");
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (mesh.face_offsets[face + 1] < mesh.face_offsets[face]) {
       throw InvalidMesh("face_offsets must not decrease, but they do after face " + std::to_string(face) + ".");

@@ -30,10 +30,18 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
   assemble(static_cast<int>(positions.rows()));
 }
 
-ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights) : ConformalEnergy(like) {
-  weights_ = weights;
+ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
+    : triangles_(like.triangles_),
+      coverage_(like.coverage_),
+      shapes_(like.shapes_),
+      stretched_(like.stretched_),
+      weights_(weights),
+      n_virtual_(like.n_virtual_),
+      area_(like.area_),
+      covered_(like.covered_),
+      clamped_triangles_(like.clamped_triangles_) {
   weigh();
-  assemble(n_vertices());
+  assemble(like.n_vertices());
 }
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {

@@ -84,6 +84,37 @@ void summarize(Measures& measures) {
   d.p99_qc = percentile(values, 0.99);
 }
 
+/// The exponent of the power of two next to the largest of some finite values; bounded, so that it has an inverse.
+int binary_exponent(double largest) {
+  constexpr int bound = 1000;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::clamp(exponent, -bound, bound);
+}
+
+/// A mesh and a map in units of their own, powers of two, in which squares of lengths neither overflow nor vanish.
+struct InUnits {
+  Positions positions;
+  ComplexVector z;
+  double log2_unit_ratio = 0;  ///< log2 of the map's unit over the mesh's
+  InUnits(const PolygonMesh& mesh, const ComplexVector& map)
+      : positions(Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)), z(map) {
+    double largest = 0;
+    double largest_image = 0;
+    const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
+    for (int c = 0; c < n_corners; ++c) {
+      const int v = mesh.corner_vertices[c];
+      largest = std::max(largest, positions.row(v).cwiseAbs().maxCoeff());
+      largest_image = std::max({largest_image, std::abs(z[v].real()), std::abs(z[v].imag())});
+    }
+    const int unit = binary_exponent(largest);
+    const int image_unit = binary_exponent(largest_image);
+    positions *= std::ldexp(1.0, -unit);
+    z *= std::ldexp(1.0, -image_unit);
+    log2_unit_ratio = image_unit - unit;
+  }
+};
+
 }  // namespace
 
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
@@ -100,9 +131,13 @@ Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
   return std::move(measures.distortion);
 }
 
-Distortion measure_mesh_distortion(const PolygonMesh& mesh, const ComplexVector& z) {
+Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector& map) {
+  validate(given);
+  const InUnits in_units(given, map);
+  const ComplexVector& z = in_units.z;
+  PolygonMesh mesh = given;
+  mesh.positions = in_units.positions.data();
   const ChartDecomposition decomposition = build_charts(mesh);
-  const Eigen::Map<const Positions> positions(mesh.positions, mesh.n_vertices, 3);
   std::vector<std::array<int, 3>> triangles(static_cast<std::size_t>(mesh.n_faces));
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (mesh.face_offsets[face + 1] != mesh.face_offsets[face] + 3) {
@@ -118,8 +153,11 @@ Distortion measure_mesh_distortion(const PolygonMesh& mesh, const ComplexVector&
       }
     }
   }
-  Measures measures = measure_triangles(positions, triangles, {}, z);
+  Measures measures = measure_triangles(in_units.positions, triangles, {}, z);
   summarize(measures);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (measures.area[t] > 0) measures.distortion.log2_scale[static_cast<Eigen::Index>(t)] += in_units.log2_unit_ratio;
+  }
   Distortion& result = measures.distortion;
   result.overlapping = overlapping_triangles(triangles, z);
   result.flipped.assign(triangles.size(), false);

@@ -84,7 +84,8 @@ class RitzSpace {
   void rayleigh_ritz() {
     const Matrix projected = images_.adjoint() * forces_;
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (projected + projected.adjoint()));
-    coefficients_ = solver.eigenvectors();
+    // Not assigned as it is: Eigen 3.4 frees the old memory twice where there is none for the new size.
+    coefficients_ = Matrix(solver.eigenvectors());
     mu_ = solver.eigenvalues().tail(1).value();
   }
 
@@ -98,17 +99,29 @@ class RitzSpace {
   int solves_ = 0;
 };
 
-/// Runs until the residual's length in G is below the tolerance. Returns whether it got there.
+/// Runs until the residual's length in G is below the tolerance, or, where rounding keeps it above, no longer falls.
+/// Returns whether it got there, or near enough for the corrections that follow.
 bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progress& progress) {
+  constexpr double near_enough = 1e-9;
   const int most = options.max_restarts * options.krylov_dimension;
-  while (space.solves() < most) {
+  const int patience = 20 * options.krylov_dimension;
+  double best = std::numeric_limits<double>::infinity();
+  int best_at = space.solves();
+  while (space.solves() < most && space.solves() - best_at < patience) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.1 * space.solves()), "eigenproblem");
     const double length = space.grow(space.residual());
     if (!std::isfinite(space.mu())) return false;
-    if (space.mu() > 0 && length <= options.tolerance * space.mu()) return true;
+    if (space.mu() > 0) {
+      const double relative = length / space.mu();
+      if (relative <= options.tolerance) return true;
+      if (relative < 0.5 * best) {
+        best = relative;
+        best_at = space.solves();
+      }
+    }
     if (space.size() >= 4 * options.krylov_dimension) space.restart(options.krylov_dimension);
   }
-  return false;
+  return best <= near_enough;
 }
 
 /// One step of descent of the quotient E / B from z along the preconditioned residual; r is work space. Returns the

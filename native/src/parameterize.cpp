@@ -182,7 +182,8 @@ std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   const Eigen::RowVector3d high = positions.colwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
-  if (!(extent > std::numeric_limits<double>::min() * 1e16) || !std::isfinite(extent)) {
+  // Within these limits areas, and eigenvalues in the units of the input, are doubles too.
+  if (!(extent > 1e-100 && extent < 1e100)) {
     return "The patch has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
            "delete or rescale it.";
   }
@@ -267,7 +268,8 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
 Solver::ShiftedFactor Solver::factor_shifted(const BoundaryForm& form, double relative_shift,
                                              const Progress& progress) {
   ShiftedFactor result;
-  HermitianMatrix shifted = energy_->matrix();
+  HermitianMatrix shifted;  // Eigen 3.4's copy constructor leaks where memory runs out
+  shifted = energy_->matrix();
   // The median withstands the huge entries of tiny triangles, next to which a shift would drown the small eigenvalues.
   std::vector<double> ratios;
   ratios.reserve(form.vertices.size());
@@ -629,8 +631,9 @@ void Solver::blend_area(const Progress& progress) {
   const IsometricMap relaxed =
       relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->coverage(), energy_->n_virtual(),
                         std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
+  std::string repairs = repairs_;
   if (relaxed.flipped > 0) {
-    repairs_ += count(relaxed.flipped, "triangle", "triangles") + " of the relaxed map could not be unfolded. ";
+    repairs += count(relaxed.flipped, "triangle", "triangles") + " of the relaxed map could not be unfolded. ";
   }
   std::vector<TriangleMetric> metric;
   metric.reserve(energy_->triangles().size());
@@ -640,9 +643,13 @@ void Solver::blend_area(const Progress& progress) {
         blend(metric_of_map(energy_->energy_shapes()[t], relaxed.z[b] - relaxed.z[a], relaxed.z[c] - relaxed.z[a]),
               options_.area_blend));
   }
-  energy_->stretch(metric);
-  is_blended_ = true;
+  // All or nothing: where memory runs out, the next solve begins with what is here now.
+  auto stretched = std::make_unique<ConformalEnergy>(*energy_, energy_->weights());
+  stretched->stretch(metric);
   watch.lap("area blend");
+  energy_ = std::move(stretched);
+  repairs_ = std::move(repairs);
+  is_blended_ = true;
 }
 
 Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "spectral_conformal/mirror_symmetry.h"
 #include "spectral_conformal/piece_seams.h"
@@ -84,10 +85,13 @@ class SeamFinder {
         auto [a, b] = seams.graph().edges()[e].vertices;
         a = copy == 0 ? vertices[a] : symmetry_.vertex[vertices[a]];
         b = copy == 0 ? vertices[b] : symmetry_.vertex[vertices[b]];
-        result_.edges.push_back({std::min(a, b), std::max(a, b)});
+        const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+        // Pieces that meet in an edge of three or more faces may both propose it.
+        if (proposed_.insert(edge).second) result_.edges.push_back(edge);
       }
     }
-    result_.cut_offsets.push_back(static_cast<int>(result_.edges.size()));
+    const int end = static_cast<int>(result_.edges.size());
+    if (end > result_.cut_offsets.back()) result_.cut_offsets.push_back(end);
     length_left_ -= copies(i) * seams.length(cut);
   }
 
@@ -99,6 +103,7 @@ class SeamFinder {
   MirrorSymmetry symmetry_;
   std::vector<PieceMirror> mirrors_;
   std::vector<std::unique_ptr<PieceCutter>> cutters_;
+  std::set<std::array<int, 2>> proposed_;
   SeamSuggestion result_;
 };
 

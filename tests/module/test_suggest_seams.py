@@ -166,3 +166,13 @@ if SHARED.exists():
         mean_qc, within = quality(mesh, sc.suggest_seams(*mesh))
         assert mean_qc <= 1.05
         assert within >= 0.95
+
+
+def test_pieces_that_meet_in_an_edge_propose_it_once():
+    # Two tetrahedra on one edge, found by fuzzing: both are slit along it.
+    vertices = np.array([[0, 0, 0], [0, 0, 1], [1, 0, 0.5], [0, 1, 0.5], [-1, 0, 0.5], [0, -1, 0.5]])
+    tetrahedra = [[a, c, b] for x, y in ((2, 3), (4, 5)) for a, b, c in ((0, 1, x), (0, y, 1), (1, y, x), (x, y, 0))]
+    edges = sc.suggest_seams(vertices, *meshes.polygons(tetrahedra))
+    assert len(np.unique(edges, axis=0)) == len(edges)
+    cuts = sc.suggest_cuts(vertices, *meshes.polygons(tetrahedra))
+    assert min(map(len, cuts)) > 0

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 
 #include "meshes.h"
 #include "spectral_conformal/charts.h"
@@ -292,6 +293,30 @@ TEST_CASE("arrays that do not describe a mesh are refused") {
   refused([](Mesh& mesh) { mesh.corners[5] = -1; });
   refused([](Mesh& mesh) { mesh.seams[0] = {0, 9}; });
   refused([](Mesh& mesh) { mesh.seams[0] = {-1, 0}; });
+}
+
+TEST_CASE("a mesh with more of anything than can be numbered is refused before its arrays are read") {
+  const std::vector<int> offsets{0, size_limit + 1};
+  const auto refused = [](const PolygonMesh& mesh, const std::string& what) {
+    try {
+      validate(mesh);
+      return false;
+    } catch (const InvalidMesh& error) {
+      return std::string(error.what()).find(std::to_string(size_limit + 1) + " " + what) != std::string::npos;
+    }
+  };
+  PolygonMesh mesh;
+  mesh.face_offsets = offsets.data();
+  mesh.n_faces = 1;
+  CHECK(refused(mesh, "face corners"));
+  mesh.n_faces = size_limit + 1;
+  CHECK(refused(mesh, "faces"));
+  mesh.n_faces = 0;
+  mesh.n_vertices = size_limit + 1;
+  CHECK(refused(mesh, "vertices"));
+  mesh.n_vertices = 3;
+  mesh.n_seam_edges = size_limit + 1;
+  CHECK(refused(mesh, "seam edges"));
 }
 
 TEST_SUITE_END();

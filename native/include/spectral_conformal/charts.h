@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,11 @@ struct PolygonMesh {
   int n_seam_edges = 0;
 };
 
-/// Throws InvalidMesh when offsets decrease or an index is out of range.
+/// The most vertices, faces, corners and seam edges, each, that an int can number together with what is made of them:
+/// a corner gives up to two triangles (one of them virtual), those six half-edges, and these six entries of a matrix.
+constexpr int size_limit = std::numeric_limits<int>::max() / 8;
+
+/// Throws InvalidMesh when the mesh is larger than size_limit, offsets decrease or an index is out of range.
 void validate(const PolygonMesh& mesh);
 
 /// A connected patch of faces, consistently wound, with vertices of its own.
@@ -59,7 +64,7 @@ struct ChartDecomposition {
 /// one copy for each of its fans, which splits seams, edges with three or more faces and bow-tie vertices. Faces wound
 /// against the majority of their chart are turned; of several faces on the same vertices one is kept (the others take
 /// its corners' vertices). Polygons are triangulated by triangulate_polygon. Linear in the number of corners.
-/// Throws InvalidMesh when offsets decrease or an index is out of range.
+/// Throws InvalidMesh as validate does.
 ChartDecomposition build_charts(const PolygonMesh& mesh);
 
 }  // namespace spectral_conformal

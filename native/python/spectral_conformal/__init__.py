@@ -4,6 +4,10 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
 
     solution = spectral_conformal.parameterize(vertices, triangles)    # one patch: solution.uv is (V, 2)
     result = spectral_conformal.unwrap(vertices, face_offsets, corner_vertices, seam_edges=seams)   # a polygon mesh
+
+Arguments of any kind or type that cannot be used raise ValueError (InvalidMeshError is one), and a patch whose map
+passes no numerical check SolveError; `unwrap` reports both chart by chart. Too little memory raises MemoryError, a
+progress function that returns False Cancelled; what it raises itself passes through. Arguments are never changed.
 """
 
 from ._api import Solver, Unwrapper, build_info, distortion, map_defects, parameterize, unwrap

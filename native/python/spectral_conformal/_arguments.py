@@ -27,6 +27,7 @@ EXTENDER_LIMIT = 1e4
 HOLE_RIGIDITY_LIMIT = 1e4
 RATIO_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
+_SIZE_LIMIT = _native.SIZE_LIMIT
 
 
 def checked_patch_options(
@@ -65,25 +66,28 @@ def checked_face_offsets(face_offsets: npt.ArrayLike, n_corners: int) -> npt.NDA
 
 
 def checked_face_selection(selected_faces: npt.ArrayLike | None, n_faces: int) -> npt.NDArray[np.bool_] | None:
-    if selected_faces is None:
-        return None
-    selected = np.asarray(selected_faces)
-    if selected.dtype != np.bool_ or selected.shape != (n_faces,):
-        raise ValueError(
-            f"selected_faces must be {n_faces} booleans, one per face, not {selected.dtype} of shape {selected.shape}."
-        )
-    return selected
+    return None if selected_faces is None else checked_flags(selected_faces, "selected_faces", n_faces, "face")
+
+
+def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.NDArray[np.bool_]:
+    array = checked_array(values, name)
+    if array.dtype != np.bool_ or array.shape != (n,):
+        raise ValueError(f"{name} must be {n} booleans, one per {item}, not {array.dtype} of shape {array.shape}.")
+    return np.ascontiguousarray(array)
 
 
 def checked_at_least(value: float, least: float, name: str) -> float:
     if not (isinstance(value, numbers.Real) and value >= least):
         raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError as error:
+        raise ValueError(f"{name} is too large for a floating-point number; take math.inf for no limit.") from error
 
 
 def check_options(**options: object) -> None:
     for name, value in options.items():
-        if value not in _OPTIONS[name]:
+        if not isinstance(value, str) or value not in _OPTIONS[name]:
             choices = ", ".join(repr(choice) for choice in _OPTIONS[name])
             raise ValueError(f"{name} must be one of {choices}, not {value!r}.")
 
@@ -95,21 +99,32 @@ def checked_progress(progress: Progress | None) -> Progress | None:
 
 
 def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked values; fill them or leave them out.")
     try:
-        return np.asarray(values)
-    except ValueError as error:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{name} is no regular array: {error}.") from error
+    if array.ndim and len(array) > _SIZE_LIMIT + 1:  # of offsets there is one more
+        raise ValueError(
+            f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."
+        )
+    return array
+
+
+def contiguous_floats(array: np.ndarray, name: str) -> npt.NDArray[np.float64]:
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+    # Wider floats that a double does not hold become infinite, and are named as such.
+    with np.errstate(over="ignore"):
+        return np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
 
 
 def checked_floats(values: npt.ArrayLike, name: str, columns: int) -> npt.NDArray[np.float64]:
     array = checked_array(values, name)
-    if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
-    if len(array) > _INDEX_LIMIT:
-        raise ValueError(f"{name} has {len(array)} rows; at most {_INDEX_LIMIT} can be handled.")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return contiguous_floats(array, name)
 
 
 def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -124,17 +139,20 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
         raise ValueError(f"{name} must hold integers, not {array.dtype}.")
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
-    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT or len(array) > _INDEX_LIMIT):
+    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT):
         raise ValueError(
             f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {array.min()} to {array.max()}."
         )
-    return np.ascontiguousarray(array, dtype=np.int32)
+    # A copy: the native module must not read past an array because the caller changes an index later.
+    return np.array(array, dtype=np.int32)
 
 
 def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
     array = checked_array(values, name)
+    if array.size > _SIZE_LIMIT:
+        raise ValueError(f"{name} has {array.size} entries; at most {_SIZE_LIMIT} can be numbered. Split the mesh.")
     if columns is not None:
-        if array.size == 0:
+        if array.shape[:1] == (0,):
             array = np.zeros((0, columns), np.int32)
         if array.ndim != 2 or array.shape[1] != columns:
             raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
@@ -169,11 +187,17 @@ def checked_hole_rigidity(strength: float, method: str) -> float:
 
 def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float]]:
     result = []
-    for k, extender in enumerate(() if extenders is None else extenders):
+    try:
+        triples = iter(() if extenders is None else extenders)
+    except TypeError as error:
+        raise ValueError(
+            f"extenders must be (vertex, vertex, strength) triples, not a {type(extenders).__name__}."
+        ) from error
+    for k, extender in enumerate(triples):
         try:
             first, second, strength = extender
             i, j, strength = operator.index(first), operator.index(second), float(strength)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
         if not (0 <= i < n_vertices and 0 <= j < n_vertices):
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
@@ -216,7 +240,7 @@ def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]
         raise ValueError(
             f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
         )
-    tensors = np.ascontiguousarray(array, dtype=np.float64)
+    tensors = contiguous_floats(array, "metric")
     if not np.isfinite(tensors).all():
         raise ValueError("metric has values that are not finite.")
     size_of = np.abs(tensors).max(axis=(1, 2), initial=0.0)
@@ -231,12 +255,11 @@ def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]
 
 def checked_broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     array = checked_array(values, name)
-    if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     try:
-        return np.ascontiguousarray(np.broadcast_to(array, shape), dtype=np.float64)
+        array = np.broadcast_to(array, shape)
     except ValueError as error:
         raise ValueError(f"{name} must have the shape {shape}, not {array.shape}.") from error
+    return contiguous_floats(array, name)
 
 
 def checked_corner_pins(
@@ -244,16 +267,12 @@ def checked_corner_pins(
 ) -> tuple[npt.NDArray[np.bool_] | None, npt.NDArray[np.float64] | None]:
     if pinned_corners is None:
         return None, None
-    pinned = np.asarray(pinned_corners)
-    if pinned.dtype != np.bool_ or pinned.shape != (n_corners,):
-        raise ValueError(
-            f"pinned_corners must be {n_corners} booleans, one per corner, not {pinned.dtype} of shape {pinned.shape}."
-        )
+    pinned = checked_flags(pinned_corners, "pinned_corners", n_corners, "corner")
     if not pinned.any():
         return None, None
     if corner_uv is None:
         raise ValueError("pinned_corners need corner_uv, the positions of the pins.")
-    return np.ascontiguousarray(pinned), checked_corner_uv(corner_uv, n_corners)
+    return pinned, checked_corner_uv(corner_uv, n_corners)
 
 
 def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int) -> npt.NDArray[np.float64]:
@@ -275,7 +294,7 @@ def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: i
         try:
             index = operator.index(vertex)
             u, v = (float(x) for x in position)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
         if not 0 <= index < n_vertices:
             raise ValueError(f"Vertex {index} is pinned, but there are {n_vertices} vertices.")

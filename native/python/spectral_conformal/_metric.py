@@ -27,7 +27,7 @@ def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.Ar
         raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
     if not (np.isfinite(vertices[triangles]).all() and np.isfinite(uv[triangles]).all()):
         raise ValueError("vertices or uv has values that are not finite where a triangle uses them.")
-    metric = _native.metric_from_uv(vertices, triangles, uv)
+    metric = _native.metric_from_uv(in_own_unit(vertices, triangles), triangles, in_own_unit(uv, triangles))
     bad = _native.first_not_positive_definite(metric)
     if bad >= 0:
         raise ValueError(f"The image of triangle {bad} has no area, so the map has no metric there; unfold it first.")
@@ -59,7 +59,7 @@ def metric_from_direction(
         raise ValueError("directions must be finite and not zero.")
     if not ((ratios >= 1.0 / RATIO_LIMIT) & (ratios <= RATIO_LIMIT)).all():
         raise ValueError(f"ratios must lie between {1.0 / RATIO_LIMIT:g} and {RATIO_LIMIT:g}.")
-    return _native.metric_from_direction(vertices, triangles, directions, ratios)
+    return _native.metric_from_direction(in_own_unit(vertices, triangles), triangles, directions, ratios)
 
 
 def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64]:
@@ -76,3 +76,15 @@ def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64
     """
     array = _arguments.checked_tensors(metric, 2)
     return _native.blend_metric(array, _arguments.checked_fraction(amount, "amount"))
+
+
+def in_own_unit(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return positions whose largest coordinate is near 1, by a power of two, so that squares are doubles too.
+
+    The scale of a metric is without effect.
+    """
+    largest = np.abs(positions[triangles]).max(initial=0.0)
+    exponent = np.clip(np.frexp(largest)[1], -1000, 1000)
+    # Vertices that no triangle uses may hold anything.
+    with np.errstate(all="ignore"):
+        return np.ldexp(positions, -exponent)

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One random call of the module, and what must hold whatever it was called with."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import itertools
+import warnings
+
+import numpy as np
+import random_arguments
+import spectral_conformal as sc
+from random_arguments import Interrupted
+from random_meshes import random_mesh, random_patch
+
+# What may come out of a call; anything else, TypeError and warnings included, is a finding.
+EXPECTED = (ValueError, sc.SolveError, sc.Cancelled, MemoryError, Interrupted)
+TARGETS = {
+    "parameterize": 24,
+    "unwrap": 34,
+    "Solver": 10,
+    "Unwrapper": 10,
+    "distortion": 8,
+    "metric_from_uv": 4,
+    "metric_from_direction": 4,
+    "blend_metric": 2,
+    "suggest_seams": 2,
+    "suggest_cuts": 2,
+}
+# suggest_seams solves the mesh once for every cut that it tries.
+SMALL = {"suggest_seams": 8, "suggest_cuts": 8}
+
+
+class Case:
+    """Everything that (seed, number) determines."""
+
+    def __init__(self, seed, number):
+        self.rng = np.random.default_rng([seed, number])
+        shares = np.array(list(TARGETS.values()), float)
+        self.target = str(self.rng.choice(list(TARGETS), p=shares / shares.sum()))
+        one_patch = self.target in ("parameterize", "Solver") and self.rng.random() < 0.7
+        self.mesh = random_patch(self.rng) if one_patch else random_mesh(self.rng, SMALL.get(self.target))
+        self.function = getattr(sc, self.target)
+        self.arguments = random_arguments.random_arguments(self.rng, self.mesh, self.function)
+        self.later = []
+        if self.target in ("Solver", "Unwrapper"):
+            solve = self.function.solve
+            for _ in range(self.rng.integers(1, 4)):
+                self.later.append(random_arguments.random_arguments(self.rng, self.mesh, solve))
+        self.spoiled = []
+        if self.rng.random() < 0.3:
+            which = [self.arguments, *self.later][self.rng.integers(1 + len(self.later))]
+            self.spoiled = random_arguments.spoil(self.rng, which) if which else []
+        self.repeated = self.rng.random() < 0.15
+
+    def describe(self):
+        """What is called, in words."""
+        lines = [f"{self.target} on {len(self.mesh.vertices)} vertices: {self.mesh.description}"]
+        for arguments in (self.arguments, *self.later):
+            lines.append("  with " + ", ".join(f"{name}={shortened(value)}" for name, value in arguments.items()))
+        if self.spoiled:
+            lines.append(f"  spoiled: {', '.join(self.spoiled)}")
+        return "\n".join(lines)
+
+    def run(self):
+        """Call and check; returns what came of it. Raises AssertionError and whatever is not expected."""
+        before = fingerprint([self.arguments, self.later])
+        arguments = copies(self.arguments)
+        outcome = self.call(self.arguments)
+        assert fingerprint([self.arguments, self.later]) == before, "the call has changed its arguments"
+        # A progress function may count its calls.
+        if self.repeated and not any("progress" in given for given in (self.arguments, *self.later)):
+            if not self.spoiled:
+                random_arguments.same_in_another_form(self.rng, arguments)
+            assert same(self.call(arguments), outcome), "the same call has not given the same result"
+        return outcome[-1] if isinstance(outcome[-1], str) else "solved"
+
+    def call(self, arguments):
+        """Return the result of every call; a string in place of one that failed as it may."""
+        if not self.later:
+            return [self.checked(self.function, arguments, arguments)]
+        solver = self.checked(self.function, arguments, arguments)
+        if isinstance(solver, str):
+            return [solver]
+        return [self.checked(solver.solve, own, {**arguments, **own}) for own in self.later]
+
+    def checked(self, function, arguments, known):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                result = function(**arguments)
+        except EXPECTED as error:
+            assert str(error) or isinstance(error, (MemoryError, Interrupted)), "an error without a message"
+            assert not isinstance(error, sc.Cancelled) or "progress" in arguments, "cancelled by nobody"
+            assert not isinstance(error, sc.SolveError) or self.target in ("parameterize", "Solver"), (
+                f"{self.target} must report what fails, and raised {error!r}"
+            )
+            return f"{type(error).__name__}: {error}"
+        check = CHECKS.get(type(result).__name__, CHECKS.get(self.target))
+        if check is not None:
+            check(result, known)
+        return result
+
+
+# What must hold of a result
+
+# The weights of the mean add up to 1 but for rounding.
+LEAST_MEAN_QC = 1 - 1e-12
+
+
+def check_parameterization(result, known):
+    assert result.uv.shape == (len(known["vertices"]), 2)
+    assert np.isfinite(result.uv).all()
+    assert np.isfinite(result.eigenvalue)
+    assert 0 <= result.residual < 1e-3
+    method = known.get("method", "spectral")
+    assert isinstance(result.message, str)
+    if method == "spectral" and not known.get("extenders") and not known.get("hole_rigidity"):
+        assert abs(result.turning_number) == 1
+    pins = known.get("pins") or {}
+    if len(pins) > 1 and method == "lscm":
+        for vertex, position in pins.items():
+            assert tuple(result.uv[vertex]) == tuple(map(float, position)), "a pin has moved"
+
+
+def check_unwrap(result, known):
+    corners = len(known["corner_vertices"])
+    offsets = np.asarray(known["face_offsets"]).astype(np.int64)
+    assert result.uv.shape == (corners, 2)
+    assert np.isfinite(result.uv).all()
+    assert not result.uv[~result.solved_corners].any()
+    faces = [np.flatnonzero(result.chart_of_face == i) for i in range(len(result.charts))]
+    selected = known.get("selected_faces")
+    inside = np.ones(len(offsets) - 1, bool) if selected is None else np.asarray(selected)
+    assert ((result.chart_of_face >= 0) == inside).all()
+    solved = np.zeros(corners, bool)
+    for chart, its_faces in zip(result.charts, faces):
+        assert np.array_equal(chart.faces, its_faces)
+        check_chart(chart)
+        for face in its_faces if chart.status == "solved" else []:
+            solved[offsets[face] : offsets[face + 1]] = True
+    assert np.array_equal(solved, result.solved_corners)
+
+
+def check_chart(chart):
+    numbers = (chart.eigenvalue, chart.residual, chart.mean_qc, chart.max_qc)
+    if chart.status == "failed":
+        assert chart.message.endswith(".")
+        assert np.isnan(numbers).all()
+        return
+    assert np.isfinite(numbers[:2]).all()
+    assert not np.isnan(numbers).any()
+    assert chart.mean_qc >= LEAST_MEAN_QC
+    assert 0 <= chart.flipped <= len(chart.faces)
+
+
+def check_distortion(result, known):
+    n = len(np.asarray(known["triangles"]))
+    for values in (result.qc, result.log2_scale, result.flipped, result.overlapping):
+        assert values.shape == (n,)
+    assert (result.qc >= 1).all()
+    for number in (result.mean_qc, result.p95_qc, result.p99_qc, result.max_qc):
+        assert number >= LEAST_MEAN_QC or n == 0
+    assert not np.isnan(result.log2_scale).any()
+
+
+def check_metric(result, known):
+    assert result.ndim == 3
+    assert np.isfinite(result).all()
+    assert np.array_equal(result, result.transpose(0, 2, 1))
+    assert (np.trace(result, axis1=1, axis2=2) > 0).all()
+
+
+def check_seams(result, known):
+    edges = np.concatenate([np.zeros((0, 2), np.int32), *result]) if isinstance(result, list) else result
+    assert edges.dtype == np.int32
+    assert edges.shape[1:] == (2,)
+    found = [(int(a), int(b)) for a, b in edges]
+    assert all(a < b for a, b in found)
+    assert len(set(found)) == len(found), "a seam twice"
+    offsets = np.asarray(known["face_offsets"]).astype(np.int64)
+    corners = np.asarray(known["corner_vertices"]).astype(np.int64)
+    following = np.arange(1, len(corners) + 1)
+    filled = offsets[1:] > offsets[:-1]
+    following[offsets[1:][filled] - 1] = offsets[:-1][filled]
+    sides = {(min(a, b), max(a, b)) for a, b in zip(corners.tolist(), corners[following].tolist())}
+    assert set(found) <= sides, "a seam that is no edge"
+    seams = known.get("seam_edges")
+    given = set() if seams is None else {(min(a, b), max(a, b)) for a, b in np.asarray(seams).tolist()}
+    assert not set(found) & given, "a seam that the mesh had"
+
+
+CHECKS = {
+    "Parameterization": check_parameterization,
+    "Unwrap": check_unwrap,
+    "Distortion": check_distortion,
+    "metric_from_uv": check_metric,
+    "metric_from_direction": check_metric,
+    "blend_metric": check_metric,
+    "suggest_seams": check_seams,
+    "suggest_cuts": check_seams,
+}
+
+
+# Comparing
+
+
+def fingerprint(value):
+    """Something that is equal for equal arguments, bit for bit."""
+    if isinstance(value, dict):
+        return [(key, fingerprint(item)) for key, item in value.items()]
+    if isinstance(value, (list, tuple)):
+        return [type(value), [fingerprint(item) for item in value]]
+    if type(value) is np.ndarray:
+        if 0 in value.strides:
+            return (value.shape, value.strides, value.dtype.str)
+        return (value.shape, value.strides, value.dtype.str, value.tobytes())
+    return repr(value)
+
+
+def copies(arguments):
+    """Arguments that share no array with the given ones."""
+    return {name: value.copy() if own_array(value) else value for name, value in arguments.items()}
+
+
+def own_array(value):
+    return type(value) is np.ndarray and 0 not in value.strides and value.dtype != object
+
+
+def same(left, right):
+    """Whether two results agree bit for bit, but for the time they took."""
+    if dataclasses.is_dataclass(left):
+        names = [field.name for field in dataclasses.fields(left) if field.name != "timings"]
+        return type(left) is type(right) and all(same(getattr(left, n), getattr(right, n)) for n in names)
+    if isinstance(left, np.ndarray):
+        return left.shape == right.shape and left.tobytes() == right.tobytes()
+    if isinstance(left, list):
+        return len(left) == len(right) and all(itertools.starmap(same, zip(left, right)))
+    if isinstance(left, float):
+        return left == right or (left != left and right != right)
+    return left == right
+
+
+def shortened(value):
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype}{value.shape}"
+    text = repr(copy.copy(value)) if not callable(value) else getattr(value, "__name__", "callable")
+    return text if len(text) < 100 else text[:100] + "..."

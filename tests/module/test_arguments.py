@@ -1,0 +1,153 @@
+"""Arguments that random calls (tests/fuzz) have shown to be taken badly: each is refused by name, or has no effect."""
+
+import math
+
+import meshes
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+FAR_TOO_MANY = [2**31, 2**40]
+
+
+def disk():
+    vertices, triangles = meshes.bumpy_disk(60)
+    return vertices, triangles.astype(np.int32)
+
+
+def longer(array, n):
+    """An array of n rows that takes the memory of one."""
+    return np.broadcast_to(array[:1], (n, *array.shape[1:]))
+
+
+@pytest.mark.parametrize("n", FAR_TOO_MANY)
+@pytest.mark.parametrize("name", ["vertices", "triangles"])
+def test_more_rows_than_can_be_numbered(name, n):
+    arguments = dict(zip(("vertices", "triangles"), disk()))
+    arguments[name] = longer(arguments[name], n)
+    with pytest.raises(ValueError, match=f"{name} has {n} rows; at most .* Split the mesh"):
+        sc.parameterize(**arguments)
+    with pytest.raises(ValueError, match=f"{name} has {n} rows"):
+        sc.distortion(**arguments, uv=np.zeros((3, 2)))
+
+
+@pytest.mark.parametrize("n", FAR_TOO_MANY)
+@pytest.mark.parametrize(
+    "name", ["vertices", "face_offsets", "corner_vertices", "seam_edges", "selected_faces", "pinned_corners", "metric"]
+)
+def test_more_rows_of_a_polygon_mesh_than_can_be_numbered(name, n):
+    vertices, triangles = disk()
+    offsets, corners = meshes.polygons(triangles)
+    arguments = {
+        "vertices": vertices,
+        "face_offsets": offsets,
+        "corner_vertices": corners,
+        "seam_edges": triangles[:, :2],
+        "selected_faces": np.ones(len(triangles), bool),
+        "pinned_corners": np.zeros(len(corners), bool),
+        "metric": np.tile(np.eye(3), (len(triangles), 1, 1)),
+    }
+    arguments[name] = longer(arguments[name], n)
+    with pytest.raises(ValueError, match=f"{name} has {n} rows; at most"):
+        sc.unwrap(**arguments)
+
+
+def test_triangles_whose_corners_are_more_than_can_be_numbered():
+    vertices, triangles = disk()
+    with pytest.raises(ValueError, match="triangles has .* entries; at most"):
+        sc.parameterize(vertices, longer(triangles, 2**27))
+
+
+@pytest.mark.parametrize("extenders", [5, 0.5, np.array(0.5), object(), [(0, 1, 10**400)], [(0, 1)], [3]])
+def test_extenders_that_are_no_triples(extenders):
+    with pytest.raises(ValueError, match="triples"):
+        sc.parameterize(*disk(), extenders=extenders)
+
+
+def test_numbers_that_no_float_holds():
+    vertices, triangles = disk()
+    with pytest.raises(ValueError, match="pins must map"):
+        sc.parameterize(vertices, triangles, method="lscm", pins={0: (10**400, 0)})
+    with pytest.raises(ValueError, match="max_length"):
+        sc.suggest_seams(vertices, *meshes.polygons(triangles), max_length=10**400)
+    assert len(sc.suggest_seams(vertices, *meshes.polygons(triangles), max_length=math.inf)) >= 0
+
+
+def test_masked_values_are_not_taken_for_values():
+    vertices, triangles = disk()
+    masked = np.ma.masked_array(vertices, np.zeros(vertices.shape, bool))
+    assert sc.parameterize(masked, triangles).message == ""
+    masked[3, 0] = np.ma.masked
+    with pytest.raises(ValueError, match="vertices has masked values"):
+        sc.parameterize(masked, triangles)
+
+
+def test_indices_that_change_after_the_call_do_no_harm():
+    vertices, triangles = disk()
+    offsets, corners = (array.astype(np.int32) for array in meshes.polygons(triangles))
+    unwrapper = sc.Unwrapper(vertices, offsets, corners)
+    expected = unwrapper.solve().uv
+    corners[:] = 2**31 - 1
+    offsets[:] = -5
+    assert np.array_equal(unwrapper.solve().uv, expected)
+
+
+def test_unaligned_and_byte_swapped_arrays_are_values_like_others():
+    vertices, triangles = disk()
+    expected = sc.parameterize(vertices, triangles).uv
+    raw = np.zeros(vertices.nbytes + 1, np.uint8)
+    unaligned = raw[1:].view(float).reshape(vertices.shape)
+    unaligned[...] = vertices
+    for same in (unaligned, vertices.astype(">f8"), np.asfortranarray(vertices)):
+        assert np.array_equal(sc.parameterize(same, triangles.astype(">u8")).uv, expected)
+
+
+@pytest.mark.parametrize("unit", [1e-99, 1e-50, 1e50, 1e98])
+def test_every_unit_in_which_areas_are_doubles(unit):
+    vertices, triangles = disk()
+    expected = sc.parameterize(vertices, triangles, weights="inverse_area")
+    solution = sc.parameterize(unit * vertices, triangles, weights="inverse_area")
+    assert np.allclose(solution.uv / unit, expected.uv, atol=1e-9)
+    assert np.isfinite(solution.eigenvalue)
+    assert solution.eigenvalue > 0
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e-160, 1e155, 1e307])
+def test_units_in_which_areas_are_no_doubles(unit):
+    vertices, triangles = disk()
+    with pytest.raises(sc.InvalidMeshError, match="no extent that double precision can hold"):
+        sc.parameterize(unit * vertices, triangles)
+    (chart,) = sc.unwrap(unit * vertices, *meshes.polygons(triangles)).charts
+    assert (chart.status, "rescale" in chart.message) == ("failed", True)
+
+
+@pytest.mark.parametrize(("unit", "image_unit"), [(1e-300, 1), (1e-200, 1e200), (1e155, 1e-170), (1e307, 1e307)])
+def test_distortion_is_measured_in_every_unit(unit, image_unit):
+    vertices, triangles = disk()
+    uv = sc.parameterize(vertices, triangles).uv
+    expected = sc.distortion(vertices, triangles, uv)
+    # A vertex that no triangle uses has no say.
+    scaled = sc.distortion(np.r_[unit * vertices, [[1e308] * 3]], triangles, np.r_[image_unit * uv, [[1e308, 0]]])
+    assert np.allclose(scaled.qc, expected.qc)
+    assert scaled.mean_qc == pytest.approx(expected.mean_qc)
+    assert np.allclose(scaled.log2_scale - expected.log2_scale, math.log2(image_unit) - math.log2(unit))
+    assert scaled.log2_scale_deviation == pytest.approx(expected.log2_scale_deviation)
+    assert np.array_equal(scaled.flipped, expected.flipped)
+    assert np.array_equal(scaled.overlapping, expected.overlapping)
+    assert scaled.turning_number == expected.turning_number
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e-160, 1e155, 1e307])
+def test_metrics_are_found_in_every_unit(unit):
+    vertices, triangles = disk()
+    uv = vertices[:, :2] @ [[1, 0.3], [0, 2]]
+
+    def shape(metric):
+        return metric / np.sqrt(np.linalg.det(metric))[:, None, None]
+
+    expected = shape(sc.metric_from_uv(vertices, triangles, uv))
+    assert np.allclose(shape(sc.metric_from_uv(unit * vertices, triangles, uv / unit)), expected)
+    assert np.allclose(
+        sc.metric_from_direction(unit * vertices, triangles, [1, 0, 0], 2),
+        sc.metric_from_direction(vertices, triangles, [1, 0, 0], 2),
+    )

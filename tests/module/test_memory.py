@@ -1,0 +1,127 @@
+"""Too little memory is an error, not a crash; solves that succeed, fail or are cancelled leave nothing behind."""
+
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+PRELUDE = """
+import resource, sys
+import numpy as np
+import spectral_conformal as sc
+
+def resident():
+    return int(open("/proc/self/statm").read().split()[1]) * resource.getpagesize()
+
+def grid(n):
+    t = np.linspace(-1, 1, n)
+    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
+    i, j = (a.ravel() for a in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij"))
+    a = i * n + j
+    triangles = np.r_[np.c_[a, a + n, a + n + 1], np.c_[a, a + n + 1, a + 1]]
+    return np.c_[x, y, x * y + 0.2 * np.sin(3 * x)], triangles
+
+def polygons(triangles):
+    return np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
+"""
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc and limits the address space")
+
+
+def run(program):
+    """Run a program in a process of its own; returns what it printed."""
+    result = subprocess.run(
+        [sys.executable, "-c", PRELUDE + textwrap.dedent(program)], capture_output=True, text=True, check=False
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+@pytest.mark.parametrize("factorization", ["auto", "eigen"])
+@pytest.mark.parametrize("call", ["parameterize", "unwrap", "Solver", "Unwrapper"])
+def test_too_little_memory_for_a_mesh_is_an_error_and_a_small_one_is_solved_after(call, factorization):
+    # 300,000 vertices take about 400 MB, most of it the factor; the margins end in different places of the work.
+    program = f"""
+        small = grid(30)
+        large = grid(550)
+        expected = sc.parameterize(*small).uv
+        sc.parameterize(*small, factorization="{factorization}")
+
+        def solve(vertices, triangles):
+            if "{call}" in ("parameterize", "unwrap"):
+                function = sc.{call}
+                mesh = (triangles,) if function is sc.parameterize else polygons(triangles)
+                return function(vertices, *mesh, factorization="{factorization}").uv
+            mesh = (triangles,) if "{call}" == "Solver" else polygons(triangles)
+            return sc.{call}(vertices, *mesh, factorization="{factorization}").solve().uv
+
+        used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+        for margin in (20, 60, 100, 140, 180):
+            limit = used + margin * 2**20
+            resource.setrlimit(resource.RLIMIT_AS, (limit, resource.RLIM_INFINITY))
+            try:
+                solve(*large)
+                print("solved")
+            except MemoryError:
+                print("MemoryError")
+            assert np.array_equal(sc.parameterize(*small).uv, expected)
+    """
+    printed = run(program).split()
+    assert printed.count("MemoryError") >= 3, printed
+
+
+LOOPS = {
+    "parameterize": "sc.parameterize(*mesh, factorization=backend)",
+    "unwrap": "sc.unwrap(mesh[0], *polygons(mesh[1]), factorization=backend, fill_holes=True)",
+    "suggest_seams": "sc.suggest_seams(*tiny, factorization=backend)",
+    "distortion": "sc.distortion(*mesh, uv)",
+    "Solver.solve": "solver.solve(extenders=[(0, 70 + i % 50, 1.0)], hole_rigidity=0.1)",
+    "Unwrapper.solve": "unwrapper.solve(extenders=[(0, 70 + i % 50, 1.0)])",
+    "cancelled": "expect(sc.Cancelled, sc.parameterize, *mesh, factorization=backend, progress=after(i % 12))",
+    "raising": "expect(KeyError, sc.unwrap, mesh[0], *polygons(mesh[1]), progress=raising)",
+    "rejected": "expect(ValueError, sc.parameterize, mesh[0] * np.nan, mesh[1])",
+    "failing": "expect(ValueError, sc.parameterize, *mesh, method='lscm', pins={0: (0, 0), 5: (0, 0)})",
+}
+
+
+@pytest.mark.parametrize("backend", ["cholmod", "eigen"])
+@pytest.mark.parametrize("name", LOOPS)
+def test_memory_does_not_grow_over_a_thousand_solves(name, backend):
+    rounds = 100 if name == "suggest_seams" else 1000
+    program = f"""
+        backend = "{backend}"
+        mesh = grid(18)
+        tiny = (grid(5)[0], *polygons(grid(5)[1]))
+        uv = mesh[0][:, :2]
+        solver = sc.Solver(*mesh, factorization=backend)
+        unwrapper = sc.Unwrapper(mesh[0], *polygons(mesh[1]), factorization=backend)
+
+        def expect(error, function, *arguments, **options):
+            try:
+                function(*arguments, **options)
+            except error:
+                return
+            raise AssertionError("no error")
+
+        def after(n):
+            left = [n]
+            def listen(fraction, phase):
+                left[0] -= 1
+                return left[0] >= 0 and phase != "eigenproblem"
+            return listen
+
+        def raising(fraction, phase):
+            raise KeyError(phase)
+
+        def loop(n):
+            for i in range(n):
+                {LOOPS[name]}
+
+        loop({rounds // 4})
+        before = resident()
+        loop({rounds})
+        print(resident() - before)
+    """
+    # A leak of one vector of 324 complex numbers per solve would be 5 MB; allocators keep a few pages back.
+    assert int(run(program)) < 1024**2
