@@ -1,11 +1,10 @@
 #include "spectral_conformal/injectivity.h"
 
-#include <CGAL/Box_intersection_d/Box_with_handle_d.h>
-#include <CGAL/box_intersection_d.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "spectral_conformal/box_tree.h"
 
 namespace spectral_conformal {
 namespace {
@@ -48,26 +47,25 @@ bool certainly_apart(const BoundaryEdge& first, const BoundaryEdge& second, cons
 }
 
 bool certainly_simple(const std::vector<BoundaryEdge>& edges, const ComplexVector& z) {
-  using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 2, const BoundaryEdge*>;
-  std::vector<Box> boxes;
+  std::vector<PlaneBox> boxes;
   boxes.reserve(edges.size());
   for (const BoundaryEdge& edge : edges) {
     const Complex a = z[edge.from];
     const Complex b = z[edge.to];
-    double low[2] = {std::min(a.real(), b.real()), std::min(a.imag(), b.imag())};
-    double high[2] = {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())};
-    boxes.emplace_back(low, high, &edge);
+    boxes.push_back({{std::min(a.real(), b.real()), std::min(a.imag(), b.imag())},
+                     {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())}});
   }
-  // CGAL goes through all pairs; only an exception ends that early, and a tangled boundary has a square of them.
-  struct Contact {};
-  try {
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& first, const Box& second) {
-      if (!certainly_apart(*first.handle(), *second.handle(), z)) throw Contact{};
+  const BoxTree tree(boxes);
+  bool simple = true;
+  for (int i = 0; simple && i < static_cast<int>(edges.size()); ++i) {
+    tree.for_each_meeting(boxes[static_cast<std::size_t>(i)], [&](int other) {
+      // Each pair once.
+      if (other <= i) return true;
+      simple = certainly_apart(edges[static_cast<std::size_t>(i)], edges[static_cast<std::size_t>(other)], z);
+      return simple;
     });
-  } catch (const Contact&) {
-    return false;
   }
-  return true;
+  return simple;
 }
 
 /// 1 for a loop that certainly runs counter-clockwise, -1 for clockwise, 0 in doubt.

@@ -1,11 +1,12 @@
 #include "spectral_conformal/overlap.h"
 
-#include <CGAL/Box_intersection_d/Box_with_handle_d.h>
-#include <CGAL/box_intersection_d.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
 
+#include "spectral_conformal/box_tree.h"
 #include "spectral_conformal/injectivity.h"
 #include "spectral_conformal/map_triangulation.h"
 
@@ -51,11 +52,7 @@ bool separated_by_side(const PlaneTriangle& a, const PlaneTriangle& b, double to
   return false;
 }
 
-/// The handle tells which triangle it is.
-using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 2, const std::array<int, 3>*>;
-constexpr std::ptrdiff_t cutoff = 10;  // CGAL's default, below which it looks at all pairs
-
-/// The triangles of a map, and which of them were found to overlap.
+/// The triangles of a map, and which of them were found to overlap others.
 class OverlapTest {
  public:
   OverlapTest(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map, const std::vector<int>& face,
@@ -63,79 +60,77 @@ class OverlapTest {
       : triangles_(triangles), face_(face), resolution_(resolution), overlapping_(triangles.size(), false) {
     // Products of coordinates must neither overflow nor vanish, whatever the unit.
     const double extent = map.size() == 0 ? 0 : map.cwiseAbs().maxCoeff();
-    if (!(extent > 0)) return;
-    z_ = map / extent;
-    boxes_.reserve(triangles.size());
-    for (const auto& triangle : triangles) boxes_.push_back(box_of(triangle));
+    if (extent > 0) z_ = map / extent;
   }
 
-  /// Looks at all pairs.
-  std::vector<bool> among_all() {
-    std::vector<PlaneTriangle> in_plane;
-    in_plane.reserve(boxes_.size());
-    for (std::size_t t = 0; t < boxes_.size(); ++t) in_plane.push_back(placed(t));
-    CGAL::box_self_intersection_d(
-        boxes_.begin(), boxes_.end(),
-        [&](const Box& first, const Box& second) {
-          const std::size_t a = index(first);
-          const std::size_t b = index(second);
-          if (is_open(a, b)) compare(a, in_plane[a], b, in_plane[b]);
-        },
-        cutoff, CGAL::Box_intersection_d::HALF_OPEN);
+  const std::vector<bool>& among_all() {
+    std::vector<int> all(triangles_.size());
+    std::iota(all.begin(), all.end(), 0);
+    look_for(all, true);
     return overlapping_;
   }
 
-  /// Looks at pairs with one of these only, which should be few.
-  std::vector<bool> with(const std::vector<int>& some) {
-    if (boxes_.empty()) return overlapping_;
-    std::vector<Box> some_boxes;
-    some_boxes.reserve(some.size());
-    for (const int triangle : some) some_boxes.push_back(boxes_[static_cast<std::size_t>(triangle)]);
-    CGAL::box_intersection_d(
-        some_boxes.begin(), some_boxes.end(), boxes_.begin(), boxes_.end(),
-        [&](const Box& first, const Box& second) {
-          const std::size_t a = index(first);
-          const std::size_t b = index(second);
-          if (a != b && is_open(a, b)) compare(a, placed(a), b, placed(b));
-        },
-        cutoff, CGAL::Box_intersection_d::HALF_OPEN);
+  /// Looks at pairs with one of these only.
+  const std::vector<bool>& with(std::vector<int> some) {
+    look_for(some, true);
+    // Of these, what overlaps none of them may overlap others, which had found another of them first.
+    some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlapping_[t]; }), some.end());
+    look_for(some, false);
     return overlapping_;
   }
 
  private:
-  Box box_of(const std::array<int, 3>& triangle) const {
-    const Complex a = z_[triangle[0]];
-    const Complex b = z_[triangle[1]];
-    const Complex c = z_[triangle[2]];
-    double low[2] = {std::min({a.real(), b.real(), c.real()}), std::min({a.imag(), b.imag(), c.imag()})};
-    double high[2] = {std::max({a.real(), b.real(), c.real()}), std::max({a.imag(), b.imag(), c.imag()})};
-    return {low, high, &triangle};
+  /// Asks every triangle which of `some` it overlaps; with `one_is_enough` only until there is one, so that faces which
+  /// are stacked a thousandfold do not cost a million pairs.
+  void look_for(const std::vector<int>& some, bool one_is_enough) {
+    if (z_.size() == 0) return;
+    std::vector<PlaneTriangle> placed;
+    std::vector<PlaneBox> boxes;
+    placed.reserve(some.size());
+    boxes.reserve(some.size());
+    for (const int triangle : some) {
+      placed.push_back(place(static_cast<std::size_t>(triangle)));
+      boxes.push_back(box_of(static_cast<std::size_t>(triangle)));
+    }
+    const BoxTree tree(boxes);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (one_is_enough && overlapping_[t]) continue;
+      std::optional<PlaneTriangle> own;
+      tree.for_each_meeting(box_of(t), [&](int k) {
+        const auto other = static_cast<std::size_t>(some[static_cast<std::size_t>(k)]);
+        if (other == t || (!face_.empty() && face_[other] == face_[t])) return true;
+        if (overlapping_[t] && overlapping_[other]) return true;
+        if (!own) own = place(t);
+        if (!overlap(*own, placed[static_cast<std::size_t>(k)])) return true;
+        overlapping_[t] = true;
+        overlapping_[other] = true;
+        return !one_is_enough;
+      });
+    }
   }
 
-  std::size_t index(const Box& box) const { return static_cast<std::size_t>(box.handle() - triangles_.data()); }
-
-  PlaneTriangle placed(std::size_t t) const {
+  PlaneTriangle place(std::size_t t) const {
     const auto& [a, b, c] = triangles_[t];
     return PlaneTriangle({z_[a], z_[b], z_[c]});
   }
 
-  /// Whether the pair could tell something new.
-  bool is_open(std::size_t a, std::size_t b) const {
-    return !(overlapping_[a] && overlapping_[b]) && (face_.empty() || face_[a] != face_[b]);
+  PlaneBox box_of(std::size_t t) const {
+    const Complex a = z_[triangles_[t][0]];
+    const Complex b = z_[triangles_[t][1]];
+    const Complex c = z_[triangles_[t][2]];
+    return {{std::min({a.real(), b.real(), c.real()}), std::min({a.imag(), b.imag(), c.imag()})},
+            {std::max({a.real(), b.real(), c.real()}), std::max({a.imag(), b.imag(), c.imag()})}};
   }
 
-  void compare(std::size_t one, const PlaneTriangle& a, std::size_t other, const PlaneTriangle& b) {
+  bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {
     const double tolerance = std::max(1e-9 * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
-    if (separated_by_side(a, b, tolerance) || separated_by_side(b, a, tolerance)) return;
-    overlapping_[one] = true;
-    overlapping_[other] = true;
+    return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
   }
 
   const std::vector<std::array<int, 3>>& triangles_;
   const std::vector<int>& face_;
   double resolution_;
-  ComplexVector z_;
-  std::vector<Box> boxes_;
+  ComplexVector z_;  ///< empty where the map has no extent
   std::vector<bool> overlapping_;
 };
 
@@ -151,9 +146,9 @@ std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, d
   std::vector<bool> overlapping;
   // Without a consistent orientation the edges within the patch do not cancel.
   if (chart.orientable && has_degree_at_most_one(chart.boundary_loops, z)) {
-    const std::vector<int> doubtful = doubtful_triangles(map.triangles, z);
+    std::vector<int> doubtful = doubtful_triangles(map.triangles, z);
     if (doubtful.empty()) return {};
-    overlapping = OverlapTest(map.triangles, z, map.face, resolution).with(doubtful);
+    overlapping = OverlapTest(map.triangles, z, map.face, resolution).with(std::move(doubtful));
   } else {
     overlapping = OverlapTest(map.triangles, z, map.face, resolution).among_all();
   }

@@ -106,6 +106,15 @@ TEST_CASE("a collapsed triangle covers nothing") {
   CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
 }
 
+TEST_CASE("a great many triangles stacked on each other are answered without looking at all pairs") {
+  constexpr int n = 300000;
+  const Triangles stack(n, {0, 1, 2});
+  ComplexVector z(3);
+  z << 0.0, 1.0, Complex(0, 1);
+  const std::vector<bool> overlapping = overlapping_triangles(stack, z);
+  CHECK(std::count(overlapping.begin(), overlapping.end(), true) == n);
+}
+
 TEST_CASE("triangles of one face do not count as covering each other, nor what single precision cannot resolve") {
   const Triangles two{{0, 1, 2}, {3, 4, 5}};
   ComplexVector z(6);

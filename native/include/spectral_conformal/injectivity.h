@@ -23,7 +23,7 @@ namespace spectral_conformal {
 
 /// Whether the boundary proves that the degree is 0 or 1 everywhere: all loops are simple, disjoint polygons, one of
 /// them counter-clockwise. False in doubt: where rounding may have changed a sign, where an edge has collapsed and
-/// where the boundary touches itself. loops: all of the patch, as in Chart; z (V,), finite. O(n log^2 n) for n boundary
+/// where the boundary touches itself. loops: all of the patch, as in Chart; z (V,), finite. O(n log n) for n boundary
 /// edges.
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 

@@ -8,9 +8,10 @@
 namespace spectral_conformal {
 
 /// For each triangle of a map, whether its interior meets that of another triangle, of another face where `face` tells
-/// the face of each. Candidates come from CGAL's box intersection, O(n log^2 n + pairs); a pair overlaps when no side
-/// of either separates them. Contacts do not count that are less deep than 1e-9 of the smaller triangle's size, or than
-/// `resolution` times the largest coordinate that the two have. map (V,) must be finite; face (F,) or empty.
+/// the face of each. Candidates come from a BoxTree, O(n log n) where boxes meet few others that do not overlap; a pair
+/// overlaps when no side of either separates them. Contacts do not count that are less deep than 1e-9 of the smaller
+/// triangle's size, or than `resolution` times the largest coordinate that the two have. map (V,) must be finite; face
+/// (F,) or empty.
 std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map,
                                         const std::vector<int>& face = {}, double resolution = 0);
 

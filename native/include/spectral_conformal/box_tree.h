@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace spectral_conformal {
+
+/// A rectangle with sides along the axes, its border included.
+struct PlaneBox {
+  std::array<double, 2> low;
+  std::array<double, 2> high;
+
+  bool meets(const PlaneBox& other) const {
+    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];
+  }
+  void include(const PlaneBox& other);
+};
+
+/// A balanced binary tree of boxes, built in O(n log n), that finds those which meet a given one.
+class BoxTree {
+ public:
+  explicit BoxTree(const std::vector<PlaneBox>& boxes);
+
+  /// Calls visit(index) for the boxes that meet `box`, until it returns false.
+  template <class Visit>
+  void for_each_meeting(const PlaneBox& box, Visit&& visit) const {
+    // Twice the depth of a balanced tree of as many boxes as an int can count.
+    std::array<int, 64> stack;
+    int top = 0;
+    if (!nodes_.empty()) stack[top++] = 0;
+    while (top > 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(stack[--top])];
+      if (!node.box.meets(box)) continue;
+      if (node.second_child > 0) {
+        stack[top++] = node.second_child;
+        stack[top++] = static_cast<int>(&node - nodes_.data()) + 1;
+        continue;
+      }
+      for (int i = node.first; i < node.last; ++i) {
+        const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
+        if (leaf.box.meets(box) && !visit(leaf.index)) return;
+      }
+    }
+  }
+
+ private:
+  struct Leaf {
+    PlaneBox box;
+    int index;
+  };
+  struct Node {
+    PlaneBox box;
+    int first;         ///< of its leaves
+    int last;          ///< beyond its leaves
+    int second_child;  ///< the first one follows the node; 0 where it has none
+  };
+
+  int build(int first, int last);
+
+  std::vector<Leaf> leaves_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace spectral_conformal
