@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Unwrap the meshes in edit mode: read, solve, place, write, pack."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 
 import bpy
@@ -11,6 +12,9 @@ from . import mesh_io, packing
 from .core import reporting, unwrapping
 from .core.unwrapping import Solution
 from .mesh_io import EditMesh
+
+# What is entered for the time in which UVs are written: live unwrapping must not follow the pins that an unwrap moves.
+around_writing: list[Callable[[], AbstractContextManager[None]]] = []
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,10 @@ def write(
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
-    _write(context, solved, None if settings.keep_in_place else settings.margin)
+    with ExitStack() as stack:
+        for enter in around_writing:
+            stack.enter_context(enter())
+        _write(context, solved, None if settings.keep_in_place else settings.margin)
     return Outcome(
         summary,
         placement.without_bounds,
