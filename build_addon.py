@@ -16,20 +16,23 @@ from tools.steps import StepError
 
 
 def parse(arguments: list[str] | None = None) -> argparse.Namespace:
-    """Read the command line; arguments that `test` does not know are pytest's."""
+    """Read the command line; further arguments of `test` are pytest's, those of `fuzz-scenes` are its script's."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
     command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
     command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; Suzanne when left out")
     commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
+    commands.add_parser(
+        "fuzz-scenes", help="random scenes through the operators; --help tells what else", add_help=False
+    )
     command = commands.add_parser("package", help="write the installable zips to build/packages/")
     command.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
     )
     options, rest = parser.parse_known_args(arguments)
-    if rest and options.command != "test":
+    if rest and options.command not in {"test", "fuzz-scenes"}:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
-    options.pytest_arguments = rest
+    options.further_arguments = rest
     return options
 
 
@@ -43,7 +46,10 @@ def main() -> int:
             return demo.run(mesh)
         if options.command == "test":
             environment.set_up("build", "bpy", "demo", "package", "test")
-            return environment.run_pytest(options.pytest_arguments)
+            return environment.run_pytest(options.further_arguments)
+        if options.command == "fuzz-scenes":
+            environment.set_up("build", "bpy", "test")
+            return environment.run_script("tests/fuzz/scenes.py", options.further_arguments)
         if options.wheels:
             environment.set_up("bpy", native=False)
             return packaging.run_with_wheels(options.wheels)

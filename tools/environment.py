@@ -262,7 +262,16 @@ def report_blas() -> None:
 
 def run_pytest(arguments: Sequence[str]) -> int:
     """Run pytest in build/venv on the project and return its exit code."""
+    return _run_python(["-m", "pytest", *arguments])
+
+
+def run_script(script: str, arguments: Sequence[str]) -> int:
+    """Run a script of the project, by its path in it, in build/venv and return its exit code."""
+    return _run_python([script, *arguments])
+
+
+def _run_python(arguments: Sequence[str]) -> int:
     sys.stdout.flush()
     # cmake, ctest and ninja are those of the environment.
-    command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, "-m", "pytest", *arguments]
+    command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, *arguments]
     return subprocess.run(command, cwd=ROOT, check=False).returncode

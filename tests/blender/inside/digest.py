@@ -126,7 +126,11 @@ def _extenders(mesh):
 def _pins(mesh, layer):
     if not hasattr(layer, "pin"):
         return _values(layer.data, "pin_uv", bool, 1)
-    return _values(layer.pin, "value", bool, 1) if len(layer.pin) else np.zeros((len(mesh.loops), 1), dtype=bool)
+    # Not through `layer.pin`, which in 4.x makes the attribute and moves all layers in memory.
+    attribute = mesh.attributes.get(f".pn.{layer.name}")
+    return (
+        np.zeros((len(mesh.loops), 1), dtype=bool) if attribute is None else _values(attribute.data, "value", bool, 1)
+    )
 
 
 def _shape_keys(mesh):
