@@ -208,24 +208,30 @@ def _write(
 ) -> None:
     """Write the UVs, each (C, 2), at the solved corners, and pack the charts without pins unless `margin` is None."""
     added = [edit_mesh.mesh for edit_mesh, _, _ in solved if mesh_io.ensure_uv_map(edit_mesh.mesh)]
-    for edit_mesh, uv, solution in solved:
-        mesh_io.write_uv(edit_mesh, uv, solution.solved_corners)
-    if margin is None:
-        return
-    movable = [solution.solved_corners & ~solution.pinned_corners for _, _, solution in solved]
-    to_pack = [
-        (edit_mesh, np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]))
-        for (edit_mesh, _, _), corners in zip(solved, movable)
-        if corners.any()
-    ]
-    if not to_pack:
-        return
     try:
-        packing.pack(context, *zip(*to_pack), margin)
-    except packing.PackingError:
+        for edit_mesh, uv, solution in solved:
+            mesh_io.write_uv(edit_mesh, uv, solution.solved_corners)
+        if margin is not None:
+            _pack(context, solved, margin)
+    except BaseException:
+        # Also where a script is interrupted from the keyboard.
         for edit_mesh, _, solution in solved:
             if edit_mesh.mesh in added:
                 edit_mesh.mesh.uv_layers.remove(edit_mesh.mesh.uv_layers.active)
             else:
                 mesh_io.write_uv(edit_mesh, edit_mesh.polygons.uv, solution.solved_corners)
         raise
+
+
+def _pack(
+    context: bpy.types.Context, solved: Sequence[tuple[EditMesh, np.ndarray, Solution]], margin: packing.Margin
+) -> None:
+    """Pack the charts without pins."""
+    movable = [solution.solved_corners & ~solution.pinned_corners for _, _, solution in solved]
+    to_pack = [
+        (edit_mesh, np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]))
+        for (edit_mesh, _, _), corners in zip(solved, movable)
+        if corners.any()
+    ]
+    if to_pack:
+        packing.pack(context, *zip(*to_pack), margin)
