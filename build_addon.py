@@ -49,7 +49,7 @@ def main() -> int:
             return environment.run_pytest(options.further_arguments)
         if options.command == "fuzz-scenes":
             environment.set_up("build", "bpy", "test")
-            return environment.run_script("tests/fuzz/scenes.py", options.further_arguments)
+            return environment.run_script("tests/fuzz/scenes_run.py", options.further_arguments)
         if options.wheels:
             environment.set_up("bpy", native=False)
             return packaging.run_with_wheels(options.wheels)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A few of the random scenes of tests/fuzz/scenes.py in every Blender, and how that reads what Blender writes."""
+"""A few of the random scenes of tests/fuzz/scenes_run.py in every Blender, and how that reads what Blender writes."""
 
 import sys
 from pathlib import Path
@@ -8,21 +8,21 @@ import blenders
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fuzz"))
-import scenes as random_scenes  # noqa: E402 - found only now
+import scenes_run  # noqa: E402 - found only now
 
 SCENES = 80
 
 
 @pytest.mark.parametrize("blender", blenders.all_blenders(), ids=lambda blender: blender.name)
 def test_random_scenes(blender, tmp_path):
-    found = random_scenes.run(blender, random_scenes.SEED, 0, SCENES, tmp_path)
+    found = scenes_run.run(blender, scenes_run.SEED, 0, SCENES, tmp_path)
     assert found.bad == {}
     assert found.done == SCENES
 
 
 def read(*lines, code=0):
-    found = random_scenes.Run()
-    return random_scenes.read("\n".join(lines), code, 3, found), found
+    found = scenes_run.Run()
+    return scenes_run.read("\n".join(lines), code, 3, found), found
 
 
 def test_scenes_that_end_are_counted():

@@ -2,8 +2,8 @@
 """Runs in Blender: make random scenes, call the operators on them, and look for what must not happen.
 
 `... scenes_inside.py -- SEED FIRST COUNT`. Every scene has a generator of random numbers of its own, made of the seed
-and its number. Lines that begin with `@fuzz` are for scenes.py, which started this: `@fuzz begin N`, `@fuzz call ...`,
-`@fuzz bad N ...`, `@fuzz end N seconds vertices`.
+and its number. Lines that begin with `@fuzz` are for scenes_run.py, which started this: `@fuzz begin N`,
+`@fuzz call ...`, `@fuzz bad N ...`, `@fuzz end N seconds vertices`.
 """
 
 import faulthandler
@@ -29,7 +29,7 @@ SECONDS = 120.0
 
 
 def say(*words):
-    """Tell scenes.py something; a message stays in its line, at the beginning of which Blender may have left others."""
+    """Tell scenes_run.py something, each message in a line of its own, wherever Blender has stopped writing."""
     print("\n@fuzz", *(str(word).replace("\n", " | ") for word in words), flush=True)
 
 

@@ -4,7 +4,7 @@
 
 Each scene is made from the seed of the run and its number alone, so that any one can be run again:
 
-    build/venv/bin/python tests/fuzz/scenes.py --blender system --seed 6 --first 123 --count 1
+    build/venv/bin/python tests/fuzz/scenes_run.py --blender system --seed 6 --first 123 --count 1
 """
 
 import argparse
