@@ -131,6 +131,7 @@ def _warnings(
     """Return what extenders and stretching could not do."""
     warnings = [
         reporting.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
+        reporting.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
         reporting.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):

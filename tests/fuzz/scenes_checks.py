@@ -133,6 +133,8 @@ def _unwrap(rng, edited):
         "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
         "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
     }
+    if rng.random() < 0.1:
+        properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan
     in_uv_editor = rng.random() < 0.2
 
     def run():
