@@ -16,7 +16,7 @@ from tools.steps import StepError
 
 
 def parse(arguments: list[str] | None = None) -> argparse.Namespace:
-    """Read the command line; arguments that `test` and `fuzz` do not know are those of what they run."""
+    """Read the command line; arguments that `test`, `fuzz` and `fuzz-scenes` do not know are those of what they run."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
     command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
@@ -26,12 +26,15 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
         "fuzz", help="call the module at random; further arguments: --cases, --seed, --case", add_help=False
     )
     command.add_argument("--native", action="store_true", help="libFuzzer on the C++ code instead; arguments: --runs")
+    commands.add_parser(
+        "fuzz-scenes", help="random scenes through the operators; --help tells what else", add_help=False
+    )
     command = commands.add_parser("package", help="write the installable zips to build/packages/")
     command.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
     )
     options, rest = parser.parse_known_args(arguments)
-    if rest and options.command not in ("test", "fuzz"):
+    if rest and options.command not in {"test", "fuzz", "fuzz-scenes"}:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
     options.further_arguments = rest
     return options
@@ -51,6 +54,9 @@ def main() -> int:
         if options.command == "fuzz":
             environment.set_up("build", "fuzz")
             return environment.run_fuzzing(options.further_arguments, native=options.native)
+        if options.command == "fuzz-scenes":
+            environment.set_up("build", "bpy", "test")
+            return environment.run_python("tests/fuzz/scenes_run.py", *options.further_arguments)
         if options.wheels:
             environment.set_up("bpy", native=False)
             return packaging.run_with_wheels(options.wheels)

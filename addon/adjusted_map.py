@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import extenders, live_unwrap, mesh_io, subdivision_surface
+from . import extenders, live_unwrap, mesh_io, names, subdivision_surface
 from .core import reporting
 from .core.extender_adjustment import AdjustmentError, ExtenderAdjustment
 
@@ -36,11 +36,14 @@ class AdjustedMap:
         self.mesh = edit_object.data
         self.index = index
         extender = extenders.of(self.mesh)[index]
-        self.start = extender.strength
+        # A file may have a strength that is no number, from which no drag could start.
+        self.start = extender.strength if abs(extender.strength) <= names.EXTENDER_STRENGTH_LIMIT else 0.0
         self._bm = bmesh.from_edit_mesh(self.mesh)
         ends = extenders.ends(self._bm, self.mesh)[index]
         if -1 in ends:
-            raise AdjustmentError(f"{extender.name} is broken: a vertex of it is gone; remove it and add another")
+            raise AdjustmentError(
+                f"{extenders.label(extender)} is broken: a vertex of it is gone; remove it and add another"
+            )
         self._is_map_added = mesh_io.ensure_uv_map(self.mesh)
         try:
             self._adjustment = self._take(edit_object, ends)

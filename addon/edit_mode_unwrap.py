@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Unwrap the meshes in edit mode: read, solve, place, write, pack."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 
 import bpy
@@ -11,6 +12,9 @@ from . import mesh_io, names, packing
 from .core import reporting, unwrapping
 from .core.unwrapping import Solution
 from .mesh_io import EditMesh
+
+# What is entered for the time in which UVs are written: live unwrapping must not follow the pins that an unwrap moves.
+around_writing: list[Callable[[], AbstractContextManager[None]]] = []
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,10 @@ def write(
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
-    _write(context, solved, None if settings.keep_in_place else settings.margin)
+    with ExitStack() as stack:
+        for enter in around_writing:
+            stack.enter_context(enter())
+        _write(context, solved, None if settings.keep_in_place else settings.margin)
     return Outcome(
         summary,
         placement.without_bounds,
@@ -125,6 +132,7 @@ def _warnings(
     warnings = [
         reporting.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
         reporting.too_small(sum(map(_too_small_faces, edit_meshes, solutions))),
+        reporting.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
         reporting.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
@@ -207,24 +215,30 @@ def _write(
 ) -> None:
     """Write the UVs, each (C, 2), at the solved corners, and pack the charts without pins unless `margin` is None."""
     added = [edit_mesh.mesh for edit_mesh, _, _ in solved if mesh_io.ensure_uv_map(edit_mesh.mesh)]
-    for edit_mesh, uv, solution in solved:
-        mesh_io.write_uv(edit_mesh, uv, solution.solved_corners)
-    if margin is None:
-        return
-    movable = [solution.solved_corners & ~solution.pinned_corners for _, _, solution in solved]
-    to_pack = [
-        (edit_mesh, np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]))
-        for (edit_mesh, _, _), corners in zip(solved, movable)
-        if corners.any()
-    ]
-    if not to_pack:
-        return
     try:
-        packing.pack(context, *zip(*to_pack), margin)
-    except packing.PackingError:
+        for edit_mesh, uv, solution in solved:
+            mesh_io.write_uv(edit_mesh, uv, solution.solved_corners)
+        if margin is not None:
+            _pack(context, solved, margin)
+    except BaseException:
+        # Also where a script is interrupted from the keyboard.
         for edit_mesh, _, solution in solved:
             if edit_mesh.mesh in added:
                 edit_mesh.mesh.uv_layers.remove(edit_mesh.mesh.uv_layers.active)
             else:
                 mesh_io.write_uv(edit_mesh, edit_mesh.polygons.uv, solution.solved_corners)
         raise
+
+
+def _pack(
+    context: bpy.types.Context, solved: Sequence[tuple[EditMesh, np.ndarray, Solution]], margin: packing.Margin
+) -> None:
+    """Pack the charts without pins."""
+    movable = [solution.solved_corners & ~solution.pinned_corners for _, _, solution in solved]
+    to_pack = [
+        (edit_mesh, np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]))
+        for (edit_mesh, _, _), corners in zip(solved, movable)
+        if corners.any()
+    ]
+    if to_pack:
+        packing.pack(context, *zip(*to_pack), margin)

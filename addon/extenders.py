@@ -81,31 +81,41 @@ def renamed(extender: bpy.types.PropertyGroup) -> None:
 def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     """Return the indices of both vertices of every extender of `mesh` in `bm`, its edit mesh; -1 for one that is gone.
 
-    Looks at all vertices. Where several carry the identifier, as duplicated geometry does, the first one counts.
+    Looks at all vertices. Where several carry the identifier, as duplicated geometry does, the first one counts. An
+    extender both ends of which are one vertex, as only a damaged file has it, counts as having lost the second.
     """
     layer = _layer(bm, mesh)
     wanted = _ids_of_list(mesh)
     vertex_ids = _ids_of_vertices(bm, layer) if layer is not None and wanted else np.empty(0, dtype=np.int32)
     found = core.first_with(vertex_ids, wanted)
-    return list(zip(found[::2], found[1::2]))
+    return [(first, second if second != first else -1) for first, second in zip(found[::2], found[1::2])]
 
 
-def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float]], list[str]]:
-    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, and the names of the broken ones.
+def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float]], list[str], list[str]]:
+    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, and the names of those that cannot.
 
     Returns:
         (first vertex, second vertex, strength) of every extender that is on, whole and of nonzero strength, with the
-        vertices' places in `bm.verts`; and the names of those that are on, one of whose vertices is gone.
+        vertices' places in `bm.verts`; the names of those that are on, one of whose vertices is gone; and the names of
+        those that are on and whole, but whose strength is no number within the limit, as a script or a file may have
+        it.
     """
-    forces, broken = [], []
+    forces, broken, without_strength = [], [], []
     for extender, (first, second) in zip(of(mesh), ends(bm, mesh)):
         if not extender.use:
             continue
         if first < 0 or second < 0:
-            broken.append(extender.name)
+            broken.append(label(extender))
+        elif not abs(extender.strength) <= names.EXTENDER_STRENGTH_LIMIT:
+            without_strength.append(label(extender))
         elif extender.strength != 0.0:
             forces.append((first, second, extender.strength))
-    return forces, broken
+    return forces, broken, without_strength
+
+
+def label(extender: bpy.types.PropertyGroup) -> str:
+    """Return what to call an extender in a message; a file may have one without a name."""
+    return extender.name or f"{names.EXTENDER_NAME} without a name"
 
 
 def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float) -> int:
@@ -227,7 +237,12 @@ def _layer(bm: BMesh, mesh: bpy.types.Mesh) -> BMLayerItem | None:
 
 
 def _layer_names(mesh: bpy.types.Mesh) -> list[str]:
-    return [a.name for a in mesh.attributes if a.name.startswith(names.EXTENDER_LAYER_PREFIX)]
+    """Return the names of the layers that may hold identifiers; others of such a name are not this add-on's."""
+    return [
+        a.name
+        for a in mesh.attributes
+        if a.name.startswith(names.EXTENDER_LAYER_PREFIX) and (a.data_type, a.domain) == ("INT", "POINT")
+    ]
 
 
 def _chosen(mesh: bpy.types.Mesh, layers: Sequence[str]) -> str:

@@ -332,6 +332,21 @@ def _guarded() -> Iterator[None]:
         _state.is_busy = outer
 
 
+@contextmanager
+def _not_following() -> Iterator[None]:
+    """Within, nothing is followed, and what changed within is not followed afterwards."""
+    if _state.is_busy or not is_on(bpy.context.scene):
+        yield
+        return
+    _state.is_busy = True
+    try:
+        yield
+    finally:
+        _state.is_busy = False
+        with _guarded():
+            _state.watches = _see(bpy.context.scene)
+
+
 def _tell(problem: str) -> None:
     if problem not in _state.told:
         _state.told.add(problem)
@@ -398,6 +413,7 @@ _HANDLERS = (
 
 def register() -> None:
     """Add the toggle, off, and the handlers."""
+    edit_mode_unwrap.around_writing.append(_not_following)
     toggle = bpy.props.BoolProperty(
         name=names.LIVE_UNWRAP_LABEL, description=names.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle
     )
@@ -408,6 +424,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove the handlers, the toggle and its values."""
+    edit_mode_unwrap.around_writing.remove(_not_following)
     for timer in (look, _rest, _push_undo_step):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)

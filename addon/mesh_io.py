@@ -18,7 +18,8 @@ from .core.subdivision import Subdivision, subdivision
 class EditMesh:
     """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is to be solved in its stead.
 
-    `broken_extenders` are the names of those that lack a vertex.
+    `broken_extenders` are the names of those that lack a vertex, `extenders_without_strength` of those whose strength
+    is no number within its limit.
     """
 
     edit_object: bpy.types.Object
@@ -26,6 +27,7 @@ class EditMesh:
     polygons: PolygonMesh
     subdivision: Subdivision | None = None
     broken_extenders: tuple[str, ...] = ()
+    extenders_without_strength: tuple[str, ...] = ()
 
 
 def read(
@@ -56,14 +58,14 @@ def read(
             polygons = replace(polygons, pinned_corners=compatibility.pinned_corners(copy))
             if by_uv_selection:
                 _restrict_to_selected_uvs(polygons, compatibility.selected_uv_corners(bm, layer))
-        forces, broken = extenders.resolve(bm, mesh)
+        forces, broken, without_strength = extenders.resolve(bm, mesh)
         polygons = replace(polygons, extenders=tuple(forces), stretch_direction=_active_edge(bm))
         if correct_aspect:
             polygons = replace(polygons, aspect=active_image.aspect(edit_object, bm))
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
         bpy.data.meshes.remove(copy)
-    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken))
+    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), tuple(without_strength))
 
 
 def _active_edge(bm: BMesh) -> np.ndarray | None:

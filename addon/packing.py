@@ -49,13 +49,16 @@ def pack(
 
 
 def _run_packer(margin: Margin) -> None:
+    # A script may give any number, and Blender would pack to places that are none.
+    if not np.isfinite(margin.size):
+        raise PackingError(f"The margin must be a number, not {margin.size}")
     try:
         # Rotating, the packer looks at pixels of the active image, and skews islands where that is not square.
         status = bpy.ops.uv.pack_islands(
             "EXEC_DEFAULT", margin=margin.size, rotate=False, **compatibility.packing_options(margin.method)
         )
         reason = "it was cancelled"
-    except RuntimeError as error:
+    except (RuntimeError, TypeError) as error:
         status, reason = set(), str(error).strip()
     if "FINISHED" not in status:
         raise PackingError(

@@ -97,7 +97,8 @@ def write(
                 bm = bmesh.from_edit_mesh(edit_mesh.mesh)
                 stack.enter_context(mesh_selection.visible_faces_selected(bm))
             return edit_mode_unwrap.write(context, target.settings, edit_meshes, solutions)
-    except Exception:
+    except BaseException:
+        # Also where a script is interrupted from the keyboard.
         mark(target, cuts, seam=False)
         raise
 

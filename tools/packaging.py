@@ -10,10 +10,11 @@ import re
 import shutil
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Sequence
 from pathlib import Path
 
-from tools import steps
+from tools import paths, steps
 from tools.environment import PYTHON, bpy_environments, site_packages, wheel
 from tools.steps import BUILD, ROOT, StepError
 
@@ -50,7 +51,7 @@ def run() -> int:
 
 def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
     """Write the zips of all platforms that have wheels in `folder`: one extension each, one legacy zip per Python."""
-    modules = sorted(folder.glob("spectral_conformal-*.whl"))
+    modules = sorted(paths.existing_folder(folder).glob("spectral_conformal-*.whl"))
     for_extension = [module for module in modules if int(python_tag(module)[3:]) >= OLDEST_EXTENSION_PYTHON]
     if not for_extension:
         raise StepError(
@@ -90,7 +91,10 @@ def report(folder: Path) -> None:
 
 def python_tag(module: Path) -> str:
     """Return a wheel's tag of a Python version, such as cp311."""
-    return module.stem.split("-")[-3]
+    found = re.fullmatch(r"[^-]+-[^-]+(?:-\d[^-]*)?-(cp3\d+)-[^-]+-[^-]+", module.stem)
+    if not found:
+        raise StepError(f"{module}: the name of a wheel ends with its tags, such as -cp311-cp311-linux_x86_64.whl.")
+    return found.group(1)
 
 
 def blender_platform(module: Path) -> str:
@@ -139,10 +143,13 @@ def legacy_files(module: Path) -> dict[str, bytes]:
     files = addon_files()
     # bl_info is what these versions read.
     files.pop(MANIFEST)
-    with zipfile.ZipFile(module) as unpacked:
-        # The libraries stay beside the module's folder, where its run path looks for them.
-        names = [name for name in unpacked.namelist() if ".dist-info/" not in name and not name.endswith("/")]
-        files.update((name, unpacked.read(name)) for name in names)
+    try:
+        with zipfile.ZipFile(module) as unpacked:
+            # The libraries stay beside the module's folder, where its run path looks for them.
+            names = [name for name in unpacked.namelist() if ".dist-info/" not in name and not name.endswith("/")]
+            files.update((name, unpacked.read(name)) for name in names)
+    except (zipfile.BadZipFile, zlib.error, EOFError) as error:
+        raise StepError(f"{module}: this is no whole wheel: {error}.") from error
     return {f"{NAME}/{name}": content for name, content in files.items()}
 
 

@@ -63,11 +63,14 @@ class ExtenderAdjustment:
         Raises:
             AdjustmentError: an island could not be solved at this strength.
         """
-        result = self._unwrapper.solve(
-            extenders=[*self._others, (*self._extender, strength)],
-            hole_rigidity=self._options.hole_rigidity,
-            **({} if is_final else {"tolerance": _TOLERANCE}),
-        )
+        try:
+            result = self._unwrapper.solve(
+                extenders=[*self._others, (*self._extender, strength)],
+                hole_rigidity=self._options.hole_rigidity,
+                **({} if is_final else {"tolerance": _TOLERANCE}),
+            )
+        except ValueError as error:
+            raise AdjustmentError(str(error)) from error
         failed = [chart.message for chart in result.charts if chart.status != "solved"]
         if failed:
             raise AdjustmentError(failed[0])

@@ -190,6 +190,13 @@ def broken_extenders(names: Sequence[str]) -> str:
     return f"Skipped {_count(len(names), 'extender')} whose vertex is gone: {', '.join(names)}"
 
 
+def extenders_without_strength(names: Sequence[str]) -> str:
+    """Return the sentence for extenders whose strength is no number within its limit; empty for none."""
+    if not names:
+        return ""
+    return f"Skipped {_count(len(names), 'extender')} whose strength is no number that it can have: {', '.join(names)}"
+
+
 def unused_extenders(count: int) -> str:
     """Return the sentence for extenders that no island could use; empty for none."""
     if count == 0:

@@ -158,12 +158,17 @@ def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
-    if mesh.uv is None or mesh.pinned_corners is None:
-        return {}
-    pinned = mesh.pinned_corners & np.isfinite(mesh.uv).all(axis=1) & mesh.selected_faces[mesh.face_of_corner()]
+    pinned = _usable_pins(mesh)
     if not pinned.any():
         return {}
     return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": pinned, "soft_pins": options.soft_pins}
+
+
+def _usable_pins(mesh: PolygonMesh) -> np.ndarray:
+    """Return which corners of the selected faces are pinned at a place that is one, (C,) bool."""
+    if mesh.uv is None or mesh.pinned_corners is None:
+        return np.zeros(len(mesh.corner_vertices), dtype=bool)
+    return mesh.pinned_corners & np.isfinite(mesh.uv).all(axis=1) & mesh.selected_faces[mesh.face_of_corner()]
 
 
 def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
@@ -189,9 +194,9 @@ def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.nda
     """Return the solution's map, (C, 2) float64, with charts that have one pin scaled about it to their former area."""
     single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
     chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
-    if mesh.uv is None or mesh.pinned_corners is None or (chart < 0).all():
+    if (chart < 0).all():
         return np.array(solution.uv, dtype=np.float64)
-    return placement.to_former_area(solution.uv, mesh.isotropic_uv(), chart, mesh.pinned_corners, mesh.face_offsets)
+    return placement.to_former_area(solution.uv, mesh.isotropic_uv(), chart, _usable_pins(mesh), mesh.face_offsets)
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,9 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Make the pairs of all meshes before any is added."""
+        if self.strength != self.strength:
+            self.report({"ERROR"}, "The strength must be a number, not nan")
+            return {"CANCELLED"}
         try:
             pairs = self._pairs(context)
         except SelectionError as error:
@@ -132,7 +135,7 @@ class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
         index = self.chosen(mesh)
         if index < 0:
             return {"CANCELLED"}
-        name = extenders.of(mesh)[index].name
+        name = extenders.label(extenders.of(mesh)[index])
         bm = bmesh.from_edit_mesh(mesh)
         bm.verts.ensure_lookup_table()
         present = [vertex for vertex in extenders.ends(bm, mesh)[index] if vertex >= 0]

@@ -191,3 +191,9 @@ def test_expected_gain():
     assert gain == "99 % of the surface within 2 times the median scale, mean QC 1.0271 (now 0 %)"
     gain = reporting.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0), 1.25)
     assert gain == "100 % of the surface within 1.25 times the median scale, mean QC 1.0000 (now 50 %, QC 1.5000)"
+
+
+def test_extenders_without_a_strength_are_named():
+    assert reporting.extenders_without_strength([]) == ""
+    assert reporting.extenders_without_strength(["A", "B"]).startswith("Skipped 2 extenders")
+    assert reporting.extenders_without_strength(["A", "B"]).endswith(": A, B")

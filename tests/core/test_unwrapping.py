@@ -2,6 +2,7 @@
 """From polygon meshes to placed maps, with the real solver."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -129,3 +130,14 @@ def test_missing_module_says_what_to_install(monkeypatch):
 def test_broken_bundled_module_is_not_passed_over(broken_bundle):
     with pytest.raises(native.NativeModuleError, match="_compiled_for_another_platform"):
         native.spectral_conformal()
+
+
+def test_pin_that_is_no_place_is_none_beside_one_that_is():
+    former = np.random.default_rng(0).random((24, 2))
+    former[1] = np.nan
+    pinned = np.zeros(24, dtype=bool)
+    pinned[:2] = True
+    mesh = replace(separated_cube(uv=former), pinned_corners=pinned)
+    (uv,) = place([mesh], [solve(mesh, Options())], keep_in_place=False).uv
+    assert np.isfinite(uv).all()
+    np.testing.assert_allclose(uv[0], former[0])

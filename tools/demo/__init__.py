@@ -7,7 +7,7 @@ import json
 import shutil
 from pathlib import Path
 
-from tools import steps
+from tools import paths, steps
 from tools.environment import PYTHON, VENV, blender_command
 from tools.steps import BUILD, ROOT, StepError
 
@@ -23,11 +23,10 @@ def check_mesh(mesh: Path | None) -> Path | None:
     """Return the absolute path of the mesh; raise StepError when there is no such file or it cannot be read."""
     if mesh is None:
         return None
-    if not mesh.is_file():
-        raise StepError(f"{mesh}: no such file.")
+    found = paths.existing_file(mesh)
     if mesh.suffix.lower() not in SUFFIXES:
         raise StepError(f"{mesh}: expected one of {', '.join(SUFFIXES)}.")
-    return mesh.resolve()
+    return found
 
 
 def run(mesh: Path | None) -> int:

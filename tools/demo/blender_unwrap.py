@@ -64,14 +64,14 @@ def main() -> None:
 
 def load(path: Path) -> bpy.types.Object:
     """Return the meshes of a file as one object; borders of the file's UV islands become seams."""
+    try:
+        read(path)
+    # Importers written in Python raise whatever a damaged file makes them raise.
+    except Exception as error:  # noqa: BLE001
+        sys.exit(f"{path}: Blender cannot read this file: {last_line(error)}")
     suffix = path.suffix.lower()
-    if suffix == ".blend":
-        bpy.ops.wm.open_mainfile(filepath=str(path))
-        if bpy.context.mode != "OBJECT":
-            bpy.ops.object.mode_set(mode="OBJECT")
-    else:
-        importer = next(find for find in map(operator_named, IMPORTERS[suffix]) if find)
-        importer(filepath=str(path))
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
     meshes = [item for item in bpy.context.scene.objects if item.type == "MESH" and len(item.data.polygons)]
     if not meshes:
         sys.exit(f"{path}: no faces in it")
@@ -84,6 +84,22 @@ def load(path: Path) -> bpy.types.Object:
     if target.data.uv_layers.active and not any(edge.use_seam for edge in target.data.edges):
         mark_uv_borders(target.data)
     return target
+
+
+def read(path: Path) -> None:
+    """Let Blender open or import a file."""
+    suffix = path.suffix.lower()
+    if suffix == ".blend":
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        return
+    importer = next(find for find in map(operator_named, IMPORTERS[suffix]) if find)
+    importer(filepath=str(path))
+
+
+def last_line(error: Exception) -> str:
+    """Return what an error says at its end, without the traceback that Blender puts before it."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
+    return lines[-1] if lines else type(error).__name__
 
 
 def operator_named(name: str) -> Callable[..., set[str]] | None:

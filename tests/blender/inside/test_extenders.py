@@ -53,7 +53,9 @@ def listed(edited):
 
 
 def resolved(edited):
-    return module("extenders").resolve(scenes.edit_mesh(edited), edited.data)
+    forces, broken, without_strength = module("extenders").resolve(scenes.edit_mesh(edited), edited.data)
+    assert without_strength == []
+    return forces, broken
 
 
 def positions(edited):

@@ -294,3 +294,25 @@ def test_disabling_the_add_on_removes_handlers_and_property():
     move(grid, 8, (0.1, 0.0))
     addon_utils.enable("spectral_unwrap", default_set=True)
     assert not bpy.context.scene.spectral_unwrap_live
+
+
+def test_pins_that_an_unwrap_moves_are_not_followed():
+    grid = bumpy_grid(8, 6)
+    edit_with_pins(grid, [0, 3, 27, 8, 62])
+    # Pins that no map has, so that soft ones move.
+    uv = scenes.read_uv(grid)
+    scenes.write_uv(grid, uv + 0.05 * np.sin(17.0 * uv[:, ::-1]))
+    turn_on()
+    # The border of the selection lies within the island that would follow.
+    scenes.select_faces(grid, [face for face in range(48) if face % 8 < 4])
+    bpy.context.view_layer.update()
+    before = scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_unwrap(soft_pins=True, soft_pin_strength=0.1) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    after, others = scenes.read_uv(grid), scenes.corners_of(grid, [face for face in range(48) if face % 8 >= 4])
+    np.testing.assert_array_equal(after[others], before[others])
+    pinned = scenes.pins(grid) & ~others
+    assert not np.isclose(after[pinned], before[pinned], atol=1e-4).all()
+    solved = scenes.read_uv(grid)
+    move(grid, 8, (0.1, 0.2))
+    assert not np.allclose(scenes.read_uv(grid)[others], solved[others], atol=1e-3)

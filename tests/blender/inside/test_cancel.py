@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cancelled or interrupted at any moment, no operator that waits leaves anything behind."""
+
+import contextlib
+import importlib
+
+import bpy
+import digest
+import numpy as np
+import pytest
+import scenes
+
+edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
+seam_suggestion = importlib.import_module("spectral_unwrap.seam_suggestion")
+core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
+adjusted_map = importlib.import_module("spectral_unwrap.adjusted_map")
+native = importlib.import_module("spectral_unwrap.core.native")
+packing = importlib.import_module("spectral_unwrap.packing")
+progress = importlib.import_module("spectral_unwrap.progress")
+solving = importlib.import_module("spectral_unwrap.solving")
+unwrapping = importlib.import_module("spectral_unwrap.core.unwrapping")
+worker = importlib.import_module("spectral_unwrap.core.worker")
+
+
+def prepare(uv_map=True):
+    """A mesh with two islands, shape keys and pins, and another one, both in edit mode."""
+    grid = scenes.bumpy_grid(10, 8, seams=[(r * 11 + 5, r * 11 + 16) for r in range(8)], uv_map=uv_map)
+    grid.shape_key_add(name="Basis")
+    grid.shape_key_add(name="Key")
+    other = scenes.cylinder(name="Other", uv_map=uv_map)
+    scenes.edit(grid, other)
+    if uv_map:
+        scenes.pin(other, [3])
+    return grid, other
+
+
+def prepare_closed(uv_map=True):
+    """A closed box and a grid, both in edit mode, so that there are seams to suggest."""
+    box = scenes.cube(name="Box", uv_map=uv_map)
+    scenes.edit(box, scenes.bumpy_grid(uv_map=uv_map))
+    return box
+
+
+PREPARE = {"spectral_unwrap": prepare, "spectral_suggest_seams": prepare_closed}
+
+
+def everything():
+    """Return all that must be as it was."""
+    maps = {mesh.name: digest.active_uv(mesh) for mesh in bpy.data.meshes}
+    return digest.digest() | {name: uv is not None and uv.tobytes() for name, uv in maps.items()}
+
+
+def cancelling_at(monkeypatch, at):
+    """Let every worker be cancelled, as Esc does, by its report number `at`; return the list of reports."""
+    reports = []
+    report = worker.Worker._report
+
+    def counted(self, fraction, phase):
+        if len(reports) == at:
+            self.cancel()
+        reports.append(phase)
+        return report(self, fraction, phase)
+
+    monkeypatch.setattr(worker.Worker, "_report", counted)
+    return reports
+
+
+def started(settings):
+    return solving.UnwrapInThread(settings, edit_mode_unwrap.read(bpy.context, settings))
+
+
+SETTINGS = {
+    "plain": edit_mode_unwrap.Settings(),
+    "area blend, in place": edit_mode_unwrap.Settings(unwrapping.Options(area_blend=0.5), keep_in_place=True),
+    "subdivided": edit_mode_unwrap.Settings(unwrapping.Options(hole_rigidity=1.0), use_subsurf=True),
+}
+
+
+@pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
+@pytest.mark.parametrize("name", SETTINGS)
+def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
+    grid, _ = prepare(uv_map)
+    if name == "subdivided":
+        grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    with monkeypatch.context() as patch:
+        reports = cancelling_at(patch, -1)
+        assert started(SETTINGS[name]).worker.wait(60.0)
+    before = everything()
+    for at in range(len(reports)):
+        with monkeypatch.context() as patch:
+            seen = cancelling_at(patch, at)
+            running = started(SETTINGS[name])
+            with pytest.raises(native.spectral_conformal().Cancelled):
+                running.write(bpy.context)
+        assert len(seen) == at + 1
+        assert digest.changes(before, everything()) == []
+    assert started(SETTINGS[name]).write(bpy.context).summary.solved == 3
+
+
+def interrupting_at(at):
+    """Return a context manager like `progress.blocking` whose function is interrupted at its call number `at`."""
+    calls = []
+
+    class Blocking:
+        def __init__(self, *_):
+            pass
+
+        def __enter__(self):
+            return self.report
+
+        def __exit__(self, *_):
+            return False
+
+        def report(self, _fraction, phase):
+            calls.append(phase)
+            if len(calls) == at + 1:
+                raise KeyboardInterrupt
+
+    return Blocking, calls
+
+
+@pytest.mark.parametrize("operator", ["spectral_unwrap", "spectral_suggest_seams"])
+def test_interrupted_script_at_every_report(operator, monkeypatch):
+    PREPARE[operator]()
+    call = getattr(bpy.ops.uv, operator)
+    module = importlib.import_module(f"spectral_unwrap.operators.{operator.removeprefix('spectral_')}")
+    # Searched anew every time.
+    if hasattr(module, "_search"):
+        monkeypatch.setattr(module._search, "suggest", core_suggestion.suggest)
+    before, at = everything(), 0
+    while True:
+        blocking, calls = interrupting_at(at)
+        monkeypatch.setattr(progress, "blocking", blocking)
+        if at >= len(calls) and _ends_without_interrupt(call, calls, at):
+            break
+        assert digest.changes(before, everything()) == []
+        at += 1
+    assert at > 10
+
+
+def _ends_without_interrupt(call, calls, at):
+    """Call the operator; return whether it had fewer reports than the one that interrupts."""
+    try:
+        status = call()
+    except RuntimeError as error:
+        assert "KeyboardInterrupt" in str(error)
+        return False
+    except KeyboardInterrupt:
+        return False
+    assert status == {"FINISHED"} or len(calls) == at + 1
+    return len(calls) <= at
+
+
+@pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
+@pytest.mark.parametrize("packed", [True, False], ids=["after packing", "before packing"])
+@pytest.mark.parametrize("operator", ["spectral_unwrap", "spectral_suggest_seams"])
+def test_interrupted_while_packing(operator, packed, uv_map, monkeypatch):
+    PREPARE[operator](uv_map)
+    run_packer = packing._run_packer
+
+    def interrupted(margin):
+        if packed:
+            run_packer(margin)
+        raise KeyboardInterrupt
+
+    before = everything()
+    monkeypatch.setattr(packing, "_run_packer", interrupted)
+    with pytest.raises((KeyboardInterrupt, RuntimeError), match="KeyboardInterrupt|^$"):
+        getattr(bpy.ops.uv, operator)()
+    assert digest.changes(before, everything()) == []
+
+
+@pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
+def test_interrupted_while_writing(uv_map, monkeypatch):
+    prepare(uv_map)
+    write_uv, calls = edit_mode_unwrap.mesh_io.write_uv, []
+
+    def interrupted(*arguments):
+        calls.append(arguments)
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        write_uv(*arguments)
+
+    before = everything()
+    monkeypatch.setattr(edit_mode_unwrap.mesh_io, "write_uv", interrupted)
+    with pytest.raises((KeyboardInterrupt, RuntimeError)):
+        bpy.ops.uv.spectral_unwrap()
+    assert digest.changes(before, everything()) == []
+
+
+def searched(target, options, report):
+    """Search for seams, then solve the meshes that are cut open, as the operator does."""
+    cuts = core_suggestion.suggest(target.polygons, options, report)
+    edit_meshes = seam_suggestion.read_cut_open(bpy.context, target, cuts)
+    edit_mode_unwrap.solve(edit_meshes, target.settings, report)
+
+
+def test_cancelling_at_every_report_of_a_search_and_its_unwrap():
+    prepare_closed()
+    target = seam_suggestion.read(bpy.context, edit_mode_unwrap.Settings())
+    options, calls = core_suggestion.Options(), []
+    searched(target, options, lambda *report: calls.append(report))
+    before = everything()
+    for at in range(len(calls)):
+        seen = []
+        with pytest.raises(native.spectral_conformal().Cancelled):
+            searched(target, options, lambda *report, seen=seen, at=at: seen.append(report) or len(seen) <= at)
+        assert len(seen) == at + 1
+        assert digest.changes(before, everything()) == []
+
+
+def test_a_cancelled_search_is_not_remembered():
+    prepare_closed()
+    target = seam_suggestion.read(bpy.context, edit_mode_unwrap.Settings())
+    search, options = core_suggestion.Search(), core_suggestion.Options()
+    expected = core_suggestion.suggest(target.polygons, options)
+    for at in (0, 3, 20):
+        seen = []
+        with pytest.raises(native.spectral_conformal().Cancelled):
+            search.suggest(target.polygons, options, lambda *r, seen=seen, at=at: seen.append(r) or len(seen) <= at)
+    assert repr(search.suggest(target.polygons, options)) == repr(expected)
+
+
+@pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
+def test_escape_after_any_step_of_a_drag(uv_map):
+    grid, other = prepare(uv_map)
+    for edited in (grid, other):
+        for vertex in scenes.edit_mesh(edited).verts:
+            vertex.select_set(edited == grid and vertex.index in (0, 47))
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    before = everything()
+    for steps in range(4):
+        adjusted = adjusted_map.AdjustedMap(bpy.context, 0)
+        for strength in (0.5, -3.0, 8.0)[:steps]:
+            # The strong attraction has no map; the one before stays.
+            with contextlib.suppress(adjusted_map.AdjustmentError):
+                adjusted.show(strength)
+        adjusted.restore()
+        assert digest.changes(before, everything()) == []
+    assert np.isclose(grid.data.spectral_extenders[0].strength, 1.0)

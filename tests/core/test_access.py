@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Nothing that is shipped reaches files, network or processes: neither the add-on nor the module."""
+
+import ast
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PYTHON = sorted([*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")])
+CPP = sorted(path for kind in ("h", "cpp") for path in (ROOT / "native").rglob(f"*.{kind}"))
+
+# Everything of the standard library that may be imported: nothing that reaches outside the process.
+MODULES = {
+    *("__future__", "collections", "contextlib", "dataclasses", "functools", "hashlib", "importlib", "itertools"),
+    *("json", "math", "numbers", "operator", "threading", "time", "types", "typing"),
+    *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
+}
+BUILTINS = {"open", "exec", "eval", "compile", "__import__", "input", "breakpoint"}
+METHODS = {
+    *("load", "save", "savez", "savez_compressed", "loadtxt", "savetxt", "genfromtxt", "fromfile", "tofile", "memmap"),
+    *("read_text", "read_bytes", "write_text", "write_bytes", "unlink", "mkdir", "rmdir", "dump", "dumps_to_file"),
+    *("execfile", "url_open", "open_mainfile", "save_mainfile", "save_as_mainfile", "libraries", "save_render"),
+    *("addon_utils", "script_paths", "user_resource", "online_access", "filepath", "environ", "getenv"),
+}
+# Blender's operators that the add-on calls.
+OPERATORS = {"uv.pack_islands", "view3d.zoom", "ed.undo_push"}
+
+# What the compiled part would need to reach outside the process, and the one file that may, with its reason.
+CALLS = {
+    "files": r"fopen|freopen|fdopen|tmpfile|mkstemp|openat|creat|unlink|mmap|std::filesystem|[io]?fstream",
+    "standard streams": r"printf|fprintf|puts|std::cout|std::cerr|std::clog",
+    "processes": r"system|popen|fork|vfork|posix_spawn\w*|exec[lv]\w*",
+    "network": r"socket|getaddrinfo|gethostbyname|sendto|recvfrom",
+    "environment": r"getenv|secure_getenv|setenv|putenv|unsetenv",
+    "libraries": r"dlopen|dlsym|dladdr|LoadLibrary\w*|GetProcAddress",
+}
+HEADERS = r"fstream|iostream|cstdio|stdio\.h|filesystem|fcntl\.h|unistd\.h|sys/\w+\.h|netdb\.h|spawn\.h|windows\.h"
+# It asks the BLAS that is already loaded which one it is, and holds it to one thread (RTLD_NOLOAD: nothing is loaded).
+ALLOWED = {("libraries", "factorization.cpp")}
+
+
+def relative(path):
+    return str(path.relative_to(ROOT))
+
+
+def chain(node):
+    """Return a dotted name such as `bpy.ops.uv.unwrap`; empty for anything else."""
+    if isinstance(node, ast.Attribute):
+        inner = chain(node.value)
+        return f"{inner}.{node.attr}" if inner else ""
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def findings(source):
+    """Return what a Python source uses that reaches outside the process."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            found += [alias.name for alias in node.names if alias.name.partition(".")[0] not in MODULES]
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            found += [node.module] * (node.module.partition(".")[0] not in MODULES)
+        elif isinstance(node, ast.Name) and node.id in BUILTINS:
+            found.append(node.id)
+        elif isinstance(node, ast.Attribute):
+            found += [node.attr] * (node.attr in METHODS)
+            _, is_operator, operator = chain(node).partition("bpy.ops.")
+            found += [operator] * bool(is_operator and operator.count(".") == 1 and operator not in OPERATORS)
+    return found
+
+
+@pytest.mark.parametrize("path", PYTHON, ids=relative)
+def test_python_reaches_nothing_outside_the_process(path):
+    assert findings(path.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        *("import socket", "import urllib.request", "from subprocess import run", "import os", "import ctypes"),
+        *("open('file')", "exec('code')", "import numpy as np\nnp.save('file', 1)"),
+        *("import bpy\nbpy.ops.wm.save_mainfile()", "import bpy\nbpy.ops.image.open()", "p.write_text('')"),
+        *("import bpy\nbpy.data.libraries.load('file')", "__import__('os')", "image.filepath = 'file'"),
+    ],
+)
+def test_the_scan_sees_what_is_forbidden(source):
+    assert findings(source) != []
+
+
+def cpp_findings(text, name=""):
+    """Return (kind, what) of everything in a C++ source that reaches outside the process."""
+    code = re.sub(r'//[^\n]*|"(?:\\.|[^"\\\n])*"', "", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL))
+    found = [("header", match) for match in re.findall(rf"#\s*include\s*<({HEADERS})>", code)]
+    for kind, names in CALLS.items():
+        if (kind, name) not in ALLOWED:
+            found += [(kind, match) for match in re.findall(rf"(?<![\w.>])(?:{names})(?=\s*[(;\s])", code)]
+    return found
+
+
+@pytest.mark.parametrize("path", CPP, ids=relative)
+def test_cpp_reaches_nothing_outside_the_process(path):
+    assert cpp_findings(path.read_text(encoding="utf-8"), path.name) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *('FILE* f = fopen("x", "r");', "std::ifstream file(path);", 'std::getenv("HOME");', '::system("ls");'),
+        *("#include <fstream>", "# include <unistd.h>", "fork();", "int s = socket(1, 2, 3);", "std::cout << 1;"),
+        *('dlopen("x", 0);', "execve(a, b, c);"),
+    ],
+)
+def test_the_scan_sees_what_is_forbidden_in_cpp(text):
+    assert cpp_findings(text) != []
+
+
+def test_exceptions_are_needed():
+    for kind, name in ALLOWED:
+        (path,) = [path for path in CPP if path.name == name]
+        assert {kind} == {found for found, _ in cpp_findings(path.read_text(encoding="utf-8"))}
+
+
+def test_compiled_module_names_no_function_that_reaches_outside():
+    folder = Path(importlib.util.find_spec("spectral_conformal").origin).parent
+    (library,) = folder.glob("_native*")
+    names = {name.decode(errors="replace") for name in library.read_bytes().split(b"\0")}
+    assert "PyErr_SetString" in names
+    forbidden = "|".join(pattern for kind, pattern in CALLS.items() if kind != "libraries")
+    assert {name for name in names if re.fullmatch(forbidden, name)} == set()
+
+
+def test_manifest_asks_for_no_permissions():
+    manifest = (ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8")
+    keys = set(re.findall(r"^\s*\[?([\w.]+)\]?\s*(?==|$)", manifest, re.MULTILINE))
+    assert keys == {
+        *("schema_version", "id", "name", "tagline", "version", "type", "maintainer", "license", "copyright"),
+        *("tags", "blender_version_min"),
+    }
+    assert "permissions" not in manifest

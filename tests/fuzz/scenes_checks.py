@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Random calls of the add-on's operators, and what none of them may do."""
+
+import contextlib
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import bmesh
+import bpy
+import digest
+import numpy as np
+
+SELECTION = ("select", "UV selection", "selection history", "tool settings")
+EXTENDERS = ("extenders", "attribute .spectral_extenders:")
+# Searches take long on larger meshes.
+FACES_TO_SEARCH = 800
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call of an operator.
+
+    Attributes:
+        description: for the reader.
+        run: calls it and returns its status.
+        may_change: the parts of `digest.digest` that may change, by words in their names.
+        solved_corners: returns which corners of each mesh may get other UVs, by the mesh's name; asked before the call.
+    """
+
+    description: str
+    run: Callable[[], set[str]]
+    may_change: tuple[str, ...] = ()
+    solved_corners: Callable[[], dict[str, np.ndarray]] = dict
+
+
+def random_call(rng, edited):
+    """Choose an operator and its settings."""
+    makers = (_unwrap, _suggest_seams, _select_failed, _add_extender, _adjust_extender, _choose_extender)
+    return makers[rng.choice(len(makers), p=[0.6, 0.1, 0.08, 0.12, 0.05, 0.05])](rng, edited)
+
+
+def check(rng, call):
+    """Call the operator; raise AssertionError if it did what it must not."""
+    before, uv = digest.digest(), _active_uvs()
+    allowed = call.solved_corners()
+    undone = rng.random() < 0.25
+    if undone:
+        bpy.ops.ed.undo_push(message="Before")
+    status = _status(call.run)
+    after, new_uv = digest.digest(), _active_uvs()
+    changed = digest.changes(before, after)
+    with_new_map = [name for name in new_uv if uv[name] is None and new_uv[name] is not None]
+    words = call.may_change if status == {"FINISHED"} else ()
+    unexpected = [name for name in changed if not _is_allowed(name, words, with_new_map)]
+    assert not unexpected, f"{status} changed {unexpected}"
+    _check_seams(before, after, changed)
+    for name, coordinates in new_uv.items():
+        if coordinates is not None:
+            _check_uvs(name, uv[name], coordinates, allowed.get(name), status)
+    if undone and status == {"FINISHED"}:
+        _check_undo(uv)
+
+
+def _status(run):
+    """Return the operator's status; an error that it reports is one, an exception in it none."""
+    try:
+        return run()
+    except RuntimeError as error:
+        text = str(error)
+        assert text.startswith("Error: "), text
+        assert "Traceback" not in text, text
+        return {"CANCELLED"}
+
+
+def _is_allowed(name, words, with_new_map):
+    if any(name.startswith(f"mesh {mesh}: ") and "UV" in name for mesh in with_new_map):
+        return True
+    return any(word in name for word in words)
+
+
+def _check_seams(before, after, changed):
+    for name in (name for name in changed if name.endswith("use_seam")):
+        old, new = (np.frombuffer(side[name], dtype=bool) for side in (before, after))
+        assert (new >= old).all(), f"{name}: seams were cleared"
+
+
+def _check_uvs(name, old, new, allowed, status):
+    if old is None:
+        assert status == {"FINISHED"}, f"{name}: got a UV map"
+        assert np.isfinite(new).all(), f"{name}: UVs that are no numbers in a new map"
+        return
+    changed = (old.view(np.int32) != new.view(np.int32)).any(axis=1)
+    assert not changed.any() or status == {"FINISHED"}, f"{name}: UVs changed although {status}"
+    assert np.isfinite(new[changed]).all(), f"{name}: UVs that are no numbers"
+    outside = changed if allowed is None else changed & ~allowed
+    assert not outside.any(), f"{name}: {outside.sum()} UVs changed that must not"
+
+
+def _check_undo(uv):
+    bpy.ops.ed.undo_push(message="After")
+    bpy.ops.ed.undo()
+    for name, coordinates in _active_uvs().items():
+        old = uv.get(name)
+        same = (old is None) == (coordinates is None) and (old is None or old.tobytes() == coordinates.tobytes())
+        assert same, f"{name}: one undo step does not bring the UVs back"
+    bpy.ops.ed.redo()
+
+
+def _active_uvs():
+    return {mesh.name: digest.active_uv(mesh) for mesh in bpy.data.meshes}
+
+
+def _addon(name):
+    return importlib.import_module(f"spectral_unwrap.{name}")
+
+
+def _unwrap(rng, edited):
+    properties = {
+        "method": str(rng.choice(["SPECTRAL", "SPECTRAL", "SPECTRAL", "LSCM", "FIEDLER", "AREA"])),
+        "weights": str(rng.choice(["UNIFORM", "INVERSE_AREA"])),
+        "boundary": str(rng.choice(["LENGTH", "VERTEX"])),
+        "placement": str(rng.choice(["PACK", "PACK", "KEEP"])),
+        "fill_holes": bool(rng.random() < 0.2),
+        "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
+        "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
+        "stretch": float(rng.choice([1.0, 1.0, 0.01, 2.0, 100.0])),
+        "use_subsurf_data": bool(rng.random() < 0.3),
+        "soft_pins": bool(rng.random() < 0.4),
+        "soft_pin_strength": float(rng.choice([1e-6, 1.0, 100.0, 1e4])),
+        "correct_aspect": bool(rng.random() < 0.5),
+        "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
+        "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
+    }
+    if rng.random() < 0.1:
+        properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan
+    in_uv_editor = rng.random() < 0.2
+
+    def run():
+        with _uv_editor(in_uv_editor):
+            return bpy.ops.uv.spectral_unwrap(**properties)
+
+    def solved():
+        with _uv_editor(in_uv_editor):
+            return _solved_corners(properties)
+
+    place = "in the UV editor " if in_uv_editor else ""
+    return Call(f"unwrap {place}{properties}", run, solved_corners=solved)
+
+
+@contextlib.contextmanager
+def _uv_editor(wanted):
+    if not wanted:
+        yield
+        return
+    window = bpy.context.window_manager.windows[0]
+    area = window.screen.areas[0]
+    area.ui_type = "UV"
+    with bpy.context.temp_override(window=window, area=area):
+        yield
+
+
+def _solved_corners(properties):
+    """Return which corners the operator is to write: those of the faces that it takes, where the solver succeeds."""
+    unwrap = _addon("edit_mode_unwrap")
+    settings = _addon("operators.unwrap").UV_OT_spectral_unwrap.settings(SimpleNamespace(**properties))
+    edit_meshes = unwrap.read(bpy.context, settings)
+    found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
+    for edit_mesh, solution in zip(edit_meshes, unwrap.solve(edit_meshes, settings)):
+        chosen = _chosen_corners(edit_mesh.mesh)
+        assert not (solution.solved_corners & ~chosen).any(), "faces were solved that are not selected, or hidden"
+        found[edit_mesh.mesh.name] = solution.solved_corners
+    return found
+
+
+def _meshes():
+    return [item.data for item in bpy.context.objects_in_mode_unique_data]
+
+
+def _chosen_corners(mesh, all_visible=False):
+    """Return which corners belong to selected visible faces, or to visible ones."""
+    faces = bmesh.from_edit_mesh(mesh).faces
+    return np.array(
+        [(all_visible or face.select) and not face.hide for face in faces for _ in face.loops], dtype=bool
+    ).reshape(-1)
+
+
+def _suggest_seams(rng, edited):
+    if sum(len(bmesh.from_edit_mesh(mesh).faces) for mesh in _meshes()) > FACES_TO_SEARCH:
+        return _select_failed(rng, edited)
+    properties = {
+        "size_variation": float(rng.choice([1.01, 2.0, 8.0])),
+        "angle_distortion": float(rng.choice([1.05, 1.5])),
+        "max_length": float(rng.choice([0.0, 0.0, 3.0])),
+        "unwrap": bool(rng.random() < 0.7),
+    }
+
+    def chosen():
+        nothing = not any(_chosen_corners(mesh).any() for mesh in _meshes())
+        return {mesh.name: _chosen_corners(mesh, nothing) for mesh in _meshes()}
+
+    return Call(
+        f"suggest seams {properties}",
+        lambda: bpy.ops.uv.spectral_suggest_seams(**properties),
+        ("use_seam", "attribute uv_seam"),
+        chosen,
+    )
+
+
+def _select_failed(rng, edited):
+    return Call("select failed", lambda: bpy.ops.uv.spectral_select_failed(), SELECTION)
+
+
+def _add_extender(rng, edited):
+    """Select two vertices of a mesh, or a few, and connect them."""
+    mesh = edited[rng.integers(len(edited))].data
+    bm = bmesh.from_edit_mesh(mesh)
+    vertices = [vertex for vertex in bm.verts if not vertex.hide]
+    chosen = rng.choice(len(vertices), min(len(vertices), rng.choice([2, 2, 3, 4])), replace=False) if vertices else ()
+    if rng.random() < 0.8:
+        for element in (*bm.verts, *bm.edges, *bm.faces):
+            element.select = False
+        for index in chosen:
+            vertices[index].select_set(True)
+            bm.select_history.add(vertices[index])
+        bmesh.update_edit_mesh(mesh)
+    properties = {
+        "pairs": str(rng.choice(["IN_ORDER", "TO_ACTIVE"])),
+        "strength": float(rng.choice([1.0, -1.0, 0.0, 1e4, -1e4])),
+    }
+    return Call(f"add extender {properties}", lambda: bpy.ops.mesh.spectral_extender_add(**properties), EXTENDERS)
+
+
+def _adjust_extender(rng, edited):
+    strength = float(rng.choice([0.0, 0.5, -2.0, 1e4]))
+    if not bpy.ops.mesh.spectral_extender_adjust.poll():
+        return _add_extender(rng, edited)
+    return Call(
+        f"adjust extender to {strength}",
+        lambda: bpy.ops.mesh.spectral_extender_adjust(strength=strength),
+        EXTENDERS,
+        lambda: {mesh.name: _chosen_corners(mesh, all_visible=True) for mesh in _meshes()},
+    )
+
+
+def _choose_extender(rng, edited):
+    if not bpy.ops.mesh.spectral_extender_select.poll():
+        return _add_extender(rng, edited)
+    if rng.random() < 0.5:
+        return Call("select extender", lambda: bpy.ops.mesh.spectral_extender_select(), SELECTION)
+    broken = bool(rng.random() < 0.5)
+    return Call(
+        f"remove extender, broken={broken}", lambda: bpy.ops.mesh.spectral_extender_remove(broken=broken), EXTENDERS
+    )

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cancelled at any of its reports, or left by an exception there, a call ends there and changes nothing."""
+
+import copy
+
+import meshes
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+
+def two_patches():
+    """A patch with holes and a smaller one, in one mesh."""
+    vertices, triangles = meshes.bumpy_disk(600, holes=2, seed=1)
+    more, other = meshes.bumpy_disk(300, seed=2)
+    return np.vstack([vertices, more + 5.0]), [*triangles.tolist(), *(other + len(vertices)).tolist()]
+
+
+def unwrap_arguments(**options):
+    vertices, faces = two_patches()
+    offsets, corners = meshes.polygons(faces)
+    return sc.unwrap, {"vertices": vertices, "face_offsets": offsets, "corner_vertices": corners, **options}
+
+
+def patch_arguments(function, **options):
+    vertices, triangles = meshes.bumpy_disk(600, holes=2, seed=1)
+    return function, {"vertices": vertices, "triangles": triangles, **options}
+
+
+def seams_arguments():
+    vertices, quads = meshes.bulge(5, 2.0)
+    offsets, corners = meshes.polygons(quads)
+    return sc.suggest_seams, {"vertices": vertices, "face_offsets": offsets, "corner_vertices": corners}
+
+
+CALLS = {
+    "unwrap": unwrap_arguments,
+    "unwrap, inverse area, rigid holes": lambda: unwrap_arguments(weights="inverse_area", hole_rigidity=1.0),
+    "unwrap, area blend": lambda: unwrap_arguments(area_blend=0.5),
+    "unwrap, filled holes": lambda: unwrap_arguments(fill_holes=True),
+    "parameterize": lambda: patch_arguments(sc.parameterize),
+    "parameterize, extender": lambda: patch_arguments(sc.parameterize, extenders=[(3, 141, 2.0)]),
+    "parameterize, Fiedler": lambda: patch_arguments(sc.parameterize, method="fiedler"),
+    "parameterize, area": lambda: patch_arguments(sc.parameterize, method="area"),
+    "parameterize, LSCM": lambda: patch_arguments(sc.parameterize, method="lscm"),
+    "Solver": lambda: patch_arguments(sc.Solver),
+    "suggest seams": seams_arguments,
+}
+
+
+class Failure(Exception):
+    """Raised in a report."""
+
+
+class Stop:
+    """A progress function that counts its calls, and at one of them cancels or raises."""
+
+    def __init__(self, at=-1, error=None):
+        self.at, self.error, self.calls = at, error, 0
+
+    def __call__(self, fraction, phase):
+        self.calls += 1
+        if self.calls - 1 != self.at:
+            return True
+        if self.error is not None:
+            raise self.error
+        return False
+
+
+def stopped(function, arguments, at, error):
+    """Stop a call at its report number `at`; check that it has ended there and left its arguments alone."""
+    before, stop = copy.deepcopy(arguments), Stop(at, error)
+    with pytest.raises(sc.Cancelled if error is None else type(error)):
+        function(**arguments, progress=stop)
+    assert stop.calls == at + 1
+    for name, value in before.items():
+        if isinstance(value, np.ndarray):
+            np.testing.assert_array_equal(arguments[name], value)
+
+
+@pytest.mark.parametrize("error", [None, Failure(), KeyboardInterrupt()], ids=["cancelled", "raised", "interrupted"])
+@pytest.mark.parametrize("name", CALLS)
+def test_stopped_at_every_report(name, error):
+    function, arguments = CALLS[name]()
+    counter = Stop()
+    function(**arguments, progress=counter)
+    assert counter.calls > 1
+    for at in range(counter.calls):
+        stopped(function, arguments, at, error)
+
+
+def test_a_stopped_call_does_not_show_in_the_next_one():
+    function, arguments = CALLS["unwrap"]()
+    before, counter = function(**arguments), Stop()
+    function(**arguments, progress=counter)
+    for at in range(counter.calls):
+        stopped(function, arguments, at, None)
+        np.testing.assert_array_equal(function(**arguments).uv, before.uv)
+
+
+@pytest.mark.parametrize("options", [{}, {"extenders": [(3, 141, 2.0)]}, {"hole_rigidity": 1.0}], ids=str)
+@pytest.mark.parametrize("kind", [sc.Solver, sc.Unwrapper])
+def test_stopped_at_every_report_a_kept_solver_solves_as_before(kind, options):
+    _, arguments = patch_arguments(kind) if kind is sc.Solver else unwrap_arguments()
+    counter = Stop()
+    expected = kind(**arguments).solve(**options, progress=counter).uv
+    for at in range(counter.calls):
+        solver = kind(**arguments)
+        with pytest.raises(sc.Cancelled):
+            solver.solve(**options, progress=Stop(at))
+        # The second solve may start from what the first one had.
+        np.testing.assert_allclose(solver.solve(**options).uv, expected, atol=1e-9)
