@@ -332,7 +332,10 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
 py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_vertices, const Array<double>& corner_uv,
                      const std::optional<Array<bool>>& selected_faces, bool between_islands) {
   sc::PolygonMesh mesh;
-  mesh.n_vertices = std::numeric_limits<int>::max();  // they are not looked at
+  // Positions are not looked at; as many as the corners need.
+  const auto n_corners = static_cast<std::ptrdiff_t>(corner_vertices.size());
+  const int* const last = std::max_element(corner_vertices.data(), corner_vertices.data() + n_corners);
+  mesh.n_vertices = n_corners == 0 ? 0 : std::min(*last, std::numeric_limits<int>::max() - 1) + 1;
   mesh.face_offsets = face_offsets.data();
   mesh.n_faces = static_cast<int>(face_offsets.shape(0)) - 1;
   mesh.corner_vertices = corner_vertices.data();

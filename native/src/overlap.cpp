@@ -59,7 +59,10 @@ class OverlapTest {
               double resolution)
       : triangles_(triangles), face_(face), resolution_(resolution), overlapping_(triangles.size(), false) {
     // Products of coordinates must neither overflow nor vanish, whatever the unit.
-    const double extent = map.size() == 0 ? 0 : map.cwiseAbs().maxCoeff();
+    double extent = 0;
+    for (const auto& triangle : triangles) {
+      for (const int v : triangle) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
+    }
     if (extent > 0) z_ = map / extent;
   }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <iomanip>
 #include <iterator>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 #include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/eigenproblem.h"
@@ -106,10 +108,11 @@ void move_onto_pin(const Pins& pins, ComplexVector& z) {
 /// Whether pins act as a soft force.
 bool is_attracted(const SolveOptions& options) { return options.method == Method::spectral && options.soft_pins > 0; }
 
-std::string four_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.5g", value);
-  return text;
+std::string five_digits(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(5) << value;
+  return text.str();
 }
 
 /// What was done to keep the map free of folds and what it cost; `before` is the mean QC of the given map, where there
@@ -120,10 +123,10 @@ std::string describe(const FoldFreeMap& map, const std::string& failure, double 
   if (map.is_embedding) {
     text = failure.empty() ? "The folds left no room to unfold them" : failure;
     text += ": replaced by an embedding, relaxed without folding it; mean QC ";
-    text += failure.empty() ? four_digits(before) + " -> " + four_digits(after) + ". " : four_digits(after) + ". ";
+    text += failure.empty() ? five_digits(before) + " -> " + five_digits(after) + ". " : five_digits(after) + ". ";
   } else if (map.folded < map.folded_before) {
     text = count(map.folded_before - map.folded, "folded triangle", "folded triangles") + " unfolded; mean QC " +
-           four_digits(before) + " -> " + four_digits(after) + ". ";
+           five_digits(before) + " -> " + five_digits(after) + ". ";
   }
   if (map.folded > 0) {
     text += count(map.folded, "triangle", "triangles") +
