@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 
 #include "spectral_conformal/errors.h"
@@ -69,20 +70,31 @@ PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : me
     const auto copy = static_cast<int>(nearest - found->second.begin());
     if (copy > 0) corner_vertices_[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
   });
-  const auto copies = [&](int vertex) {
-    std::vector<int> result{vertex};
-    const auto found = split.find(vertex);
-    if (found == split.end()) return result;
-    for (std::size_t k = 1; k < found->second.size(); ++k) {
-      result.push_back(first_copy[vertex] + static_cast<int>(k) - 1);
-    }
-    return result;
-  };
-  for (int i = 0; i < mesh.n_seam_edges; ++i) {
-    for (const int a : copies(mesh.seam_edges[i][0])) {
-      for (const int b : copies(mesh.seam_edges[i][1])) seam_edges_.push_back({a, b});
+  add_seams(split);
+}
+
+void PinSplitMesh::add_seams(const std::map<int, std::vector<Complex>>& split) {
+  // Between copies only those pairs that are sides of faces: all pairs would be too many around a pole.
+  using Edge = std::array<int, 2>;
+  const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
+  std::set<Edge> at_copies;
+  for (int i = 0; i < mesh_.n_seam_edges; ++i) {
+    const auto& [a, b] = mesh_.seam_edges[i];
+    seam_edges_.push_back({a, b});
+    if (split.count(a) + split.count(b) > 0) at_copies.insert(edge(a, b));
+  }
+  std::set<Edge> copies;
+  for (int face = 0; face < mesh_.n_faces; ++face) {
+    const int first = mesh_.face_offsets[face];
+    const int end = mesh_.face_offsets[face + 1];
+    for (int c = first; c < end; ++c) {
+      const int next = c + 1 < end ? c + 1 : first;
+      const Edge original = edge(mesh_.corner_vertices[c], mesh_.corner_vertices[next]);
+      const Edge copy = edge(corner_vertices_[c], corner_vertices_[next]);
+      if (copy != original && at_copies.count(original) > 0) copies.insert(copy);
     }
   }
+  seam_edges_.insert(seam_edges_.end(), copies.begin(), copies.end());
 }
 
 PolygonMesh PinSplitMesh::view() const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <new>
 #include <shared_mutex>
@@ -26,9 +27,18 @@ void zgemv_(const char*, const int*, const int*, const void*, const void*, const
 namespace spectral_conformal {
 namespace {
 
+/// Tells the size of the factor, which Eigen counts with ints, before there is one.
+class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
+ public:
+  double planned_nonzeros() const { return m_nonZerosPerCol.cast<double>().sum(); }
+};
+
 class EigenFactorization final : public Factorization {
  public:
-  void analyze(const HermitianMatrix& matrix) override { ldlt_.analyzePattern(matrix); }
+  void analyze(const HermitianMatrix& matrix) override {
+    ldlt_.analyzePattern(matrix);
+    check_factor_size(ldlt_.planned_nonzeros());
+  }
 
   bool factorize(const HermitianMatrix& matrix) override {
     ldlt_.factorize(matrix);
@@ -59,7 +69,7 @@ class EigenFactorization final : public Factorization {
   }
 
  private:
-  Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> ldlt_;
+  SimplicialLdlt ldlt_;
   std::vector<int> selected_;
 };
 
@@ -342,10 +352,7 @@ class CholmodFactorization final : public Factorization {
 
   void check() const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (common_.status == CHOLMOD_TOO_LARGE) {
-      throw SolveFailure("The patch is too large for this build's index type",
-                         "cut it into smaller islands with seams.");
-    }
+    if (common_.status == CHOLMOD_TOO_LARGE) check_factor_size(std::numeric_limits<double>::infinity());
     if (common_.status < CHOLMOD_OK) {
       throw SolveFailure("CHOLMOD reported status " + std::to_string(common_.status),
                          "please report this with the mesh.");
@@ -366,6 +373,13 @@ class CholmodFactorization final : public Factorization {
 #endif
 
 }  // namespace
+
+void check_factor_size(double nonzeros) {
+  constexpr int limit = std::numeric_limits<int>::max();
+  if (nonzeros <= limit) return;
+  throw SolveFailure("The patch is too large: its factor would have more than " + std::to_string(limit) + " entries",
+                     "cut it into smaller islands with seams.");
+}
 
 std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, [[maybe_unused]] Eigen::Index n) {
 #ifdef SPECTRAL_CONFORMAL_HAVE_CHOLMOD

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -96,6 +97,25 @@ TEST_CASE("seams run along all copies of a split vertex") {
   CHECK(split.view().n_seam_edges == 2);
   const ChartDecomposition charts = build_charts(split.view());
   CHECK(charts.chart_of_face == std::vector<int>{0, 0, 1, 2});
+}
+
+TEST_CASE("seams around a pole with many pins are no more than its faces have sides") {
+  // All pairs of copies would be 2 x 60 for each of 60 seams.
+  constexpr int n = 60;
+  constexpr double pi = 3.14159265358979323846;
+  Mesh fan;
+  for (int v = 0; v < n; ++v) fan.points.emplace_back(std::cos(2 * pi * v / n), std::sin(2 * pi * v / n), 0);
+  fan.points.emplace_back(0, 0, 1);
+  for (int v = 0; v < n; ++v) {
+    fan.add({v, (v + 1) % n, n});
+    fan.seams.push_back({v, n});
+  }
+  PinnedMesh pinned(fan);
+  for (int c = 0; c < 3 * n; ++c) pinned.pin(c, c, 0.5 * c);
+  const PinSplitMesh split(pinned.mesh.view(), pinned.pins());
+  // Each seam and its copy in either face; the first pins, in the first face, keep their vertices.
+  CHECK(split.view().n_seam_edges == 3 * n - 2);
+  CHECK(build_charts(split.view()).charts.size() == n);
 }
 
 TEST_CASE("a pin that is not finite is named") {

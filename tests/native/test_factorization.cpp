@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "meshes.h"
+#include "spectral_conformal/errors.h"
 #include "spectral_conformal/factorization.h"
 
 namespace spectral_conformal::test {
@@ -116,6 +117,13 @@ TEST_CASE("the ordering of large matrices solves too") {
     ComplexVector x;
     factor(matrix, backend)->solve(product(matrix, expected), x);
     CHECK(difference(x, expected) < 1e-12);
+  }
+}
+
+TEST_CASE("a factor that ints cannot number is refused") {
+  CHECK_NOTHROW(check_factor_size(2147483647.0));
+  for (const double nonzeros : {2147483648.0, 1e12}) {
+    CHECK_THROWS_WITH_AS(check_factor_size(nonzeros), doctest::Contains("2147483647 entries: cut it"), SolveFailure);
   }
 }
 

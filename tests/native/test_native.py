@@ -2,6 +2,7 @@
 """Build the C++ library and its own tests in every flavour and run them."""
 
 import os
+from pathlib import Path
 
 import flavours
 import pytest
@@ -10,14 +11,19 @@ import pytest
 @pytest.fixture(scope="module", params=flavours.FLAVOURS)
 def build(request):
     folder = flavours.configure(request.param)
-    flavours.run(flavours.TOOLS / "cmake", "--build", folder)
+    target, _ = flavours.ONLY.get(request.param, ("all", None))
+    flavours.run(flavours.TOOLS / "cmake", "--build", folder, "--target", target)
     return folder
 
 
 def test_ctest(build, monkeypatch):
     monkeypatch.setenv("UBSAN_OPTIONS", "print_stacktrace=1")
+    suppressions = Path(__file__).with_name("thread_sanitizer_suppressions.txt")
+    monkeypatch.setenv("TSAN_OPTIONS", f"suppressions={suppressions} halt_on_error=1")
+    _, only = flavours.ONLY.get(build.name, (None, ""))
     summary = flavours.run(
-        flavours.TOOLS / "ctest", "--test-dir", build, "--output-on-failure", "--no-tests=error", "-j", os.cpu_count()
+        flavours.TOOLS / "ctest",
+        *("--test-dir", build, "--output-on-failure", "--no-tests=error", "-j", os.cpu_count(), "-R", only),
     )
     assert "100% tests passed" in summary
 

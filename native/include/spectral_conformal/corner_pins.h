@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "spectral_conformal/charts.h"
@@ -29,6 +30,9 @@ class PinSplitMesh {
   }
 
  private:
+  /// `split`: the different pins of the vertices that are split.
+  void add_seams(const std::map<int, std::vector<Complex>>& split);
+
   PolygonMesh mesh_;
   std::vector<int> copied_;
   // Empty where nothing was split.

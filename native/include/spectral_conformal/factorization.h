@@ -37,6 +37,9 @@ class Factorization {
   virtual double factor_nonzeros() const = 0;
 };
 
+/// Throws SolveFailure when a factor of this many nonzeros is too large for the index type, an int.
+void check_factor_size(double nonzeros);
+
 /// For matrices of n rows. Throws std::invalid_argument for CHOLMOD when the module was built without it.
 std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n);
 

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Build the libFuzzer targets and run them. What they find is kept in build/fuzz/, to be run again by its path."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "native"))
+import flavours
+
+TARGETS = ("fuzz_charts", "fuzz_solver")
+FINDINGS = flavours.ROOT / "build" / "fuzz"
+# All that the targets make of bytes needs no more.
+MAX_LENGTH = 600
+LIMITS = [f"-max_len={MAX_LENGTH}", "-len_control=0", "-timeout=60", "-rss_limit_mb=4096"]
+SEEDS = 100
+
+
+def build():
+    """Build the targets; returns their folder."""
+    folder = flavours.configure("fuzzers")
+    flavours.run(flavours.TOOLS / "cmake", "--build", folder)
+    return folder / "tests" / "fuzz"
+
+
+def command(folder, target, runs, seed):
+    """Return the words that run a target on its corpus, which grows with what reaches new code."""
+    corpus = FINDINGS / f"{target}_corpus"
+    corpus.mkdir(parents=True, exist_ok=True)
+    # From nothing, libFuzzer would stay with inputs of a few bytes for long.
+    bytes_of = random.Random(seed)
+    for number in range(SEEDS):
+        (corpus / f"random_{number}").write_bytes(bytes_of.randbytes(bytes_of.randint(1, MAX_LENGTH)))
+    options = [f"-runs={runs}", f"-seed={seed}", f"-artifact_prefix={FINDINGS}/{target}_", *LIMITS]
+    return [str(folder / target), *options, str(corpus)]
+
+
+def environ():
+    """Return the environment: stacks for what UBSan sees, and one BLAS thread (there is a fuzzer for every core)."""
+    return {**os.environ, "UBSAN_OPTIONS": "print_stacktrace=1", "OPENBLAS_NUM_THREADS": "1"}
+
+
+def main():
+    """Run all targets at once and return 1 when one has found something."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--runs", type=int, default=100000, help="of each target")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    folder = build()
+    processes = [
+        subprocess.Popen(command(folder, target, options.runs, options.seed), env=environ()) for target in TARGETS
+    ]
+    return max(process.wait() != 0 for process in processes)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
