@@ -105,6 +105,9 @@ class PinnedChart:
         start, places = start[self.corners], now[self.corners][self.pinned]
         if np.array_equal(places, start[self.pinned]):
             return start
+        # A script may move a pin to a place that is none, which no map can have.
+        if not (np.isfinite(places).all() and np.isfinite(start[self.pinned]).all()):
+            return None
         if self.n_pins == 1:
             return start + (places[0] - start[self.pinned][0])
         found = self._combined(places)

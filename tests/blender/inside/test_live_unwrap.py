@@ -316,3 +316,16 @@ def test_pins_that_an_unwrap_moves_are_not_followed():
     solved = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.2))
     assert not np.allclose(scenes.read_uv(grid)[others], solved[others], atol=1e-3)
+
+
+@pytest.mark.parametrize("pins", [[4], [0, 8, 62]], ids=["one pin", "three pins"])
+def test_a_pin_at_no_place_takes_nothing_along(pins):
+    grid = bumpy_grid()
+    edit_with_pins(grid, pins)
+    turn_on()
+    # Followed once, so that maps of other places are known.
+    move(grid, pins[0], (0.1, 0.2))
+    move(grid, pins[0], (np.nan, 0.0))
+    others = np.array([loop.vert.index != pins[0] for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    assert np.isfinite(scenes.read_uv(grid)[others]).all()
+    assert not np.isfinite(scenes.read_uv(grid)[~others]).all()
