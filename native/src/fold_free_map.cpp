@@ -15,6 +15,11 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
+int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
+  const std::vector<bool> each = folded_elements(elements, z);
+  return static_cast<int>(std::count(each.begin(), each.end(), true));
+}
+
 class FoldFree {
  public:
   FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {
@@ -25,13 +30,9 @@ class FoldFree {
     const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
     const std::vector<double> coverage(energy.coverage().begin(), energy.coverage().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, coverage, 0);
-    for (std::size_t t = 0; t < n; ++t) {
-      single_.push_back(triangles_[t]);
-      if (coverage[t] == 1.0) continue;
-      // triangulate_polygon puts the four triangles of a quad's two splits in a row.
-      single_.push_back(triangles_[t + 1]);
-      elements_[t + 2].measured = elements_[t + 3].measured = false;
-      t += 3;
+    std::set<std::pair<int, int>> edges;
+    for (const auto& triangle : triangles_) {
+      for (int k = 0; k < 3; ++k) edges.insert(std::minmax(triangle[k], triangle[(k + 1) % 3]));
     }
     n_vertices_ = 0;
     for (const auto& triangle : triangles_)
@@ -42,7 +43,7 @@ class FoldFree {
     FoldFreeMap result;
     result.z = std::move(given);
     if (result.z.size() > 0) {
-      result.folded_before = result.folded = folded(result.z);
+      result.folded_before = result.folded = count_folded(elements_, result.z);
       if (result.folded > 0) {
         const Progress first = part(progress_, 0, 0.3);
         result.folded = unfold_locally(elements_, patch_.held, patch_.backend, result.z, first);
@@ -57,11 +58,6 @@ class FoldFree {
   }
 
  private:
-  int folded(const ComplexVector& z) const {
-    const std::vector<bool> each = folded_elements(elements_, z);
-    return static_cast<int>(std::count(each.begin(), each.end(), true));
-  }
-
   /// Whether the triangles go round every inner vertex once, and the outer loop round the map.
   bool goes_round_once(const ComplexVector& z) const {
     const std::vector<double> whole(single_.size(), 1.0);
@@ -85,23 +81,56 @@ class FoldFree {
     result.is_embedding = true;
     result.z = convex_embedding(single_, patch_.loops, 0, patch_.positions.topRows(n_vertices_), patch_.backend,
                                 part(progress_, 0.3, 0.5));
-    if (folded(result.z) > 0) unfold_locally(elements_, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
-    relax(DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
-    relax(DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
-    result.folded = folded(result.z);
+    const std::vector<DistortionElement> lifted = lifted_elements();
+    if (count_folded(lifted, result.z) > 0) {
+      unfold_locally(lifted, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
+    }
+    relax(lifted, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
+    relax(lifted, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
+    result.folded = count_folded(elements_, result.z);
     result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
     return result;
   }
 
+  /// The elements with a barrier each. In 3D degenerate triangles keep their vertices together and have no orientation;
+  /// here they are lifted to thin ones that have: the embedding must not turn over anywhere.
+  std::vector<DistortionElement> lifted_elements() const {
+    constexpr double least_height = 1e-3;
+    std::vector<DistortionElement> lifted = elements_;
+    double area = 0;
+    for (const DistortionElement& element : elements_) {
+      if (element.barrier()) area += element.shape.area();
+    }
+    const double least_side = least_height * std::sqrt(area / static_cast<double>(elements_.size()));
+    for (DistortionElement& element : lifted) {
+      if (element.barrier()) continue;
+      element.softening = 0;
+      element.measured = true;
+      TriangleShape& shape = element.shape;
+      const double height = shape.relative_height();
+      if (height < least_height) shape.y2 *= least_height / height;
+      const double side = std::sqrt(shape.area());
+      // Without extent, lay_out made it equilateral, of side 1.
+      const bool is_point = shape.clamped && height > 0.5;
+      const double scale = is_point || side < least_side ? least_side / side : 1;
+      shape.x1 *= scale;
+      shape.x2 *= scale;
+      shape.y2 *= scale;
+      element.weight = shape.area() / area;
+    }
+    return lifted;
+  }
+
   /// Lessens the distortion without a new fold.
-  void relax(DistortionMeasure measure, double tolerance, const Progress& progress, ComplexVector& z) const {
+  void relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
+             const Progress& progress, ComplexVector& z) const {
     constexpr int max_factorizations = 60;
-    std::vector<DistortionElement> elements = elements_;
+    const int folded = count_folded(elements, z);
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return;
     ComplexVector relaxed = factor * z;
     descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
-    if (relaxed.allFinite() && folded(relaxed) <= folded(z)) z = std::move(relaxed);
+    if (relaxed.allFinite() && count_folded(elements, relaxed) <= folded) z = std::move(relaxed);
   }
 
   const FoldFreePatch& patch_;

@@ -10,11 +10,12 @@ namespace spectral_conformal {
 namespace {
 
 bool is_folded(const DistortionElement& element, const ComplexVector& z) {
-  // Beyond this QC rounding decides on the sign.
-  constexpr double least = 1e-9;
+  // Of an image thinner than this, rounding decides on the sign.
+  constexpr double least_sine = 1e-13;
   if (!element.measured) return false;
-  const MapJacobian j = jacobian(element, z);
-  return !(j.determinant > least * j.half_square);
+  const Complex d1 = z[element.corners[1]] - z[element.corners[0]];
+  const Complex d2 = z[element.corners[2]] - z[element.corners[0]];
+  return !(std::imag(std::conj(d1) * d2) > least_sine * std::abs(d1) * std::abs(d2));
 }
 
 /// The elements at each vertex.

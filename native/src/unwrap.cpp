@@ -26,7 +26,8 @@ std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& c
 namespace {
 
 /// Fills in mean_qc, max_qc, flipped and area of a solved chart. They are those of one triangulation: where the energy
-/// has both splits of a quad, of the one that is distorted less (a symmetric map can collapse a triangle of the other).
+/// has both splits of a quad, of the one that does not fold, or else of the one that is distorted less (a symmetric map
+/// can collapse a triangle of the other).
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
              UnwrappedChart& report) {
   struct Triangle {
@@ -65,7 +66,10 @@ void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVec
     }
     // triangulate_polygon puts the four triangles of the two splits in a row.
     const std::array<Triangle, 4> splits{measured(t), measured(t + 1), measured(t + 2), measured(t + 3)};
-    const auto worst = [&](int first) { return std::max(splits[first].qc, splits[first + 1].qc); };
+    const auto worst = [&](int first) {
+      const bool folds = splits[first].image < 0 || splits[first + 1].image < 0;
+      return std::pair<bool, double>(folds, std::max(splits[first].qc, splits[first + 1].qc));
+    };
     const int better = worst(0) <= worst(2) ? 0 : 2;
     take(splits[better], t);
     take(splits[better + 1], t);
