@@ -172,7 +172,9 @@ def _uv_editor(wanted):
 def _solved_corners(properties):
     """Return which corners the operator is to write: those of the faces that it takes, where the solver succeeds."""
     unwrap = _addon("edit_mode_unwrap")
-    settings = _addon("operators.unwrap").UV_OT_spectral_unwrap.settings(SimpleNamespace(**properties))
+    # Blender's properties have single precision, which decides whether a patch at the limit is solved.
+    held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
+    settings = _addon("operators.unwrap").UV_OT_spectral_unwrap.settings(SimpleNamespace(**held))
     edit_meshes = unwrap.read(bpy.context, settings)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, unwrap.solve(edit_meshes, settings)):
