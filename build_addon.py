@@ -25,7 +25,9 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     command = commands.add_parser(
         "fuzz", help="call the module at random; further arguments: --cases, --seed, --case", add_help=False
     )
-    command.add_argument("--native", action="store_true", help="libFuzzer on the C++ code instead; arguments: --runs")
+    command.add_argument(
+        "--native", action="store_true", help="libFuzzer on the C++ code instead; arguments: --runs, --seed, --input"
+    )
     command = commands.add_parser("package", help="write the installable zips to build/packages/")
     command.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
