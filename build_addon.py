@@ -25,7 +25,9 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     command = commands.add_parser(
         "fuzz", help="call the module at random; further arguments: --cases, --seed, --case", add_help=False
     )
-    command.add_argument("--native", action="store_true", help="libFuzzer on the C++ code instead; arguments: --runs")
+    command.add_argument(
+        "--native", action="store_true", help="libFuzzer on the C++ code instead; arguments: --runs, --seed, --input"
+    )
     commands.add_parser(
         "fuzz-scenes", help="random scenes through the operators; --help tells what else", add_help=False
     )

@@ -70,7 +70,10 @@ void ConformalEnergy::assemble(int n_vertices) {
   };
   std::vector<int> start(static_cast<std::size_t>(n_vertices) + 1, 0);
   for (const auto& triangle : triangles_) {
-    for (int k = 0; k < 3; ++k) ++start[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
+    // A polygon that passes a vertex twice may leave a triangle with a side from that vertex to itself.
+    for (int k = 0; k < 3; ++k) {
+      if (triangle[k] != triangle[(k + 1) % 3]) ++start[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
+    }
   }
   for (int v = 0; v < n_vertices; ++v) start[v + 1] += start[v];
   std::vector<Entry> entries(static_cast<std::size_t>(start[n_vertices]));
@@ -87,6 +90,7 @@ void ConformalEnergy::assemble(int n_vertices) {
     for (int k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3];
       const int j = triangle[(k + 2) % 3];
+      if (i == j) continue;
       const double dirichlet = half_weight * cotangent[k];
       diagonal[i] += dirichlet;
       diagonal[j] += dirichlet;

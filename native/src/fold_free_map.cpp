@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
+#include <utility>
 
 #include "spectral_conformal/convex_embedding.h"
 #include "spectral_conformal/distortion_descent.h"
@@ -30,10 +32,7 @@ class FoldFree {
     const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
     const std::vector<double> coverage(energy.coverage().begin(), energy.coverage().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, coverage, 0);
-    std::set<std::pair<int, int>> edges;
-    for (const auto& triangle : triangles_) {
-      for (int k = 0; k < 3; ++k) edges.insert(std::minmax(triangle[k], triangle[(k + 1) % 3]));
-    }
+    choose_splits(energy.coverage());
     n_vertices_ = 0;
     for (const auto& triangle : triangles_)
       n_vertices_ = std::max(n_vertices_, 1 + *std::max_element(triangle.begin(), triangle.end()));
@@ -58,6 +57,42 @@ class FoldFree {
   }
 
  private:
+  static std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+  /// Of a quad's two splits only one can be asked to have no fold: the first, unless its diagonal is an edge already,
+  /// which no straight lines can draw twice.
+  void choose_splits(const std::vector<double>& coverage) {
+    std::set<std::pair<int, int>> edges;
+    const auto is_first_of_quad = [&](std::size_t t) { return coverage[t] != 1.0; };
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      edges.insert({edge(a, b), edge(b, c)});
+      if (!is_first_of_quad(t)) {
+        edges.insert(edge(c, a));
+        continue;
+      }
+      // triangulate_polygon puts the four triangles in a row: 0 1 2, 0 2 3, 0 1 3, 1 2 3.
+      const int d = triangles_[t + 1][2];
+      edges.insert({edge(c, d), edge(d, a)});
+      t += 3;
+    }
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!is_first_of_quad(t)) {
+        single_.push_back(triangles_[t]);
+        continue;
+      }
+      const auto first_diagonal = edge(triangles_[t][0], triangles_[t][2]);
+      const auto second_diagonal = edge(triangles_[t][1], triangles_[t + 1][2]);
+      const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;
+      const std::size_t chosen = second ? t + 2 : t;
+      edges.insert(second ? second_diagonal : first_diagonal);
+      single_.insert(single_.end(), {triangles_[chosen], triangles_[chosen + 1]});
+      const std::size_t other = second ? t : t + 2;
+      elements_[other].measured = elements_[other + 1].measured = false;
+      t += 3;
+    }
+  }
+
   /// Whether the triangles go round every inner vertex once, and the outer loop round the map.
   bool goes_round_once(const ComplexVector& z) const {
     const std::vector<double> whole(single_.size(), 1.0);
@@ -137,7 +172,7 @@ class FoldFree {
   const Progress& progress_;
   int n_vertices_ = 0;
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<std::array<int, 3>> single_;   ///< of a quad the first split only
+  std::vector<std::array<int, 3>> single_;   ///< of a quad one split only
   std::vector<DistortionElement> elements_;  ///< of triangles_
 };
 

@@ -671,7 +671,10 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
       const Complex offset = pin.second - origin;
       extent = std::max({extent, std::abs(offset.real()), std::abs(offset.imag())});
     }
-    if (!(extent > 0) || !std::isfinite(extent)) {
+    // Rounding alone can make an extent of the smallest numbers.
+    const bool equal =
+        std::all_of(pins.begin(), pins.end(), [&pins](const auto& pin) { return pin.second == pins.begin()->second; });
+    if (equal || !(extent > 0) || !std::isfinite(extent)) {
       throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
     }
     for (const auto& [vertex, position] : pins) held[vertex] = (position - origin) / extent;
@@ -691,6 +694,11 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
   if (!result.z.allFinite()) throw SolveFailure("The pinned map is not finite", "clean up degenerate faces.");
   result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
   result.eigenvalue = energy_->value(result.z) / form_.value(result.z) * lambda_unit(Method::lscm);
+  // With pins on vertices without mass the rest may all lie in one point.
+  if (!std::isfinite(result.eigenvalue)) {
+    throw SolveFailure("The pinned map shrinks the boundary to a point",
+                       "pin other vertices, or merge vertices by distance.");
+  }
   if (!(result.residual < pinned_residual_limit)) {
     throw SolveFailure("The pinned map does not satisfy its equations in double precision",
                        "clean up degenerate faces, or pin other vertices.");

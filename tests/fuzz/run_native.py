@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build the libFuzzer targets and run them. What they find is kept in build/fuzz/, to be run again by its path."""
+"""Build the libFuzzer targets and run them. What they find is kept in build/fuzz/ and can be run again."""
 
 from __future__ import annotations
 
@@ -50,8 +50,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=100000, help="of each target")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--input", type=Path, help="run this finding of build/fuzz/ alone")
     options = parser.parse_args()
     folder = build()
+    if options.input:
+        target = next(target for target in TARGETS if options.input.name.startswith(target))
+        return subprocess.run([folder / target, options.input], env=environ(), check=False).returncode
     processes = [
         subprocess.Popen(command(folder, target, options.runs, options.seed), env=environ()) for target in TARGETS
     ]

@@ -151,3 +151,10 @@ def test_metrics_are_found_in_every_unit(unit):
         sc.metric_from_direction(unit * vertices, triangles, [1, 0, 0], 2),
         sc.metric_from_direction(vertices, triangles, [1, 0, 0], 2),
     )
+
+
+def test_equal_pins_that_rounding_sets_apart():
+    # The mean of two equal denormal numbers is another one; found by libFuzzer.
+    place = (-4.625, 4.02594e-310)
+    with pytest.raises(sc.InvalidMeshError, match="same position"):
+        sc.parameterize(*disk(), method="lscm", pins={0: place, 7: place})

@@ -123,5 +123,6 @@ def test_memory_does_not_grow_over_a_thousand_solves(name, backend):
         loop({rounds})
         print(resident() - before)
     """
-    # A leak of one vector of 324 complex numbers per solve would be 5 MB; allocators keep a few pages back.
-    assert int(run(program)) < 1024**2
+    # It does not grow by a page here. The margin is for other allocators, which may keep some back; 260 bytes lost in
+    # each of a thousand solves, a twentieth of one vector of the map, would fill it.
+    assert int(run(program)) < 256 * 1024

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "meshes.h"
@@ -265,6 +266,26 @@ TEST_CASE("with the metric of a map the energy of that map vanishes, and its are
     energy.stretch(std::vector<TriangleMetric>(metric.size()));
     CHECK(energy.value(z) == doctest::Approx(z.dot(dense(energy.matrix()) * z).real()).epsilon(1e-12));
     CHECK(energy.value(map) < 1e-26 * plain);
+  }
+}
+
+TEST_CASE("a triangle with a vertex twice adds no entry beside the diagonal, and the matrix is that of its energy") {
+  // Found by libFuzzer: such a column held its diagonal entry twice.
+  Positions positions(4, 3);
+  positions << 0, 0, 0, 2, 0, 0, 1, 1, 0, 0, 1, 1;
+  const ConformalEnergy energy(positions, {{0, 1, 2}, {0, 2, 3}, {1, 2, 2}, {3, 0, 3}}, {1, 1, 1, 1}, Weights::uniform);
+  const HermitianMatrix& matrix = energy.matrix();
+  for (int column = 0; column < 4; ++column) {
+    int last = -1;
+    for (HermitianMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      CHECK(entry.row() == (last < 0 ? column : std::max(last + 1, static_cast<int>(entry.row()))));
+      last = static_cast<int>(entry.row());
+    }
+  }
+  for (unsigned seed = 1; seed < 4; ++seed) {
+    const ComplexVector z = random_map(4, seed);
+    const ComplexVector product = matrix.selfadjointView<Eigen::Lower>() * z;
+    CHECK(z.dot(product).real() == doctest::Approx(energy.value(z)));
   }
 }
 
