@@ -52,6 +52,19 @@ void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
   assemble(n_vertices());
 }
 
+int ConformalEnergy::lift(double least_height) {
+  if (stretched_.empty()) stretched_ = shapes_;
+  int lifted = 0;
+  for (TriangleShape& shape : stretched_) {
+    const double height = shape.relative_height();
+    if (!(height < least_height)) continue;
+    shape.y2 *= least_height / height;
+    ++lifted;
+  }
+  if (lifted > 0) assemble(n_vertices());
+  return lifted;
+}
+
 void ConformalEnergy::weigh() {
   weight_unit_ = weights_ == Weights::inverse_area && covered_ > 0 ? area_ / covered_ : 1;
 }

@@ -431,15 +431,19 @@ Parameterization Solver::solve_with_remedies(const SolveOptions& options, const 
     struct Remedy {
       Weights weights;
       BoundaryMeasure boundary;
+      double least_height;
       const char* name;
     };
-    const Remedy remedies[] = {{energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length,
-                                by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
-                               {uniform ? Weights::inverse_area : Weights::uniform, options_.boundary,
-                                uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
+    const Remedy remedies[] = {
+        {energy_->weights(), options_.boundary, 1e-5, "triangles thinner than 1e-5 of their length raised to that"},
+        {energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length, 0,
+         by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
+        {uniform ? Weights::inverse_area : Weights::uniform, options_.boundary, 0,
+         uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
     for (const Remedy& remedy : remedies) {
       try {
         Solver other(*this, remedy.weights, remedy.boundary);
+        if (remedy.least_height > 0 && other.energy_->lift(remedy.least_height) == 0) continue;
         // The fraction done only rises: the failed attempt has used it up.
         const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
         Parameterization result = other.solve_eigenvector(options, attractors, rest);

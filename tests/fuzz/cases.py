@@ -129,7 +129,8 @@ def check_parameterization(result, known):
 
 
 def check_unfolded(message):
-    assert "could not be unfolded in double precision" not in message
+    # Splitting such polygons as fans may draw an edge twice, which no map by straight lines can unfold.
+    assert "could not be unfolded in double precision" not in message or "self-intersecting" in message
 
 
 def check_unwrap(result, known):
@@ -147,7 +148,7 @@ def check_unwrap(result, known):
         assert np.array_equal(chart.faces, its_faces)
         check_chart(chart)
         if known.get("fold_free") and chart.status == "solved" and chart.n_pins < 2:
-            assert (chart.flipped, abs(chart.turning_number)) == (0, 1)
+            assert (chart.flipped, abs(chart.turning_number)) == (0, 1) or "self-intersecting" in chart.message
             check_unfolded(chart.message)
         for face in its_faces if chart.status == "solved" else []:
             solved[offsets[face] : offsets[face + 1]] = True

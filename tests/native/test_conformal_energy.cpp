@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -211,6 +210,25 @@ TEST_CASE("nearly degenerate triangles are clamped, counted and leave the matrix
     }
     CHECK(energy.area() == doctest::Approx(area).epsilon(1e-13));
   }
+}
+
+TEST_CASE("lifting raises thin triangles in the energy and leaves their measured shape alone") {
+  Mesh mesh = flat_grid(3, 3);
+  mesh.points[5] = mesh.points[6];
+  const Patch patch(mesh);
+  ConformalEnergy energy = patch.energy(Weights::uniform);
+  const double largest = dense(energy.matrix()).cwiseAbs().maxCoeff();
+  CHECK(largest > 1e9);
+  CHECK(energy.lift(1e-5) == 2);
+  CHECK(energy.lift(1e-5) == 0);
+  CHECK(dense(energy.matrix()).cwiseAbs().maxCoeff() < 1.1e-5 * largest);
+  CHECK(energy.clamped_triangles() == 2);
+  const ComplexVector ones = ComplexVector::Ones(energy.n_vertices());
+  ComplexVector product;
+  energy.apply(ones, product);
+  CHECK(product.norm() == 0);
+  ConformalEnergy clean = Patch(flat_grid(3, 3)).energy(Weights::uniform);
+  CHECK(clean.lift(1e-5) == 0);
 }
 
 TEST_CASE("inverse-area weights of tiny and thin triangles are held back, those of others are not") {

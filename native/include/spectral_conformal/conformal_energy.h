@@ -35,6 +35,9 @@ class ConformalEnergy {
   /// energy_shapes. Clamped triangles are left alone. Precondition: positive definite.
   void stretch(const std::vector<TriangleMetric>& metric);
 
+  /// Raises thin triangles, in the energy only, to a relative_height of at least this. Returns how many.
+  int lift(double least_height);
+
   const HermitianMatrix& matrix() const { return matrix_; }
   int n_vertices() const { return static_cast<int>(matrix_.rows()); }
   Weights weights() const { return weights_; }
@@ -57,7 +60,7 @@ class ConformalEnergy {
   std::size_t n_virtual() const { return n_virtual_; }
   /// In 3D, without the metric.
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
-  /// Stretched by the metric.
+  /// Stretched by the metric, and lifted.
   const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
   const std::vector<double>& coverage() const { return coverage_; }
 
@@ -69,7 +72,7 @@ class ConformalEnergy {
   std::vector<std::array<int, 3>> triangles_;
   std::vector<double> coverage_;
   std::vector<TriangleShape> shapes_;
-  std::vector<TriangleShape> stretched_;  ///< empty without a metric
+  std::vector<TriangleShape> stretched_;  ///< empty without a metric or lifted triangles
   Weights weights_;
   std::size_t n_virtual_;
   double weight_unit_ = 1;

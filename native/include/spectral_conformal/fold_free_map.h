@@ -32,8 +32,8 @@ struct FoldFreeMap {
 /// where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary winds
 /// round more than once, a convex embedding of the patch (convex_embedding.h) is relaxed, first towards an isometry,
 /// then towards the least conformal distortion, without a step that folds a triangle (distortion_descent.h); not with
-/// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an edge), the other where there is room. Degenerate
-/// triangles have no fold.
+/// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an
+/// edge), the other where there is room. Degenerate triangles have no fold.
 ///
 /// z (V,) mostly counter-clockwise, or empty for none. Throws Cancelled, SolveFailure and what Factorization throws.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});

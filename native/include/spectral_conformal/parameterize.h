@@ -89,14 +89,14 @@ class Solver {
   /// `soft_pins`, attracted by Method::spectral, whose map then comes with the similarity that fits it to the pins.
   /// Every eigenvector is checked: residual, corrections that converge, positive area, and for the spectral method a
   /// turning number of 1, or -1 where the longest loop in 3D is a hole of the map. One that fails is solved again with
-  /// a larger shift and another start, then (spectral) with the other boundary form and with the other weights;
-  /// `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its equations; where its boundary
-  /// winds round more than once, `message` says so. Throws SolveFailure when nothing passes.
-  /// Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them starts
-  /// from the maps of earlier solves. Their map may wind round more than once; `message` says so.
-  /// With `fold_free` flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced
-  /// by an embedding; `message` says what was done, what that cost, and where it could not be done. The eigenvalue is
-  /// then the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
+  /// a larger shift and another start, then (spectral) with thin triangles raised, with the other boundary form and
+  /// with the other weights; `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its
+  /// equations; where its boundary winds round more than once, `message` says so. Throws SolveFailure when nothing
+  /// passes. Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them
+  /// starts from the maps of earlier solves. Their map may wind round more than once; `message` says so. With
+  /// `fold_free` flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced by an
+  /// embedding; `message` says what was done, what that cost, and where it could not be done. The eigenvalue is then
+  /// the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
