@@ -19,7 +19,7 @@ def build(request):
 def test_ctest(build, monkeypatch):
     monkeypatch.setenv("UBSAN_OPTIONS", "print_stacktrace=1")
     suppressions = Path(__file__).with_name("thread_sanitizer_suppressions.txt")
-    monkeypatch.setenv("TSAN_OPTIONS", f"suppressions={suppressions} halt_on_error=1")
+    monkeypatch.setenv("TSAN_OPTIONS", f"suppressions='{suppressions}' halt_on_error=1")
     _, only = flavours.ONLY.get(build.name, (None, ""))
     summary = flavours.run(
         flavours.TOOLS / "ctest",
