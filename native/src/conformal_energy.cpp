@@ -56,9 +56,9 @@ int ConformalEnergy::lift(double least_height) {
   if (stretched_.empty()) stretched_ = shapes_;
   int lifted = 0;
   for (TriangleShape& shape : stretched_) {
-    const double height = shape.relative_height();
-    if (!(height < least_height)) continue;
-    shape.y2 *= least_height / height;
+    // A raised shape must not count again because of rounding.
+    if (!(shape.relative_height() < least_height * (1 - 1e-9))) continue;
+    shape = shape.raised(least_height);
     ++lifted;
   }
   if (lifted > 0) assemble(n_vertices());

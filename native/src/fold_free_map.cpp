@@ -143,7 +143,7 @@ class FoldFree {
       element.measured = true;
       TriangleShape& shape = element.shape;
       const double height = shape.relative_height();
-      if (height < least_height) shape.y2 *= least_height / height;
+      shape = shape.raised(least_height);
       const double side = std::sqrt(shape.area());
       // Without extent, lay_out made it equilateral, of side 1.
       const bool is_point = shape.clamped && height > 0.5;

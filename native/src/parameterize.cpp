@@ -499,7 +499,7 @@ void Solver::correct(const BoundaryForm& form, Factorization& factorization, Eig
   // the factor left. The first change tells how much that was.
   ComplexVector r;
   ComplexVector change;
-  constexpr int max_corrections = 12;
+  constexpr int max_corrections = 40;
   constexpr double negligible = 1e-10;
   double relative_change = 0;
   for (int k = 0; k < max_corrections; ++k) {

@@ -27,33 +27,54 @@ double TriangleShape::quasi_conformal_distortion(Complex d1, Complex d2) const {
 
 namespace {
 
+/// The triangle whose side opposite to `apex` has the given length, and whose apex stands at `foot` along it, counted
+/// from the next corner, and `height` over it.
+TriangleShape over_side(int apex, double length, double foot, double height) {
+  std::array<Complex, 3> z;
+  z[apex] = Complex(foot, height);
+  z[(apex + 1) % 3] = 0.0;
+  z[(apex + 2) % 3] = length;
+  const Complex side = z[1] - z[0];
+  const Complex third = (z[2] - z[0]) * std::conj(side);
+  TriangleShape shape;
+  shape.x1 = std::abs(side);
+  shape.x2 = third.real() / shape.x1;
+  shape.y2 = height * length / shape.x1;
+  return shape;
+}
+
 /// The corner opposite to the longest side is lifted off that side.
 TriangleShape lay_out_clamped(const std::array<Eigen::Vector3d, 3>& p) {
   const double lengths[3] = {(p[2] - p[1]).norm(), (p[0] - p[2]).norm(), (p[1] - p[0]).norm()};
   const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
   const double length = lengths[apex];
   TriangleShape shape;
-  shape.clamped = true;
-  if (!(length > 0)) {
+  if (length > 0) {
+    const Eigen::Vector3d& base = p[(apex + 1) % 3];
+    const double foot = (p[apex] - base).dot(p[(apex + 2) % 3] - base) / length;
+    shape = over_side(apex, length, foot, TriangleShape::minimum_height * length);
+  } else {
     shape.x2 = 0.5;
     shape.y2 = std::sqrt(0.75);
-    return shape;
   }
-  const Eigen::Vector3d& base = p[(apex + 1) % 3];
-  const double foot = (p[apex] - base).dot(p[(apex + 2) % 3] - base) / length;
-  std::array<Complex, 3> z;
-  z[apex] = Complex(foot, TriangleShape::minimum_height * length);
-  z[(apex + 1) % 3] = 0.0;
-  z[(apex + 2) % 3] = length;
-  const Complex side = z[1] - z[0];
-  const Complex third = (z[2] - z[0]) * std::conj(side);
-  shape.x1 = std::abs(side);
-  shape.x2 = third.real() / shape.x1;
-  shape.y2 = TriangleShape::minimum_height * length * length / shape.x1;
+  shape.clamped = true;
   return shape;
 }
 
 }  // namespace
+
+TriangleShape TriangleShape::raised(double least_height) const {
+  if (!(relative_height() < least_height)) return *this;
+  const std::array<Complex, 3> z = {0.0, x1, Complex(x2, y2)};
+  const double lengths[3] = {std::abs(z[2] - z[1]), std::abs(z[2]), x1};
+  const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
+  const double length = lengths[apex];
+  const Complex base = z[(apex + 1) % 3];
+  const double foot = std::real(std::conj(z[(apex + 2) % 3] - base) * (z[apex] - base)) / length;
+  TriangleShape shape = over_side(apex, length, foot, least_height * length);
+  shape.clamped = clamped;
+  return shape;
+}
 
 TriangleShape lay_out(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) {
   const Eigen::Vector3d e1 = p1 - p0;

@@ -78,6 +78,22 @@ TEST_CASE("the relative height is that over the longest side, whichever that is"
   CHECK(lay_out({0, 0, 0}, {1, 0, 0}, {0.4, 0, 0}).relative_height() == doctest::Approx(TriangleShape::minimum_height));
 }
 
+TEST_CASE("a raised shape has its height over the longest side; fat ones stay") {
+  const Eigen::Vector3d cap[3] = {{0, 0, 0}, {2, 0, 0}, {0.7, 1e-12, 0}};
+  const Eigen::Vector3d needle[3] = {{0, 0, 0}, {1e-12, 0, 0}, {0, 2, 0}};
+  for (const auto& corners : {cap, needle}) {
+    for (int k = 0; k < 3; ++k) {
+      const TriangleShape shape = lay_out(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+      const TriangleShape raised = shape.raised(1e-3);
+      CHECK(raised.relative_height() == doctest::Approx(1e-3));
+      CHECK(raised.area() == doctest::Approx(0.5 * 2 * 2e-3));
+      CHECK((raised.clamped == shape.clamped && raised.x1 > 0 && raised.y2 > 0));
+    }
+  }
+  const TriangleShape fat = lay_out({0, 0, 0}, {1, 0, 0}, {0.3, 0.5, 0});
+  CHECK(fat.raised(1e-3).y2 == fat.y2);
+}
+
 TEST_CASE("two coinciding corners are clamped, three become equilateral") {
   const Point p(1, 2, 3), q(2, 2, 3);
   for (const TriangleShape& shape : {lay_out(p, p, q), lay_out(p, q, p), lay_out(q, p, p)}) {

@@ -14,6 +14,8 @@ struct TriangleShape {
   double area() const { return 0.5 * x1 * y2; }
   /// Height over the longest side, relative to that side.
   double relative_height() const;
+  /// The same shape, its height over the longest side raised to at least this part of that side.
+  TriangleShape raised(double least_height) const;
   /// Whether the shape was clamped, see lay_out.
   bool clamped = false;
 
