@@ -141,7 +141,7 @@ def _warnings(
 
 
 def _too_small_faces(edit_mesh: EditMesh, solution: unwrapping.Solution) -> int:
-    return solution.too_small_faces(edit_mesh.polygons.face_offsets)
+    return solution.too_small_faces(edit_mesh.polygons)
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:

@@ -54,28 +54,36 @@ class Solution:
         """(C,) bool, the corners that get new coordinates."""
         return self.chart_of_corner >= 0
 
-    def too_small_faces(self, face_offsets: np.ndarray) -> int:
-        """Return how many solved faces are so small beside their chart that Blender's single precision merges them.
+    def too_small_faces(self, mesh: PolygonMesh) -> int:
+        """Return how many solved faces shrink so far in their chart that Blender's single precision merges them.
 
-        `face_offsets` (F + 1,) are the mesh's. A UV near 1 has steps of 2^-24; a face of less than eight has no shape.
+        A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not
+        count.
         """
-        solved = np.flatnonzero(self.solved_corners[face_offsets[:-1]])
+        starts = mesh.face_offsets[:-1]
+        solved = np.flatnonzero(self.solved_corners[starts])
         if not len(solved):
             return 0
-        chart = self.chart_of_corner[face_offsets[solved]]
-        low, high = (extreme.reduceat(self.uv, face_offsets[:-1])[solved] for extreme in (np.minimum, np.maximum))
-        chart_low = np.full((len(self.charts), 2), np.inf)
-        chart_high = -chart_low
-        np.minimum.at(chart_low, chart, low)
-        np.maximum.at(chart_high, chart, high)
-        extent = (chart_high - chart_low).max(axis=1)[chart]
-        return int(np.count_nonzero((high - low).max(axis=1) < extent * 2.0**-21))
+        chart = self.chart_of_corner[starts[solved]]
+        image = _part_of_chart(self.uv, starts, solved, chart)
+        original = _part_of_chart(mesh.vertices[mesh.corner_vertices], starts, solved, chart)
+        return int(np.count_nonzero((image < 2.0**-21) & (image < original / 16)))
 
     @property
     def pinned_corners(self) -> np.ndarray:
         """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
         pinned = np.array([chart.n_pins > 0 for chart in self.charts] + [False])
         return pinned[self.chart_of_corner]
+
+
+def _part_of_chart(positions: np.ndarray, starts: np.ndarray, faces: np.ndarray, chart: np.ndarray) -> np.ndarray:
+    """Return the extent of `faces` as parts of their chart's; `positions` (C, n) of the corners, `starts` (F,)."""
+    low, high = (extreme.reduceat(positions, starts)[faces] for extreme in (np.minimum, np.maximum))
+    chart_low = np.full((chart.max() + 1, positions.shape[1]), np.inf)
+    chart_high = -chart_low
+    np.minimum.at(chart_low, chart, low)
+    np.maximum.at(chart_high, chart, high)
+    return (high - low).max(axis=1) / (chart_high - chart_low).max(axis=1)[chart]
 
 
 def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None) -> Solution:

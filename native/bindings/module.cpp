@@ -15,6 +15,7 @@
 #include <thread>
 #include <tuple>
 
+#include "spectral_conformal/disk_patch.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/factorization.h"
 #include "spectral_conformal/map_defects.h"

@@ -4,19 +4,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <iomanip>
 #include <iterator>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 #include "spectral_conformal/boundary_loops.h"
+#include "spectral_conformal/disk_patch.h"
 #include "spectral_conformal/eigenproblem.h"
 #include "spectral_conformal/fold_free_map.h"
 #include "spectral_conformal/hole_filling.h"
 #include "spectral_conformal/isometric_map.h"
 #include "spectral_conformal/pin_attraction.h"
 #include "spectral_conformal/placement.h"
+#include "spectral_conformal/solve_report.h"
 #include "spectral_conformal/start_vector.h"
 #include "spectral_conformal/turning_number.h"
 
@@ -76,28 +75,6 @@ double eigen_residual(const ConformalEnergy& energy, const BoundaryForm& form, c
   return lambda;
 }
 
-std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
-
-std::string count(int n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
-
-/// What was done to the chart's faces before it could be solved; "" for a clean chart.
-std::string repairs(const Chart& chart, int clamped) {
-  std::string text;
-  if (chart.reversed_faces > 0) {
-    text += count(chart.reversed_faces, "face", "faces") + " wound the other way: turned. ";
-  }
-  if (!chart.duplicates.empty()) {
-    text += count(static_cast<int>(chart.duplicates.size()), "duplicate face", "duplicate faces") +
-            ": placed on the first of the same vertices. ";
-  }
-  if (chart.self_intersecting_polygons > 0) {
-    text += count(chart.self_intersecting_polygons, "self-intersecting polygon", "self-intersecting polygons") +
-            ": split as a fan. ";
-  }
-  if (clamped > 0) text += count(clamped, "degenerate triangle", "degenerate triangles") + ": given a minimal height. ";
-  return text;
-}
-
 /// Moves a map so that its only pin is met.
 void move_onto_pin(const Pins& pins, ComplexVector& z) {
   const auto& [vertex, position] = *pins.begin();
@@ -107,53 +84,6 @@ void move_onto_pin(const Pins& pins, ComplexVector& z) {
 
 /// Whether pins act as a soft force.
 bool is_attracted(const SolveOptions& options) { return options.method == Method::spectral && options.soft_pins > 0; }
-
-std::string five_digits(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::setprecision(5) << value;
-  return text.str();
-}
-
-/// What was done to keep the map free of folds and what it cost; `before` is the mean QC of the given map, where there
-/// was one.
-std::string describe(const FoldFreeMap& map, const std::string& failure, double before, double after,
-                     int turning_number, bool held) {
-  std::string text;
-  if (map.is_embedding) {
-    text = failure.empty() ? "The folds left no room to unfold them" : failure;
-    text += ": replaced by an embedding, relaxed without folding it; mean QC ";
-    text += failure.empty() ? five_digits(before) + " -> " + five_digits(after) + ". " : five_digits(after) + ". ";
-  } else if (map.folded < map.folded_before) {
-    text = count(map.folded_before - map.folded, "folded triangle", "folded triangles") + " unfolded; mean QC " +
-           five_digits(before) + " -> " + five_digits(after) + ". ";
-  }
-  if (map.folded > 0) {
-    text += count(map.folded, "triangle", "triangles") +
-            (held ? " could not be unfolded between the pins; move or remove pins. "
-                  : " could not be unfolded in double precision; add seams that make the patch flatter. ");
-  } else if (!map.is_locally_injective) {
-    text += describe_winding(turning_number) + (held ? "; move or remove pins. " : "; add seams. ");
-  }
-  return text;
-}
-
-/// What to say of triangles that shrink so far that the coordinates' digits do not tell their corners apart; "" for
-/// none.
-std::string describe_unresolved(const ConformalEnergy& energy, const ComplexVector& z) {
-  // Leaves three digits to the shape of a triangle.
-  constexpr double least_part = 1e-13;
-  const double least = least_part * (z.array() - z.mean()).abs().maxCoeff();
-  int unresolved_triangles = 0;
-  for (std::size_t t = 0; t + energy.n_virtual() < energy.triangles().size(); ++t) {
-    const auto& [a, b, c] = energy.triangles()[t];
-    const double longest = std::max(std::norm(z[b] - z[a]), std::norm(z[c] - z[a]));
-    if (longest < least * least && !energy.shapes()[t].clamped) ++unresolved_triangles;
-  }
-  if (unresolved_triangles == 0) return "";
-  return count(unresolved_triangles, "triangle shrinks", "triangles shrink") +
-         " below what double precision resolves; add seams that make the patch flatter. ";
-}
 
 }  // namespace
 
@@ -165,62 +95,6 @@ struct Solver::Attempt {
   double tolerance_factor;
   const char* remedy;  ///< said when this attempt passes
 };
-
-std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
-  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    if (!positions.row(v).allFinite()) {
-      return "Vertex " + std::to_string(chart.vertices[v]) +
-             " has a coordinate that is not finite; give it a valid position or delete it.";
-    }
-  }
-  if (!chart.orientable) return "The patch is one-sided, like a Moebius strip; cut it with a seam.";
-  if (chart.boundary_loops.empty()) {
-    return "The patch is closed" + (chart.genus() > 0 ? ", with " + handles(chart.genus()) : std::string()) +
-           ": it has no boundary to unfold from; mark seams that cut it open.";
-  }
-  if (chart.genus() > 0) {
-    return "The patch has " + handles(chart.genus()) +
-           " and cannot lie flat without overlap; mark seams that cut the handles open.";
-  }
-  const Eigen::RowVector3d low = positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = positions.colwise().maxCoeff();
-  const double extent = (high - low).maxCoeff();
-  // Within these limits areas, and eigenvalues in the units of the input, are doubles too.
-  if (!(extent > 1e-100 && extent < 1e100)) {
-    return "The patch has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
-           "delete or rescale it.";
-  }
-  double area = 0;
-  for (const auto& [a, b, c] : chart.triangles) {
-    const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
-    area += triangle_area(corner(a), corner(b), corner(c));
-  }
-  // Rounding alone gives collinear points an area of this size relative to the extent.
-  if (!(area > 1e-14)) return "The patch has no area: its vertices lie on one line; delete it or move them apart.";
-  return "";
-}
-
-Chart single_patch(const PolygonMesh& mesh) {
-  ChartDecomposition decomposition = build_charts(mesh);
-  if (!decomposition.degenerate_faces.empty()) {
-    throw InvalidMesh("Face " + std::to_string(decomposition.degenerate_faces.front()) +
-                      " has fewer than three different vertices; remove it.");
-  }
-  if (decomposition.charts.empty()) throw InvalidMesh("The mesh has no faces; there is nothing to parameterise.");
-  if (decomposition.non_manifold_edges > 0) {
-    throw InvalidMesh("Edges with three or more faces: " + std::to_string(decomposition.non_manifold_edges) +
-                      "; split the mesh there, or use unwrap, which does.");
-  }
-  if (decomposition.charts.size() > 1) {
-    throw InvalidMesh("The mesh has " + std::to_string(decomposition.charts.size()) +
-                      " components that no edge connects; give one at a time, or use unwrap, which takes them all.");
-  }
-  if (decomposition.split_vertices > 0) {
-    throw InvalidMesh("Vertices where parts of the boundary touch (bow ties): " +
-                      std::to_string(decomposition.split_vertices) + "; split them, or use unwrap, which does.");
-  }
-  return std::move(decomposition.charts.front());
-}
 
 Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
                const std::vector<TriangleMetric>& metric)
@@ -264,7 +138,7 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
   if (form_.vertices.size() < 2) {
     throw InvalidMesh("The patch's longest boundary loop has no length; clean up its coincident vertices.");
   }
-  repairs_ = repairs(chart, energy_->clamped_triangles());
+  repairs_ = describe_repairs(chart, energy_->clamped_triangles());
   watch.lap("assembly");
 }
 
@@ -416,7 +290,7 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
   const double lambda = eigen_residual(*energy_, form_, z, r);
   result.eigenvalue = lambda * lambda_unit(Method::spectral);
   result.residual = r.norm() / (largest_diagonal(energy_->matrix()) * result.z.norm());
-  result.message += describe(map, failure, before, mean_distortion(result.z), result.turning_number, held);
+  result.message += describe_unfolding(map, failure, before, mean_distortion(result.z), result.turning_number, held);
 }
 
 Parameterization Solver::solve_with_remedies(const SolveOptions& options, const Pins& attractors,
@@ -638,10 +512,7 @@ void Solver::blend_area(const Progress& progress) {
   const IsometricMap relaxed =
       relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->coverage(), energy_->n_virtual(),
                         std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
-  std::string repairs = repairs_;
-  if (relaxed.flipped > 0) {
-    repairs += count(relaxed.flipped, "triangle", "triangles") + " of the relaxed map could not be unfolded. ";
-  }
+  std::string repairs = repairs_ + describe_relaxation(relaxed);
   std::vector<TriangleMetric> metric;
   metric.reserve(energy_->triangles().size());
   for (std::size_t t = 0; t < energy_->triangles().size(); ++t) {

@@ -141,3 +141,20 @@ def test_pin_that_is_no_place_is_none_beside_one_that_is():
     (uv,) = place([mesh], [solve(mesh, Options())], keep_in_place=False).uv
     assert np.isfinite(uv).all()
     np.testing.assert_allclose(uv[0], former[0])
+
+
+def test_faces_that_single_precision_merges_are_those_that_shrink():
+    # Squares in a row, each half as wide as the last.
+    left = np.cumsum([0.0] + [0.5**k for k in range(30)])
+    vertices = [(x, y, 0.0) for x in left for y in (0.0, 0.5 ** np.searchsorted(left, x))]
+    faces = [(2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1) for k in range(30)]
+    mesh = polygon_mesh(vertices, faces)
+    solution = solve(mesh, Options())
+    assert solution.charts[0].status == "solved"
+    # As small in 3D, they lose nothing.
+    assert solution.too_small_faces(mesh) == 0
+    even = polygon_mesh([(k // 2, k % 2, 0.0) for k in range(62)], faces)
+    assert solve(even, Options()).too_small_faces(even) == 0
+    small = np.count_nonzero(0.5 ** np.arange(30) < 2.0**-21 * np.ptp(solution.uv, axis=0).max())
+    assert abs(solution.too_small_faces(even) - small) <= 2
+    assert small > 5

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "spectral_conformal/boundary_loops.h"
-#include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/disk_patch.h"
 
 namespace spectral_conformal::test {
 namespace {

@@ -62,15 +62,6 @@ struct Parameterization {
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
-/// Why a chart cannot be parameterised (closed, one-sided, handles, non-finite coordinate, no area), naming the
-/// condition and what to do, or "" when it can. Holes are allowed.
-std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions);
-
-/// The one chart of a mesh that has to be a single disk-like patch. Throws InvalidMesh that says what it is instead:
-/// no faces, degenerate faces, several components, edges with three or more faces, bow-tie vertices, or what
-/// why_not_a_disk says. Vertices that no face uses are allowed; they are not in the chart.
-Chart single_patch(const PolygonMesh& mesh);
-
 /// One patch with its energy and boundary form; keeps the factor of L + s M between solves.
 class Solver {
  public:
