@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/triangle_shape.h"
 
@@ -35,6 +36,9 @@ std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>
   if (!(extent > 1e-100 && extent < 1e100)) {
     return "The patch has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
            "delete or rescale it.";
+  }
+  if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
+    return "The patch's border has two vertices only, between which no map can open; mark more seams.";
   }
   double area = 0;
   for (const auto& [a, b, c] : chart.triangles) {

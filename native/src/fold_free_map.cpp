@@ -138,10 +138,15 @@ class FoldFree {
     }
     const double least_side = least_height * std::sqrt(area / static_cast<double>(elements_.size()));
     for (DistortionElement& element : lifted) {
-      if (element.barrier()) continue;
+      TriangleShape& shape = element.shape;
+      if (element.barrier()) {
+        // A metric may have made it thinner than its image can be.
+        constexpr double least_of_image = 1e-9;
+        shape = shape.raised(least_of_image);
+        continue;
+      }
       element.softening = 0;
       element.measured = true;
-      TriangleShape& shape = element.shape;
       const double height = shape.relative_height();
       shape = shape.raised(least_height);
       const double side = std::sqrt(shape.area());

@@ -218,8 +218,10 @@ Parameterization Solver::solve_with_folds(const SolveOptions& options, const Pin
 Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins& pins, const Progress& progress) {
   Parameterization result;
   std::string failure;
+  // A single pin only moves the map, which may cost it digits: at the end.
+  const bool moved = options.method == Method::lscm && pins.size() == 1;
   try {
-    result = solve_with_folds(options, pins, part(progress, 0.0, 0.5));
+    result = solve_with_folds(options, moved ? Pins{} : pins, part(progress, 0.0, 0.5));
   } catch (const SolveFailure& problem) {
     // Hard pins have no other map; everything else has the embedding.
     if (options.method == Method::lscm && pins.size() > 1) throw;
@@ -227,6 +229,7 @@ Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins
     result.timings = set_up_timings_;
   }
   unfold(options, pins, failure, part(progress, 0.5, 1.0), result);
+  if (moved) move_onto_pin(pins, result.z);
   return result;
 }
 
@@ -273,9 +276,16 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
   std::vector<BoundaryLoop> loops{outer_};
   loops.insert(loops.end(), inner_.begin(), inner_.end());
   const double before = result.z.size() > 0 ? mean_distortion(result.z) : std::numeric_limits<double>::quiet_NaN();
-  FoldFreeMap map = fold_free_map({*energy_, positions_, loops, held_vertices, options_.backend}, result.z, progress);
+  // Pins may hold the map mirrored, which is no fold.
+  const bool mirrored = held && signed_area(*energy_, result.z) < 0;
+  FoldFreeMap map = fold_free_map({*energy_, positions_, loops, held_vertices, options_.backend},
+                                  mirrored ? ComplexVector(result.z.conjugate()) : result.z, progress);
+  if (mirrored) map.z = map.z.conjugate().eval();
   watch.lap("unfolding");
-  if (map.folded_before == 0 && !map.is_embedding && failure.empty() && std::abs(result.turning_number) == 1) return;
+  if (map.folded == map.folded_before && !map.is_embedding) {
+    result.message += describe_unfolding(map, failure, before, before, result.turning_number, held);
+    return;
+  }
   result.unfolded = map.is_embedding ? map.folded_before : map.folded_before - map.folded;
   result.is_embedding = map.is_embedding;
   result.mean_qc_before = before;
@@ -283,7 +293,6 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
   if (!held && !place(result.z, *energy_, outer_, positions_.topRows(n_vertices_), energy_->area() * scale_ * scale_)) {
     throw SolveFailure("The map has no positive area", "add seams that make the patch flatter.");
   }
-  if (options.method == Method::lscm && pins.size() == 1) move_onto_pin(pins, result.z);
   const ComplexVector z = with_virtual_vertices(result.z);
   result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), z);
   ComplexVector r;

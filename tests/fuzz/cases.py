@@ -122,15 +122,23 @@ def check_parameterization(result, known):
     pins = known.get("pins") or {}
     if known.get("fold_free") and len(pins) < 2:
         assert abs(result.turning_number) == 1
-        check_unfolded(result.message)
+        check_unfolded(result)
     if len(pins) > 1 and method == "lscm":
         for vertex, position in pins.items():
             assert tuple(result.uv[vertex]) == tuple(map(float, position)), "a pin has moved"
 
 
-def check_unfolded(message):
-    # Splitting such polygons as fans may draw an edge twice, which no map by straight lines can unfold.
-    assert "could not be unfolded in double precision" not in message or "self-intersecting" in message
+# Beyond it a map is nothing that rounding could not have made.
+LARGEST_QC = 1e9
+
+
+def is_foldable(result):
+    """Whether folds may stay: no map by straight lines has those of fans that draw an edge twice."""
+    return "self-intersecting" in result.message or result.mean_qc_before > LARGEST_QC
+
+
+def check_unfolded(result):
+    assert "could not be unfolded in double precision" not in result.message or is_foldable(result)
 
 
 def check_unwrap(result, known):
@@ -148,8 +156,8 @@ def check_unwrap(result, known):
         assert np.array_equal(chart.faces, its_faces)
         check_chart(chart)
         if known.get("fold_free") and chart.status == "solved" and chart.n_pins < 2:
-            assert (chart.flipped, abs(chart.turning_number)) == (0, 1) or "self-intersecting" in chart.message
-            check_unfolded(chart.message)
+            assert (chart.flipped, abs(chart.turning_number)) == (0, 1) or is_foldable(chart)
+            check_unfolded(chart)
         for face in its_faces if chart.status == "solved" else []:
             solved[offsets[face] : offsets[face + 1]] = True
     assert np.array_equal(solved, result.solved_corners)

@@ -62,6 +62,9 @@ TEST_CASE("what is not one disk-like patch is refused with its name") {
     mesh.points[4].y() = bad;
     CHECK(says(message_of_solver(mesh), "Vertex 4 has a coordinate that is not finite"));
   }
+  Mesh slit = sphere(2);
+  slit.seams.push_back({slit.corners[0], slit.corners[1]});
+  CHECK(says(message_of_solver(slit), "two vertices only"));
   Mesh point = flat_grid(2, 2);
   for (auto& p : point.points) p.setConstant(3);
   CHECK(says(message_of_solver(point), "no extent"));
