@@ -17,7 +17,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
 import meshes  # noqa: E402 - found only now
 import numpy as np  # noqa: E402
 import spectral_conformal as sc  # noqa: E402
-from test_any_mesh import finger, floater, rough_grid  # noqa: E402
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 LARGEST = 100_000  # vertices
@@ -55,9 +54,9 @@ def row(name: str, vertices: np.ndarray, faces: list[list[int]]) -> str | None:
 def main() -> None:
     """Print the table."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else SHARED
-    cases = [(f"floater {offset:g}", *floater(offset)) for offset in (-1.0, -2.0, -5.0)]
-    cases += [(f"rough grid {n} x {n}", *rough_grid(n, 2.0, 3)) for n in (20, 60, 150)]
-    cases += [(f"finger of {rings} rings", *finger(16, rings)) for rings in (120, 200)]
+    cases = [(f"floater {offset:g}", *meshes.floater(offset)) for offset in (-1.0, -2.0, -5.0)]
+    cases += [(f"rough grid {n} x {n}", *meshes.rough_grid(n, 2.0, 3)) for n in (20, 60, 150)]
+    cases += [(f"finger of {rings} rings", *meshes.finger(16, rings)) for rings in (120, 200)]
     print(f"{'':24}{'vertices':>8}{'flipped':>14}{'mean QC':>23}  {'':10}{'time':>10}")
     for name, vertices, triangles in cases:
         line = row(name, vertices, triangles.tolist())

@@ -107,6 +107,36 @@ def spiral_ramp(turns, along=60, across=4):
     return vertices, grid_quads(along + 1, across + 1)
 
 
+def finger(sides, rings):
+    """A tube of unit radius, closed at its far end: rings of squares, each split in two, then a tip."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    step = 2 * np.pi / sides
+    ring = np.c_[np.cos(angle), np.sin(angle)]
+    vertices = np.vstack([np.c_[ring, np.full(sides, k * step)] for k in range(rings)] + [[[0, 0, rings * step]]])
+    k, q = (x.ravel() for x in np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij"))
+    a, b = k * sides + q, k * sides + (q + 1) % sides
+    last = (rings - 1) * sides + np.arange(sides)
+    tip = np.c_[last, np.roll(last, -1), np.full(sides, rings * sides)]
+    return vertices, np.vstack([np.c_[a, b, b + sides], np.c_[a, b + sides, a + sides], tip])
+
+
+def floater(offset):
+    """Three triangles around one inner vertex that stands aside (Floater 1998): beyond -1 the map folds one of them."""
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, offset, 1]], float)
+    return vertices, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
+
+
+def rough_grid(n, roughness, seed, dropped=0.0):
+    """A grid of triangles, every vertex moved at random, some cells left out: its conformal map has folds."""
+    rng = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
+    vertices = np.stack([x, y, 0 * x], -1).reshape(-1, 3) + roughness * rng.normal(size=(n * n, 3)) / n
+    index = np.arange(n * n).reshape(n, n)
+    kept = rng.random((n - 1, n - 1)) >= dropped
+    a, b, c, d = (part[kept] for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))
+    return without_unused(vertices, without_bow_ties(np.vstack([np.c_[a, b, c], np.c_[a, c, d]])))
+
+
 def polygons(faces):
     """(face_offsets, corner_vertices) of a list of corner lists."""
     sizes = [len(face) for face in faces]

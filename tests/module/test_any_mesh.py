@@ -94,24 +94,11 @@ class TestDegenerateTriangles:
         assert meshes.similarity_deviation(uv[:n], coarse[:n]) < (1e-5 if weights == "uniform" else 2e-2)
 
 
-def finger(sides, rings):
-    """A tube of unit radius, closed at its far end: rings of squares, each split in two, then a tip."""
-    angle = 2 * np.pi * np.arange(sides) / sides
-    step = 2 * np.pi / sides
-    ring = np.c_[np.cos(angle), np.sin(angle)]
-    vertices = np.vstack([np.c_[ring, np.full(sides, k * step)] for k in range(rings)] + [[[0, 0, rings * step]]])
-    k, q = (x.ravel() for x in np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij"))
-    a, b = k * sides + q, k * sides + (q + 1) % sides
-    last = (rings - 1) * sides + np.arange(sides)
-    tip = np.c_[last, np.roll(last, -1), np.full(sides, rings * sides)]
-    return vertices, np.vstack([np.c_[a, b, b + sides], np.c_[a, b + sides, a + sides], tip])
-
-
 def ring_radii(sides, rings):
     """The radii of the rings of finger's map, relative to the first: the equations of its inner vertices, whose map is
     rho_k exp(2 pi i q / sides), from the tip outwards. Each radius is larger than the last: accurate to its own digits.
     """
-    vertices, triangles = finger(sides, 4)
+    vertices, triangles = meshes.finger(sides, 4)
     turn = np.exp(2j * np.pi / sides)
     factor = np.r_[np.tile(turn ** np.arange(sides), 4), 0]
 
@@ -143,7 +130,7 @@ class TestExtremeShrinkage:
     @pytest.mark.parametrize("factorization", ["auto", "eigen"])
     @pytest.mark.parametrize("rings", [20, 40, 70])  # scales down to 6e-4, 3e-7 and 2e-12 of the largest
     def test_the_map_is_right_relative_to_itself(self, rings, factorization):
-        vertices, triangles = finger(16, rings)
+        vertices, triangles = meshes.finger(16, rings)
         solution = sc.parameterize(vertices, triangles, factorization=factorization)
         z = solution.uv @ [1, 1j]
         radii = np.abs(z[:-1] - z[-1]).reshape(rings, 16)
@@ -154,7 +141,7 @@ class TestExtremeShrinkage:
         assert (solution.turning_number, solution.message) == (1, "")
 
     def test_it_says_where_double_precision_ends(self):
-        vertices, triangles = finger(16, 120)
+        vertices, triangles = meshes.finger(16, 120)
         solution = sc.parameterize(vertices, triangles)
         assert "below what double precision resolves" in solution.message
         # What can be resolved is right, however little the rest means.
@@ -165,34 +152,17 @@ class TestExtremeShrinkage:
         assert np.abs(radii / radii[0] / expected - 1)[resolved].max() < 1e-6
 
     def test_fold_free_ends_the_shrinkage_where_it_must(self):
-        vertices, triangles = finger(16, 120)
+        vertices, triangles = meshes.finger(16, 120)
         uv, chart = unwrapped(vertices, triangles, fold_free=True)
         assert (image_areas(uv, triangles) > 0).all()
         assert chart.turning_number == 1
-
-
-def floater(offset):
-    """Three triangles around one inner vertex that stands aside (Floater 1998): beyond -1 the map folds one of them."""
-    vertices = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, offset, 1]], float)
-    return vertices, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
-
-
-def rough_grid(n, roughness, seed, dropped=0.0):
-    """A grid of triangles, every vertex moved at random, some cells left out: its conformal map has folds."""
-    rng = np.random.default_rng(seed)
-    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
-    vertices = np.stack([x, y, 0 * x], -1).reshape(-1, 3) + roughness * rng.normal(size=(n * n, 3)) / n
-    index = np.arange(n * n).reshape(n, n)
-    kept = rng.random((n - 1, n - 1)) >= dropped
-    a, b, c, d = (part[kept] for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))
-    return meshes.without_unused(vertices, meshes.without_bow_ties(np.vstack([np.c_[a, b, c], np.c_[a, c, d]])))
 
 
 class TestFoldFree:
     @pytest.mark.parametrize("weights", ["uniform", "inverse_area"])
     @pytest.mark.parametrize("offset", [-1.0, -1.5, -3.0, -10.0])
     def test_floater(self, offset, weights):
-        vertices, triangles = floater(offset)
+        vertices, triangles = meshes.floater(offset)
         plain, chart = unwrapped(vertices, triangles, weights=weights)
         assert (image_areas(plain, triangles) < 1e-9).any()
         uv, chart = unwrapped(vertices, triangles, weights=weights, fold_free=True)
@@ -202,7 +172,9 @@ class TestFoldFree:
 
     @pytest.mark.parametrize("seed", range(12))
     def test_rough_surfaces_with_and_without_holes(self, seed):
-        vertices, triangles = rough_grid(6 + 3 * seed, (0.5, 1.0, 2.0)[seed % 3], seed, dropped=(0.0, 0.1)[seed % 2])
+        vertices, triangles = meshes.rough_grid(
+            6 + 3 * seed, (0.5, 1.0, 2.0)[seed % 3], seed, dropped=(0.0, 0.1)[seed % 2]
+        )
         result = sc.unwrap(vertices, np.arange(0, triangles.size + 1, 3), triangles.ravel(), fold_free=True)
         for chart in result.charts:
             corners = (3 * chart.faces[:, None] + np.arange(3)).ravel()
@@ -211,7 +183,7 @@ class TestFoldFree:
             assert (chart.status, chart.flipped, abs(chart.turning_number)) == ("solved", 0, 1)
 
     def test_the_rough_surfaces_do_have_folds_otherwise(self):
-        assert sum(unwrapped(*rough_grid(20, 2.0, seed))[1].flipped for seed in range(4)) > 10
+        assert sum(unwrapped(*meshes.rough_grid(20, 2.0, seed))[1].flipped for seed in range(4)) > 10
 
     def test_a_map_without_folds_is_left_as_it_is(self):
         vertices, triangles = meshes.bumpy_disk(300)
@@ -239,7 +211,7 @@ class TestFoldFree:
         assert abs(chart.turning_number) == 1
 
     def test_the_same_from_all_functions(self):
-        vertices, triangles = rough_grid(15, 2.0, 3)
+        vertices, triangles = meshes.rough_grid(15, 2.0, 3)
         expected = sc.parameterize(vertices, triangles, fold_free=True)
         assert (image_areas(expected.uv, triangles) > 0).all()
         again = sc.Solver(vertices, triangles, fold_free=True).solve()
@@ -249,20 +221,30 @@ class TestFoldFree:
         assert np.array_equal(sc.Unwrapper(*mesh, fold_free=True).solve().uv, expected.uv[triangles.ravel()])
 
     def test_pins_are_held_and_what_they_leave_no_room_for_is_said(self):
-        vertices, triangles = rough_grid(12, 1.5, 5)
+        vertices, triangles = meshes.rough_grid(12, 1.5, 5)
         pins = {0: (0.0, 0.0), 143: (1.0, 1.0)}
         solution = sc.parameterize(vertices, triangles, method="lscm", pins=pins, fold_free=True)
         for vertex, position in pins.items():
             assert tuple(solution.uv[vertex]) == position
         assert (image_areas(solution.uv, triangles) > 0).all()
         flat, faces = meshes.random_disk(60)
-        crossed = {v: tuple(flat[v, :2] * [-1, 1]) for v in range(len(flat))}
-        solution = sc.parameterize(flat, faces, method="lscm", pins=crossed, fold_free=True)
+        folded = {v: (abs(flat[v, 0]), flat[v, 1]) for v in range(len(flat))}
+        solution = sc.parameterize(flat, faces, method="lscm", pins=folded, fold_free=True)
         assert "could not be unfolded between the pins" in solution.message
-        assert all(tuple(solution.uv[v]) == place for v, place in crossed.items())
+        assert all(tuple(solution.uv[v]) == place for v, place in folded.items())
+
+    def test_pins_that_mirror_the_patch_do_not_fold_it(self):
+        vertices, triangles = meshes.random_disk(60)
+        mirrored = {v: (-vertices[v, 0], vertices[v, 1]) for v in range(len(vertices))}
+        plain, free = (
+            sc.parameterize(vertices, triangles, method="lscm", pins=mirrored, fold_free=flag) for flag in (False, True)
+        )
+        assert (image_areas(free.uv, triangles) < 0).all()
+        assert np.array_equal(plain.uv, free.uv)
+        assert "unfolded" not in free.message
 
     def test_one_pin_is_met(self):
-        vertices, triangles = rough_grid(12, 2.0, 7)
+        vertices, triangles = meshes.rough_grid(12, 2.0, 7)
         for options in ({"method": "lscm"}, {"method": "spectral", "soft_pins": 1.0}):
             solution = sc.parameterize(vertices, triangles, pins={4: (3.0, -2.0)}, fold_free=True, **options)
             assert np.allclose(solution.uv[4], (3.0, -2.0))
@@ -271,7 +253,7 @@ class TestFoldFree:
     @pytest.mark.parametrize("method", ["spectral", "lscm", "fiedler", "area"])
     @pytest.mark.parametrize("options", [{}, {"fill_holes": True}, {"area_blend": 0.5}, {"boundary": "vertex"}])
     def test_with_every_method_and_option(self, method, options):
-        vertices, triangles = rough_grid(14, 2.0, 9, dropped=0.05)
+        vertices, triangles = meshes.rough_grid(14, 2.0, 9, dropped=0.05)
         uv, chart = unwrapped(vertices, triangles, method=method, fold_free=True, **options)
         assert (chart.status, chart.flipped, abs(chart.turning_number)) == ("solved", 0, 1)
         assert (image_areas(uv, triangles) > 0).all()

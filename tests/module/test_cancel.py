@@ -27,6 +27,11 @@ def patch_arguments(function, **options):
     return function, {"vertices": vertices, "triangles": triangles, **options}
 
 
+def folded_arguments(mesh):
+    vertices, triangles = mesh
+    return sc.parameterize, {"vertices": vertices, "triangles": triangles, "fold_free": True}
+
+
 def seams_arguments():
     vertices, quads = meshes.bulge(5, 2.0)
     offsets, corners = meshes.polygons(quads)
@@ -39,6 +44,8 @@ CALLS = {
     "unwrap, area blend": lambda: unwrap_arguments(area_blend=0.5),
     "unwrap, filled holes": lambda: unwrap_arguments(fill_holes=True),
     "parameterize": lambda: patch_arguments(sc.parameterize),
+    "parameterize, fold-free in place": lambda: folded_arguments(meshes.rough_grid(14, 2.0, 3)),
+    "parameterize, fold-free by an embedding": lambda: folded_arguments(meshes.floater(-3.0)),
     "parameterize, extender": lambda: patch_arguments(sc.parameterize, extenders=[(3, 141, 2.0)]),
     "parameterize, Fiedler": lambda: patch_arguments(sc.parameterize, method="fiedler"),
     "parameterize, area": lambda: patch_arguments(sc.parameterize, method="area"),

@@ -203,6 +203,20 @@ TEST_CASE("a kept solver solves as before") {
   }
 }
 
+TEST_CASE("maps without folds, in place and by an embedding") {
+  // Beyond -1 the third triangle folds (Floater 1998); a spike moved aside leaves no room.
+  const Mesh floater({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -3, 1}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  Mesh rough = flat_grid(4, 4);
+  for (std::size_t v = 0; v < rough.points.size(); ++v) rough.points[v].z() = 1.7 * static_cast<double>(v * v % 5);
+  for (const auto backend : backends()) {
+    UnwrapOptions options;
+    options.patch.backend = backend;
+    options.patch.fold_free = true;
+    fail_in_turn([&] { unwrap(floater.view(), options, {}); });
+    fail_in_turn([&] { unwrap(rough.view(), options, {}); });
+  }
+}
+
 TEST_CASE("suggested seams") {
   const Mesh mesh = sphere(3);
   for (const auto backend : backends()) {

@@ -6,6 +6,7 @@
 
 #include "spectral_conformal/charts.h"
 #include "spectral_conformal/conformal_energy.h"
+#include "spectral_conformal/distortion_energy.h"
 #include "spectral_conformal/factorization.h"
 
 namespace spectral_conformal::test {
@@ -33,6 +34,7 @@ struct Patch {
   Positions positions;
   explicit Patch(const Mesh& mesh);
   ConformalEnergy energy(Weights weights) const { return {positions, chart.triangles, chart.coverage, weights}; }
+  std::vector<DistortionElement> elements() const;
   /// The longest loop.
   const BoundaryLoop& outer() const;
 };

@@ -8,11 +8,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-std::vector<DistortionElement> elements_of(const Patch& patch) {
-  const ConformalEnergy energy = patch.energy(Weights::uniform);
-  return distortion_elements(energy.triangles(), energy.shapes(), energy.coverage(), 0);
-}
-
 double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z) {
   ComplexVector gradient;
   return energy_and_gradient(elements, measure, z, gradient);
@@ -26,7 +21,7 @@ TEST_CASE("the conformal descent of a flat patch ends at a similarity, whatever 
   const Patch patch(flat_grid(8, 6));
   const ComplexVector flat = flat_map(patch.positions);
   for (const auto backend : backends()) {
-    auto elements = elements_of(patch);
+    auto elements = patch.elements();
     ComplexVector z = flat + 0.15 * random_map(flat.size());
     const Descent descent = descend(elements, {}, z, backend, {DistortionMeasure::conformal, 1e-6, 60}, {});
     CHECK(descent.iterations > 0);
@@ -39,7 +34,7 @@ TEST_CASE("both measures fall, and no triangle flips") {
   const Patch patch(bumpy_grid(10, 8));
   const ComplexVector start = flat_map(patch.positions) + 0.1 * random_map(patch.positions.rows());
   for (const auto measure : {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal}) {
-    auto elements = elements_of(patch);
+    auto elements = patch.elements();
     REQUIRE(count_flipped(elements, start) == 0);
     ComplexVector z = start;
     descend(elements, {}, z, FactorizationBackend::automatic, {measure, 1e-4, 40}, {});
@@ -50,7 +45,7 @@ TEST_CASE("both measures fall, and no triangle flips") {
 
 TEST_CASE("the least conformal distortion is below that of the spectral map") {
   const Patch patch(bumpy_grid(10, 8));
-  auto elements = elements_of(patch);
+  auto elements = patch.elements();
   ComplexVector z = Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
   const double before = energy_of(elements, DistortionMeasure::conformal, z);
   descend(elements, {}, z, FactorizationBackend::automatic, {DistortionMeasure::conformal, 1e-6, 40}, {});
@@ -61,7 +56,7 @@ TEST_CASE("the least conformal distortion is below that of the spectral map") {
 
 TEST_CASE("fixed vertices stay exactly, the others move") {
   const Patch patch(bumpy_grid(8, 6));
-  auto elements = elements_of(patch);
+  auto elements = patch.elements();
   const ComplexVector start = flat_map(patch.positions) + 0.1 * random_map(patch.positions.rows());
   std::vector<char> fixed(static_cast<std::size_t>(start.size()), 0);
   for (const int v : patch.outer()) fixed[v] = 1;
@@ -78,7 +73,7 @@ TEST_CASE("fixed vertices stay exactly, the others move") {
 TEST_CASE("a folded triangle is pulled in and then keeps its area") {
   const Patch patch(flat_grid(6, 6));
   for (const auto measure : {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal}) {
-    auto elements = elements_of(patch);
+    auto elements = patch.elements();
     ComplexVector z = flat_map(patch.positions);
     z[24] += Complex(1.6, 0.4);  // an inner vertex, beyond its neighbours
     REQUIRE(count_flipped(elements, z) > 0);
@@ -89,7 +84,7 @@ TEST_CASE("a folded triangle is pulled in and then keeps its area") {
 
 TEST_CASE("it can be cancelled") {
   const Patch patch(bumpy_grid(6, 6));
-  auto elements = elements_of(patch);
+  auto elements = patch.elements();
   ComplexVector z = flat_map(patch.positions);
   CHECK_THROWS_AS(
       descend(elements, {}, z, FactorizationBackend::automatic, {}, [](double, const char*) { return false; }),

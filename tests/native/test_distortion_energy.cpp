@@ -11,11 +11,6 @@ namespace {
 
 constexpr DistortionMeasure measures[] = {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal};
 
-std::vector<DistortionElement> elements_of(const Patch& patch) {
-  const ConformalEnergy energy = patch.energy(Weights::uniform);
-  return distortion_elements(energy.triangles(), energy.shapes(), energy.coverage(), 0);
-}
-
 double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z) {
   ComplexVector gradient;
   return energy_and_gradient(elements, measure, z, gradient);
@@ -33,7 +28,7 @@ TEST_SUITE_BEGIN("distortion_energy");
 
 TEST_CASE("weights are shares of the area; an isometry has 4 or 2, a similarity keeps the conformal one") {
   const Patch patch(quad_grid(5, 4));
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   double total = 0;
   for (const DistortionElement& element : elements) total += element.weight;
   CHECK(total == doctest::Approx(1));
@@ -50,7 +45,7 @@ TEST_CASE("the gradient is that of finite differences, soft elements included") 
   const Patch patch(bumpy_grid(4, 3));
   const ComplexVector z = moved(patch);
   for (const double softening : {0.0, 0.3, std::numeric_limits<double>::infinity()}) {
-    auto elements = elements_of(patch);
+    auto elements = patch.elements();
     elements[3].softening = softening;
     for (const DistortionMeasure measure : measures) {
       ComplexVector gradient;
@@ -73,7 +68,7 @@ TEST_CASE("the gradient is that of finite differences, soft elements included") 
 
 TEST_CASE("a flipped triangle costs infinity behind a barrier and a finite amount without") {
   const Patch patch(flat_grid(3, 3));
-  auto elements = elements_of(patch);
+  auto elements = patch.elements();
   const ComplexVector mirrored = flat_map(patch.positions).conjugate();
   CHECK(count_flipped(elements, mirrored) == static_cast<int>(elements.size()));
   for (const DistortionMeasure measure : measures) {
@@ -87,7 +82,7 @@ TEST_CASE("a flipped triangle costs infinity behind a barrier and a finite amoun
 
 TEST_CASE("the largest step ends where the first triangle loses its area") {
   const Patch patch(Mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   const ComplexVector z = flat_map(patch.positions);
   ComplexVector direction = ComplexVector::Zero(4);
   direction[1] = Complex(-1, 1);  // reaches the diagonal half way
@@ -98,7 +93,7 @@ TEST_CASE("the largest step ends where the first triangle loses its area") {
 
 TEST_CASE("the stiffness of the conformal distortion is its second derivative, for |f_z| and |f_zbar| apart") {
   const Patch patch(Mesh({{0, 0, 0}, {1, 0, 0}, {0.3, 0.8, 0}}, {{0, 1, 2}}));
-  const DistortionElement element = elements_of(patch)[0];
+  const DistortionElement element = patch.elements()[0];
   const auto distortion = [](double a, double b) { return 2 * (a * a + b * b) / (a * a - b * b); };
   for (const double b : {0.0, 0.3, 0.9}) {
     MapJacobian j{};
@@ -137,7 +132,7 @@ TEST_CASE("degenerate triangles only hold their vertices together, virtual ones 
 
 TEST_CASE("the mean scale factor undoes a scale, and is 0 where nothing has image area") {
   const Patch patch(flat_grid(4, 3));
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   const ComplexVector z = flat_map(patch.positions);
   CHECK(mean_scale_factor(elements, 8 * z) == doctest::Approx(0.125));
   CHECK(mean_scale_factor(elements, ComplexVector(z.conjugate())) == 0);

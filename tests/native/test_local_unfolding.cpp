@@ -9,11 +9,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-std::vector<DistortionElement> elements_of(const Patch& patch) {
-  const ConformalEnergy energy = patch.energy(Weights::uniform);
-  return distortion_elements(energy.triangles(), energy.shapes(), energy.coverage(), 0);
-}
-
 int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
   const std::vector<bool> folded = folded_elements(elements, z);
   return static_cast<int>(std::count(folded.begin(), folded.end(), true));
@@ -25,7 +20,7 @@ TEST_SUITE_BEGIN("local_unfolding");
 
 TEST_CASE("folds far apart and of different scale are unfolded, and what is far from them does not move") {
   const Patch patch(flat_grid(20, 20));
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   // The exponential map: its scale varies by e^4.
   ComplexVector z = flat_map(patch.positions);
   for (Complex& value : z) value = std::exp(0.2 * Complex(value.real(), 0.3 * value.imag()));
@@ -45,7 +40,7 @@ TEST_CASE("folds far apart and of different scale are unfolded, and what is far 
 
 TEST_CASE("held vertices stay, even where that leaves folds") {
   const Patch patch(flat_grid(6, 6));
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   ComplexVector z = flat_map(patch.positions);
   z[24] += Complex(2.6, 0.3);
   const ComplexVector start = z;
@@ -67,7 +62,7 @@ TEST_CASE("a collapsed triangle counts as folded, a degenerate one in 3D does no
   mesh.points.emplace_back(0.5 * (mesh.points[1] + mesh.points[2]));
   mesh.add({2, 1, static_cast<int>(mesh.points.size()) - 1});
   const Patch patch(mesh);
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   ComplexVector z = flat_map(patch.positions);
   CHECK(count_folded(elements, z) == 0);
   z[12] = z[13];
@@ -77,7 +72,7 @@ TEST_CASE("a collapsed triangle counts as folded, a degenerate one in 3D does no
 
 TEST_CASE("it can be cancelled") {
   const Patch patch(flat_grid(4, 4));
-  const auto elements = elements_of(patch);
+  const auto elements = patch.elements();
   ComplexVector z = flat_map(patch.positions);
   z[12] += 2.0;
   CHECK_THROWS_AS(
