@@ -62,6 +62,11 @@ class FoldFree {
   /// Of a quad's two splits only one can be asked to have no fold: the first, unless its diagonal is an edge already,
   /// which no straight lines can draw twice.
   void choose_splits(const std::vector<double>& coverage) {
+    const auto n = static_cast<std::ptrdiff_t>(triangles_.size());
+    if (std::all_of(coverage.begin(), coverage.begin() + n, [](double share) { return share == 1.0; })) {
+      single_ = triangles_;
+      return;
+    }
     std::set<std::pair<int, int>> edges;
     const auto is_first_of_quad = [&](std::size_t t) { return coverage[t] != 1.0; };
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
