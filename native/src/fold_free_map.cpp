@@ -17,11 +17,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
-  const std::vector<bool> each = folded_elements(elements, z);
-  return static_cast<int>(std::count(each.begin(), each.end(), true));
-}
-
 class FoldFree {
  public:
   FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {
@@ -33,9 +28,6 @@ class FoldFree {
     const std::vector<double> coverage(energy.coverage().begin(), energy.coverage().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, coverage, 0);
     choose_splits(energy.coverage());
-    n_vertices_ = 0;
-    for (const auto& triangle : triangles_)
-      n_vertices_ = std::max(n_vertices_, 1 + *std::max_element(triangle.begin(), triangle.end()));
   }
 
   FoldFreeMap run(ComplexVector given) {
@@ -119,8 +111,7 @@ class FoldFree {
   FoldFreeMap embed() {
     FoldFreeMap result;
     result.is_embedding = true;
-    result.z = convex_embedding(single_, patch_.loops, 0, patch_.positions.topRows(n_vertices_), patch_.backend,
-                                part(progress_, 0.3, 0.5));
+    result.z = convex_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress_, 0.3, 0.5));
     const std::vector<DistortionElement> lifted = lifted_elements();
     if (count_folded(lifted, result.z) > 0) {
       unfold_locally(lifted, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
@@ -180,7 +171,6 @@ class FoldFree {
 
   const FoldFreePatch& patch_;
   const Progress& progress_;
-  int n_vertices_ = 0;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<std::array<int, 3>> single_;   ///< of a quad one split only
   std::vector<DistortionElement> elements_;  ///< of triangles_

@@ -67,8 +67,7 @@ class Unfolding {
       if (regions.empty()) break;  // nothing is folded, or nothing of it may move
       for (const Region& region : regions) unfold(region);
     }
-    const std::vector<bool> folded = folded_elements(elements_, z_);
-    return static_cast<int>(std::count(folded.begin(), folded.end(), true));
+    return count_folded(elements_, z_);
   }
 
  private:
@@ -207,15 +206,11 @@ class Unfolding {
   /// Whether fewer elements are folded than before.
   bool descend_to_unfold(std::vector<DistortionElement>& local, const std::vector<char>& fixed,
                          ComplexVector& z) const {
-    const auto count = [&](const ComplexVector& map) {
-      const std::vector<bool> folded = folded_elements(local, map);
-      return std::count(folded.begin(), folded.end(), true);
-    };
-    const auto before = count(z);
+    const int before = count_folded(local, z);
     const Progress still_there = [this](double, const char* phase) { return !progress_ || progress_(done_, phase); };
     descend(local, fixed, z, backend_, {DistortionMeasure::symmetric_dirichlet, 1e-2, 30}, still_there);
     if (!z.allFinite()) return false;
-    const auto after = count(z);
+    const int after = count_folded(local, z);
     if (after > 0) return after < before;
     // The descent left some elements soft that hold by now.
     for (DistortionElement& element : local) {
@@ -223,7 +218,7 @@ class Unfolding {
     }
     ComplexVector relaxed = z;
     descend(local, fixed, relaxed, backend_, {DistortionMeasure::conformal, 1e-3, 20}, still_there);
-    if (relaxed.allFinite() && count(relaxed) == 0) z = std::move(relaxed);
+    if (relaxed.allFinite() && count_folded(local, relaxed) == 0) z = std::move(relaxed);
     return true;
   }
 
@@ -239,11 +234,9 @@ class Unfolding {
 
 }  // namespace
 
-std::vector<bool> folded_elements(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
-  std::vector<bool> result;
-  result.reserve(elements.size());
-  for (const DistortionElement& element : elements) result.push_back(is_folded(element, z));
-  return result;
+int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
+  return static_cast<int>(std::count_if(elements.begin(), elements.end(),
+                                        [&](const DistortionElement& element) { return is_folded(element, z); }));
 }
 
 int unfold_locally(const std::vector<DistortionElement>& elements, const std::vector<char>& held,

@@ -9,6 +9,7 @@
 
 #include "spectral_conformal/boundary_loops.h"
 #include "spectral_conformal/disk_patch.h"
+#include "spectral_conformal/distortion.h"
 #include "spectral_conformal/eigenproblem.h"
 #include "spectral_conformal/fold_free_map.h"
 #include "spectral_conformal/hole_filling.h"
@@ -234,17 +235,11 @@ Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins
 }
 
 double Solver::mean_distortion(const ComplexVector& z) const {
-  double sum = 0;
-  double area = 0;
-  for (std::size_t t = 0; t + energy_->n_virtual() < energy_->triangles().size(); ++t) {
-    const TriangleShape& shape = energy_->shapes()[t];
-    if (shape.clamped) continue;
-    const auto& [a, b, c] = energy_->triangles()[t];
-    const double weight = energy_->coverage()[t] * shape.area();
-    sum += weight * shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
-    area += weight;
-  }
-  return area > 0 ? sum / area : 1;
+  const auto n = static_cast<std::ptrdiff_t>(energy_->triangles().size() - energy_->n_virtual());
+  const auto triangles = energy_->triangles().begin();
+  const auto coverage = energy_->coverage().begin();
+  return measure_distortion(positions_.topRows(n_vertices_), {triangles, triangles + n}, {coverage, coverage + n}, z)
+      .mean_qc;
 }
 
 ComplexVector Solver::with_virtual_vertices(const ComplexVector& z) const {
@@ -278,7 +273,7 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
   const double before = result.z.size() > 0 ? mean_distortion(result.z) : std::numeric_limits<double>::quiet_NaN();
   // Pins may hold the map mirrored, which is no fold.
   const bool mirrored = held && signed_area(*energy_, result.z) < 0;
-  FoldFreeMap map = fold_free_map({*energy_, positions_, loops, held_vertices, options_.backend},
+  FoldFreeMap map = fold_free_map({*energy_, positions_.topRows(n_vertices_), loops, held_vertices, options_.backend},
                                   mirrored ? ComplexVector(result.z.conjugate()) : result.z, progress);
   if (mirrored) map.z = map.z.conjugate().eval();
   watch.lap("unfolding");

@@ -7,15 +7,6 @@
 #include "spectral_conformal/local_unfolding.h"
 
 namespace spectral_conformal::test {
-namespace {
-
-int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
-  const std::vector<bool> folded = folded_elements(elements, z);
-  return static_cast<int>(std::count(folded.begin(), folded.end(), true));
-}
-
-}  // namespace
-
 TEST_SUITE_BEGIN("local_unfolding");
 
 TEST_CASE("folds far apart and of different scale are unfolded, and what is far from them does not move") {

@@ -12,7 +12,7 @@ namespace spectral_conformal {
 /// A patch as fold_free_map needs it. Virtual vertices and triangles of the energy are not looked at.
 struct FoldFreePatch {
   const ConformalEnergy& energy;
-  const Positions& positions;              ///< (V or more, 3)
+  Eigen::Ref<const Positions> positions;   ///< (V, 3)
   const std::vector<BoundaryLoop>& loops;  ///< the outer one first
   const std::vector<char>& held;           ///< (V,) or empty: vertices that must stay
   FactorizationBackend backend = FactorizationBackend::automatic;

@@ -8,8 +8,8 @@
 
 namespace spectral_conformal {
 
-/// Whether each measured element lacks positive image area, by more than rounding; (n elements,).
-std::vector<bool> folded_elements(const std::vector<DistortionElement>& elements, const ComplexVector& z);
+/// Measured elements that lack positive image area, or have less than rounding leaves of it.
+int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z);
 
 /// Unfolds the folded triangles of a map and leaves the rest of it where it is: frees the vertices around them, ring by
 /// ring further, until a descent (distortion_descent.h) of the symmetric Dirichlet energy, at the scale of the
