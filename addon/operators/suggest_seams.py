@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
-from .. import edit_mode_unwrap, live_unwrap, names, progress, seam_suggestion
+from .. import edit_mode_unwrap, names, progress, seam_suggestion
 from ..core import reporting, unwrapping
 from ..core.native import NativeModuleError
 from ..core.seam_suggestion import Options, Search, Suggestion
 from ..core.unwrapping import Progress, Solution
 from ..core.worker import Worker
+from ..live import following
 from ..packing import PackingError
 from ..seam_preview import SeamPreview, length_text
 from ..seam_suggestion import Target
@@ -270,7 +271,7 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> Target | None:
         """Return what is to be cut; None having reported that there is nothing."""
-        target = seam_suggestion.read(context, live_unwrap.last_settings())
+        target = seam_suggestion.read(context, following.last_settings())
         if target is None:
             self.report({"WARNING"}, "No visible faces to cut")
         return target

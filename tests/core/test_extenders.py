@@ -6,8 +6,8 @@ from itertools import combinations, islice
 
 import numpy as np
 import pytest
-from spectral_unwrap.core import extenders
-from spectral_unwrap.core.extenders import ArrowSize, Extender, SelectionError
+from spectral_unwrap.core import extender_pairs as extenders
+from spectral_unwrap.core.extender_pairs import ArrowSize, Extender, SelectionError
 
 FEW = [Extender("Extender", 1.0, True, 17, 4), Extender("Other", -2.5, False, 17, 99)]
 

@@ -13,7 +13,7 @@ import scenes
 edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
 seam_suggestion = importlib.import_module("spectral_unwrap.seam_suggestion")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
-adjusted_map = importlib.import_module("spectral_unwrap.adjusted_map")
+adjusted_map = importlib.import_module("spectral_unwrap.extenders.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
 packing = importlib.import_module("spectral_unwrap.packing")
 progress = importlib.import_module("spectral_unwrap.progress")

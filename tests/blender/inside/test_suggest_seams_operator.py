@@ -234,7 +234,7 @@ def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
         edge.seam = False
     scenes.write_uv(cube, 0.5 + 0.1 * packed)
     settings = module("edit_mode_unwrap").Settings(keep_in_place=True)
-    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     low, high = scenes.bounds(scenes.read_uv(cube))
     assert low.min() >= 0.5 - 1e-5
@@ -246,7 +246,7 @@ def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkey
     cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
     scenes.edit(cube)
     settings = module("edit_mode_unwrap").Settings(use_subsurf=True)
-    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert seams(cube)
     assert texts(reports, "Warning") == []

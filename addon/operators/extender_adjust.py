@@ -4,11 +4,12 @@
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
-from .. import extenders, names, progress
-from ..adjusted_map import AdjustedMap
+from .. import names, progress
 from ..core.extender_adjustment import AdjustmentError
 from ..core.native import NativeModuleError
 from ..core.typed_number import TypedNumber
+from ..extenders import storage
+from ..extenders.adjusted_map import AdjustedMap
 
 # Change of strength per pixel, and what Shift makes of it.
 _STEP = 0.01
@@ -29,7 +30,7 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where the active mesh in edit mode has extenders."""
-        return context.mode == "EDIT_MESH" and len(extenders.of(context.edit_object.data)) > 0
+        return context.mode == "EDIT_MESH" and len(storage.of(context.edit_object.data)) > 0
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set the strength and solve the island again."""
@@ -78,8 +79,8 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
     def _adjusted(self, context: bpy.types.Context) -> AdjustedMap | None:
         """Return the map to adjust; None having reported why there is none."""
         mesh = context.edit_object.data
-        index = extenders.active_index(mesh) if self.index < 0 else self.index
-        if not 0 <= index < len(extenders.of(mesh)):
+        index = storage.active_index(mesh) if self.index < 0 else self.index
+        if not 0 <= index < len(storage.of(mesh)):
             self.report({"ERROR"}, "No such extender; choose one in the list")
             return None
         try:

@@ -5,8 +5,9 @@ import bmesh
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .. import extenders, mesh_selection, names
-from ..core.extenders import SelectionError, pairs_in_order, pairs_to_active
+from .. import mesh_selection, names
+from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
+from ..extenders import storage
 
 
 class MESH_OT_spectral_extender_add(bpy.types.Operator):
@@ -40,7 +41,7 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
         except SelectionError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        added = sum(extenders.add(mesh, mesh_pairs, self.strength) for mesh, mesh_pairs in pairs.items())
+        added = sum(storage.add(mesh, mesh_pairs, self.strength) for mesh, mesh_pairs in pairs.items())
         skipped = sum(map(len, pairs.values())) - added
         if skipped:
             self.report({"INFO" if added else "WARNING"}, f"Pairs that have an extender already: {skipped}")
@@ -79,12 +80,12 @@ class _ExtenderOperator:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where the active mesh in edit mode has extenders."""
-        return context.mode == "EDIT_MESH" and len(extenders.of(context.edit_object.data)) > 0
+        return context.mode == "EDIT_MESH" and len(storage.of(context.edit_object.data)) > 0
 
     def chosen(self, mesh: bpy.types.Mesh) -> int:
         """Return the index of the extender to work on, -1 having reported that there is none."""
-        index = extenders.active_index(mesh) if self.index < 0 else self.index
-        if not 0 <= index < len(extenders.of(mesh)):
+        index = storage.active_index(mesh) if self.index < 0 else self.index
+        if not 0 <= index < len(storage.of(mesh)):
             self.report({"ERROR"}, "No such extender; choose one in the list")
             return -1
         return index
@@ -109,14 +110,14 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
         """Remove from the list of the active object's mesh."""
         mesh = context.edit_object.data
         if self.broken:
-            ends = extenders.ends(bmesh.from_edit_mesh(mesh), mesh)
+            ends = storage.ends(bmesh.from_edit_mesh(mesh), mesh)
             indices = [index for index, pair in enumerate(ends) if -1 in pair]
             self.report({"INFO"}, f"Removed broken extenders: {len(indices)}")
         else:
             indices = [index for index in (self.chosen(mesh),) if index >= 0]
         if not indices:
             return {"CANCELLED"}
-        extenders.remove(mesh, indices)
+        storage.remove(mesh, indices)
         return {"FINISHED"}
 
 
@@ -135,10 +136,10 @@ class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
         index = self.chosen(mesh)
         if index < 0:
             return {"CANCELLED"}
-        name = extenders.label(extenders.of(mesh)[index])
+        name = storage.label(storage.of(mesh)[index])
         bm = bmesh.from_edit_mesh(mesh)
         bm.verts.ensure_lookup_table()
-        present = [vertex for vertex in extenders.ends(bm, mesh)[index] if vertex >= 0]
+        present = [vertex for vertex in storage.ends(bm, mesh)[index] if vertex >= 0]
         hidden = sum(bm.verts[vertex].hide for vertex in present)
         if len(present) < 2:
             self.report({"WARNING"}, f"{name} is broken: {2 - len(present)} of its vertices gone; remove it")

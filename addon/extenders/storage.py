@@ -16,9 +16,9 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem
 
-from . import names
-from .core import extenders as core
-from .core.extenders import Extender
+from .. import names
+from ..core import extender_pairs as core
+from ..core.extender_pairs import Extender
 
 
 @dataclass
@@ -34,7 +34,7 @@ _session = _Session()
 
 
 def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
-    """Return the list of extenders of a mesh, each with the attributes of `core.extenders.Extender`."""
+    """Return the list of extenders of a mesh, each with the attributes of `core.extender_pairs.Extender`."""
     return getattr(mesh, names.EXTENDERS_PROPERTY)
 
 

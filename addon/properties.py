@@ -9,15 +9,16 @@ from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProper
 from bpy.types import Context, Mesh, PropertyGroup
 from bpy.utils import register_class, unregister_class
 
-from . import extenders, names
+from . import names
+from .extenders import storage
 
 
 def _on_change(extender: PropertyGroup, _context: Context) -> None:
-    extenders.changed(extender)
+    storage.changed(extender)
 
 
 def _on_rename(extender: PropertyGroup, _context: Context) -> None:
-    extenders.renamed(extender)
+    storage.renamed(extender)
 
 
 class SpectralExtender(PropertyGroup):
@@ -43,7 +44,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
-    extenders.forget()
+    storage.forget()
     for name in (names.EXTENDER_LAYER_PROPERTY, names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
         delattr(Mesh, name)
     unregister_class(SpectralExtender)

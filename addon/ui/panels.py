@@ -3,7 +3,8 @@
 
 import bpy
 
-from . import extender_tracking, extenders, names
+from .. import names
+from ..extenders import storage, tracking
 
 
 class MESH_UL_spectral_extenders(bpy.types.UIList):
@@ -22,7 +23,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         _flag: int = 0,
     ) -> None:
         """Draw one extender: which way it acts, or that it is broken; its name; its strength; whether it is on."""
-        is_broken = extender_tracking.broken(mesh)[index]
+        is_broken = tracking.broken(mesh)[index]
         row = layout.row(align=True)
         content = row.row(align=True)
         content.active = extender.use
@@ -75,7 +76,7 @@ class _ExtendersPanel(_UnwrapPanel):
         column = layout.column(align=True)
         column.operator(names.ADD_EXTENDER_OPERATOR, icon="ADD").pairs = names.PAIRS_IN_ORDER
         column.operator(names.ADD_EXTENDER_OPERATOR, text="Add to Active").pairs = names.PAIRS_TO_ACTIVE
-        if not extenders.of(mesh):
+        if not storage.of(mesh):
             return
         layout.template_list(
             names.EXTENDER_LIST, "", mesh, names.EXTENDERS_PROPERTY, mesh, names.ACTIVE_EXTENDER_PROPERTY, rows=4
@@ -86,7 +87,7 @@ class _ExtendersPanel(_UnwrapPanel):
         row = layout.row(align=True)
         row.operator(names.SELECT_EXTENDER_OPERATOR, text="Select").index = -1
         row.operator(names.REMOVE_EXTENDER_OPERATOR, text="Remove").broken = False
-        if any(extender_tracking.broken(mesh)):
+        if any(tracking.broken(mesh)):
             remove = layout.operator(
                 names.REMOVE_EXTENDER_OPERATOR, text=names.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"
             )

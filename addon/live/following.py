@@ -18,12 +18,12 @@ import numpy as np
 from bmesh.types import BMesh, BMLoop
 from bpy.app.handlers import persistent
 
-from . import compatibility, edit_mode_unwrap, mesh_io, mesh_selection, names
-from .core import live
-from .core.native import NativeModuleError
-from .core.polygon_mesh import PolygonMesh
-from .operators.unwrap import UV_OT_spectral_unwrap
-from .packing import PackingError
+from .. import compatibility, edit_mode_unwrap, mesh_io, mesh_selection, names
+from ..core.native import NativeModuleError
+from ..core.pinned_chart import PinnedChart, changed_edges, chart_of_face, faces_of_charts_at
+from ..core.polygon_mesh import PolygonMesh
+from ..operators.unwrap import UV_OT_spectral_unwrap
+from ..packing import PackingError
 
 # A map that takes longer than this waits until the pins rest for a while.
 _SLOW = 2.0
@@ -38,7 +38,7 @@ _TRANSFORMS = "TRANSFORM_OT_"
 class _Chart:
     """A chart whose pins are being moved; `free` are its corners without a pin, `loops` the same in Blender."""
 
-    pinned_chart: live.PinnedChart
+    pinned_chart: PinnedChart
     free: np.ndarray
     loops: list[BMLoop]
 
@@ -120,7 +120,7 @@ def _look(scene: bpy.types.Scene) -> None:
         watch = before.get(key)
         if watch is None or not _same_topology(watch.polygons, seen.polygons):
             continue
-        edges = live.changed_edges(watch.polygons.seam_edges, seen.polygons.seam_edges)
+        edges = changed_edges(watch.polygons.seam_edges, seen.polygons.seam_edges)
         if len(edges) and _follows_seams(watch.operator):
             changed[key] = edges
         if watch.drag and watch.drag.operator == seen.operator and np.array_equal(watch.pins, seen.pins):
@@ -201,8 +201,8 @@ def _follow_pins(watch: _Watch, scene: bpy.types.Scene, is_resting: bool = False
     operator = _last_operator_address()
     if drag is None or drag.operator != watch.operator:
         polygons = watch.polygons
-        chart_of_face = live.chart_of_face(polygons, polygons.selected_faces)
-        drag = watch.drag = _Drag(watch.operator, polygons.uv.copy(), chart_of_face)
+        charts = chart_of_face(polygons, polygons.selected_faces)
+        drag = watch.drag = _Drag(watch.operator, polygons.uv.copy(), charts)
     watch.polygons.uv[watch.pins] = places
     drag.last_motion = time.perf_counter()
     _add_charts(watch, drag, watch.pins[moved], scene)
@@ -237,7 +237,7 @@ def _add_charts(watch: _Watch, drag: _Drag, moved: np.ndarray, scene: bpy.types.
             drag.charts[number] = None
             continue
         loops = [loop for f in np.flatnonzero(faces).tolist() for loop in watch.bm.faces[f].loops]
-        pinned_chart = live.PinnedChart(polygons, faces, polygons.pinned_corners, drag.start)
+        pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start)
         free = ~pinned_chart.pinned
         drag.charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
 
@@ -268,7 +268,7 @@ def _follow_seams(scene: bpy.types.Scene, changed: dict[int, np.ndarray]) -> Non
             for edit_mesh in edit_meshes:
                 edges = changed[edit_mesh.mesh.as_pointer()]
                 visible = edit_mesh.polygons.selected_faces
-                visible &= live.faces_of_charts_at(edit_mesh.polygons, visible, edges)
+                visible &= faces_of_charts_at(edit_mesh.polygons, visible, edges)
         solutions = edit_mode_unwrap.solve(edit_meshes, settings)
         with ExitStack() as stack:
             for watch in _state.watches.values():

@@ -15,10 +15,11 @@ from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 
-from . import compatibility, extender_tracking, extenders, names
-from .core import extenders as core
-from .core.extenders import ArrowSize
-from .extender_tracking import Track
+from .. import compatibility, names
+from ..core import extender_pairs as core
+from ..core.extender_pairs import ArrowSize
+from ..extenders import storage, tracking
+from ..extenders.tracking import Track
 
 _Point = tuple[float, float]
 # A function that returns the places on the screen, in pixels, of two vertices of a mesh; None where one is not shown.
@@ -83,14 +84,14 @@ def _arrows(context: bpy.types.Context, places_of: Callable[..., _Places]) -> It
     last = []
     for edit_object in context.objects_in_mode_unique_data:
         mesh = edit_object.data
-        if not extenders.of(mesh):
+        if not storage.of(mesh):
             continue
-        track = extender_tracking.track(mesh)
+        track = tracking.track(mesh)
         if track is None:
             continue
         places = places_of(context, edit_object, track)
-        active = extenders.active_index(mesh) if edit_object == context.edit_object else -1
-        for index, (extender, ends) in enumerate(zip(extenders.of(mesh), track.ends)):
+        active = storage.active_index(mesh) if edit_object == context.edit_object else -1
+        for index, (extender, ends) in enumerate(zip(storage.of(mesh), track.ends)):
             found = places(*ends) if None not in ends else None
             if found is None:
                 continue

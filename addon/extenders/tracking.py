@@ -14,7 +14,7 @@ import bpy
 from bmesh.types import BMesh, BMVert
 from bpy.app.handlers import persistent
 
-from . import extenders
+from . import storage
 
 
 @dataclass
@@ -56,19 +56,19 @@ def broken(mesh: bpy.types.Mesh) -> list[bool]:
     """Return which extenders of a mesh in edit mode have lost a vertex, as far as is known."""
     tracked = track(mesh)
     if tracked is None:
-        return [False] * len(extenders.of(mesh))
+        return [False] * len(storage.of(mesh))
     return [None in pair for pair in tracked.ends]
 
 
 def _resolved(bm: BMesh, mesh: bpy.types.Mesh) -> Track:
-    found = extenders.ends(bm, mesh)
+    found = storage.ends(bm, mesh)
     bm.verts.ensure_lookup_table()
     vertices = [tuple(bm.verts[index] if index >= 0 else None for index in pair) for pair in found]
     return Track(bm, _vertex_ids(mesh), len(bm.verts), vertices)
 
 
 def _vertex_ids(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
-    return [(extender.first_id, extender.second_id) for extender in extenders.of(mesh)]
+    return [(extender.first_id, extender.second_id) for extender in storage.of(mesh)]
 
 
 def _follow(meshes: Sequence[bpy.types.Mesh]) -> None:
@@ -76,8 +76,8 @@ def _follow(meshes: Sequence[bpy.types.Mesh]) -> None:
     for key in [key for key, tracked in _tracks.items() if not tracked.bm.is_valid]:
         del _tracks[key]
     for mesh in meshes:
-        if mesh.is_editmode and extenders.of(mesh) and mesh.as_pointer() not in _tracks:
-            extenders.remember(mesh)
+        if mesh.is_editmode and storage.of(mesh) and mesh.as_pointer() not in _tracks:
+            storage.remember(mesh)
             _tracks[mesh.as_pointer()] = _resolved(bmesh.from_edit_mesh(mesh), mesh)
 
 
@@ -93,14 +93,14 @@ def _after_undo(*_arguments: object) -> None:
     _tracks.clear()
     for mesh in bpy.data.meshes:
         if mesh.is_editmode:
-            extenders.restore(mesh)
+            storage.restore(mesh)
     _follow(bpy.data.meshes)
 
 
 @persistent
 def _before_load(*_arguments: object) -> None:
     _tracks.clear()
-    extenders.forget()
+    storage.forget()
 
 
 @persistent

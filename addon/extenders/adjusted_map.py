@@ -8,9 +8,11 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import extenders, live_unwrap, mesh_io, names, subdivision_surface
-from .core import reporting
-from .core.extender_adjustment import AdjustmentError, ExtenderAdjustment
+from .. import mesh_io, names, subdivision_surface
+from ..core import reporting
+from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
+from ..live import following
+from . import storage
 
 
 class AdjustedMap:
@@ -35,14 +37,14 @@ class AdjustedMap:
         edit_object = context.edit_object
         self.mesh = edit_object.data
         self.index = index
-        extender = extenders.of(self.mesh)[index]
+        extender = storage.of(self.mesh)[index]
         # A file may have a strength that is no number, from which no drag could start.
         self.start = extender.strength if abs(extender.strength) <= names.EXTENDER_STRENGTH_LIMIT else 0.0
         self._bm = bmesh.from_edit_mesh(self.mesh)
-        ends = extenders.ends(self._bm, self.mesh)[index]
+        ends = storage.ends(self._bm, self.mesh)[index]
         if -1 in ends:
             raise AdjustmentError(
-                f"{extenders.label(extender)} is broken: a vertex of it is gone; remove it and add another"
+                f"{storage.label(extender)} is broken: a vertex of it is gone; remove it and add another"
             )
         self._is_map_added = mesh_io.ensure_uv_map(self.mesh)
         try:
@@ -57,7 +59,7 @@ class AdjustedMap:
         self._before = [tuple(loop[layer].uv) for loop in self._loops]
 
     def _take(self, edit_object: bpy.types.Object, ends: tuple[int, int]) -> ExtenderAdjustment:
-        settings = live_unwrap.last_settings()
+        settings = following.last_settings()
         subdivided = settings.use_subsurf and subdivision_surface.leading_modifier(edit_object) is not None
         self.note = reporting.ADJUSTED_WITHOUT_SUBSURF if subdivided else ""
         for all_visible in (False, True):
@@ -90,7 +92,7 @@ class AdjustedMap:
 
     def keep(self, strength: float) -> None:
         """Store the strength with the extender."""
-        extenders.set_strength(self.mesh, self.index, strength)
+        storage.set_strength(self.mesh, self.index, strength)
 
     @property
     def is_valid(self) -> bool:
