@@ -16,8 +16,8 @@ from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 
 from .. import compatibility, names
-from ..core import extender_pairs as core
-from ..core.extender_pairs import ArrowSize
+from ..core import arrow_shapes
+from ..core.arrow_shapes import ArrowSize
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
 
@@ -73,7 +73,7 @@ def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) ->
     corners, colors = [np.empty((0, 2))], [np.empty((0, 4))]
     for start, end, outward, fill, outline in _arrows(context, places_of):
         for size, color in zip(sizes, (outline, fill)):
-            points = core.arrow(start, end, outward, size).reshape(-1, 2)
+            points = arrow_shapes.arrow(start, end, outward, size).reshape(-1, 2)
             corners.append(points)
             colors.append(np.tile(color, (len(points), 1)))
     return np.concatenate(corners), np.concatenate(colors)
@@ -132,7 +132,7 @@ def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, 
         uvs = [copies(vertex) for vertex in (first, second)] if layer is not None else []
         if not all(map(len, uvs)) or not uvs:
             return None
-        nearest = core.nearest_pair(*uvs)
+        nearest = arrow_shapes.nearest_pair(*uvs)
         return tuple(view.view_to_region(*map(float, uv), clip=False) for uv in nearest)
 
     return places
