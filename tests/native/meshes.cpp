@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "spectral_conformal/boundary_loops.h"
-#include "spectral_conformal/disk_patch.h"
+#include "mesh/boundary_loops.h"
+#include "mesh/chart_checks.h"
 
 namespace spectral_conformal::test {
 namespace {

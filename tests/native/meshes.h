@@ -4,10 +4,10 @@
 #include <initializer_list>
 #include <vector>
 
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/conformal_energy.h"
-#include "spectral_conformal/distortion_energy.h"
-#include "spectral_conformal/factorization.h"
+#include "conformal/conformal_energy.h"
+#include "injective/distortion_energy.h"
+#include "linear_algebra/factorization.h"
+#include "mesh/charts.h"
 
 namespace spectral_conformal::test {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "spectral_conformal/charts.h"
+#include "mesh/charts.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "spectral_conformal/boundary_form.h"
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/conformal_energy.h"
-#include "spectral_conformal/extended_eigenproblem.h"
-#include "spectral_conformal/factorization.h"
-#include "spectral_conformal/lscm.h"
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "conformal/extended_eigenproblem.h"
+#include "conformal/lscm.h"
+#include "linear_algebra/factorization.h"
+#include "mesh/charts.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -29,7 +29,7 @@ struct PatchOptions {
   FactorizationBackend backend = FactorizationBackend::automatic;
   bool fill_holes = false;  ///< see hole_filling.h
   /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
-  /// (isometric_map.h), and its metric, blended with the identity, is that of all solves (section 4.3).
+  /// (isometric_relaxation.h), and its metric, blended with the identity, is that of all solves (section 4.3).
   double area_blend = 0;
   /// All solves end with no flipped triangle and a turning number of 1 or -1, at some cost in distortion: see
   /// fold_free_map.h.

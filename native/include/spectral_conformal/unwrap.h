@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/corner_pins.h"
+#include "mesh/charts.h"
+#include "mesh/corner_pins.h"
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal {
