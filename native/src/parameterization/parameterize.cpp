@@ -117,17 +117,17 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
     }
   }
   std::vector<std::array<int, 3>> triangles = chart.triangles;
-  std::vector<double> coverage = chart.coverage;
+  std::vector<double> triangle_weights = chart.triangle_weights;
   if (options.fill_holes && !inner_.empty()) {
     const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, positions_);
     triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
-    coverage.insert(coverage.end(), filling.coverage.begin(), filling.coverage.end());
+    triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
     positions_.conservativeResize(n_vertices_ + filling.centres.rows(), 3);
     positions_.bottomRows(filling.centres.rows()) = filling.centres;
   }
   const std::size_t n_virtual = triangles.size() - chart.triangles.size();
-  energy_ = std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(coverage), options.weights,
-                                              n_virtual);
+  energy_ = std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(triangle_weights),
+                                              options.weights, n_virtual);
   for (std::size_t t = 0; t < metric.size(); ++t) {
     if (!is_positive_definite(metric[t]) && !energy_->shapes()[t].clamped) {
       throw InvalidMesh("The metric of face " + std::to_string(chart.faces[chart.triangle_face[t]]) +
@@ -237,8 +237,9 @@ Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins
 double Solver::mean_distortion(const ComplexVector& z) const {
   const auto n = static_cast<std::ptrdiff_t>(energy_->triangles().size() - energy_->n_virtual());
   const auto triangles = energy_->triangles().begin();
-  const auto coverage = energy_->coverage().begin();
-  return measure_distortion(positions_.topRows(n_vertices_), {triangles, triangles + n}, {coverage, coverage + n}, z)
+  const auto triangle_weights = energy_->triangle_weights().begin();
+  return measure_distortion(positions_.topRows(n_vertices_), {triangles, triangles + n},
+                            {triangle_weights, triangle_weights + n}, z)
       .mean_qc;
 }
 
@@ -289,7 +290,7 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
     throw SolveFailure("The map has no positive area", "add seams that make the patch flatter.");
   }
   const ComplexVector z = with_virtual_vertices(result.z);
-  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), z);
+  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->triangle_weights(), z);
   ComplexVector r;
   const double lambda = eigen_residual(*energy_, form_, z, r);
   result.eigenvalue = lambda * lambda_unit(Method::spectral);
@@ -473,7 +474,7 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
     result.residual = eigenvector.residual;
     result.eigenvalue = eigenvector.lambda * lambda_unit(method);
     watch.lap("eigenproblem");
-    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), eigenvector.z);
+    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->triangle_weights(), eigenvector.z);
     if (!eigenvector.z.allFinite() || !std::isfinite(eigenvector.lambda)) {
       why = "The result is not finite";
       continue;
@@ -514,8 +515,8 @@ void Solver::blend_area(const Progress& progress) {
   ComplexVector z;
   conformal.solve_eigenvector({}, {}, part(progress, 0.0, 0.2), &z);
   const IsometricMap relaxed =
-      relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->coverage(), energy_->n_virtual(),
-                        std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
+      relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->triangle_weights(),
+                        energy_->n_virtual(), std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
   std::string repairs = repairs_ + describe_relaxation(relaxed);
   std::vector<TriangleMetric> metric;
   metric.reserve(energy_->triangles().size());
@@ -571,7 +572,7 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
   result.iterations = 1;
   watch.lap("solve");
   if (!result.z.allFinite()) throw SolveFailure("The pinned map is not finite", "clean up degenerate faces.");
-  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
+  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->triangle_weights(), result.z);
   result.eigenvalue = energy_->value(result.z) / form_.value(result.z) * lambda_unit(Method::lscm);
   // With pins on vertices without mass the rest may all lie in one point.
   if (!std::isfinite(result.eigenvalue)) {

@@ -60,7 +60,7 @@ void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVec
     }
   };
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    if (chart.coverage[t] == 1.0) {
+    if (chart.triangle_weights[t] == 1.0) {
       take(measured(t), t);
       continue;
     }

@@ -41,7 +41,7 @@ TEST_CASE("flat patches come back as themselves, by every method, at any scale a
           CHECK(map.turning_number == 1);
           CHECK_MESSAGE(map.message.empty(), map.message);
           const Distortion distortion =
-              measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, map.z);
+              measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
           CHECK(distortion.max_qc - 1 < 1e-9);
           CHECK(distortion.log2_scale.cwiseAbs().maxCoeff() < 1e-6);
         }
@@ -154,7 +154,7 @@ TEST_CASE("vertices that no face uses, and holes, are no obstacle") {
 
 TEST_CASE("an energy that vanishes altogether is a failure, not a result") {
   Patch patch(bumpy_grid(4, 4));
-  std::fill(patch.chart.coverage.begin(), patch.chart.coverage.end(), 0.0);
+  std::fill(patch.chart.triangle_weights.begin(), patch.chart.triangle_weights.end(), 0.0);
   for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
     for (const auto backend : backends()) {
       Solver empty = solver(patch, Weights::uniform, BoundaryMeasure::length, backend);
@@ -191,7 +191,8 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
     options.area_blend = amount;
     Solver blended(patch.chart, patch.positions, options);
     const Parameterization map = blended.solve({}, {});
-    const Distortion measured = measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, map.z);
+    const Distortion measured =
+        measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
     CHECK(measured.log2_scale_deviation < last);
     last = measured.log2_scale_deviation;
     CHECK(std::count(measured.flipped.begin(), measured.flipped.end(), true) == 0);
