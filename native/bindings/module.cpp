@@ -15,9 +15,9 @@
 #include <thread>
 #include <tuple>
 
-#include "spectral_conformal/disk_patch.h"
+#include "linear_algebra/factorization.h"
+#include "mesh/chart_checks.h"
 #include "spectral_conformal/distortion.h"
-#include "spectral_conformal/factorization.h"
 #include "spectral_conformal/map_defects.h"
 #include "spectral_conformal/metric.h"
 #include "spectral_conformal/parameterize.h"
