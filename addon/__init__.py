@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import drawing, extender_properties, extender_tracking, live_unwrap, menus, operators, panels
+from . import drawing, extender_properties, extender_tracking, live_unwrap, operators, panels
+from .ui import menus
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
 # blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).

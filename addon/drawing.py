@@ -15,8 +15,9 @@ from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 
-from . import compatibility, extender_tracking, extenders, names
+from . import compatibility, extender_tracking, extenders
 from .core import extenders as core
+from .core import texts
 from .core.extenders import ArrowSize
 from .extender_tracking import Track
 
@@ -59,7 +60,7 @@ def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None
         problem = f"{type(error).__name__}: {error}"
         if problem not in _told:
             _told.add(problem)
-            print(f"{names.EXTENDERS_LABEL} could not be drawn: {problem}")
+            print(f"{texts.EXTENDERS_LABEL} could not be drawn: {problem}")
 
 
 def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:
