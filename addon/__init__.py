@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import menus, operators, properties
+from . import operators, properties
 from .extenders import tracking
 from .live import following
 from .overlay import extender_arrows
-from .ui import panels
+from .ui import menus, panels
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
 # blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).

@@ -10,6 +10,7 @@ from bpy.types import Context, Mesh, PropertyGroup
 from bpy.utils import register_class, unregister_class
 
 from . import names
+from .core import texts
 from .extenders import storage
 
 
@@ -36,7 +37,7 @@ class SpectralExtender(PropertyGroup):
 def register() -> None:
     """Add the properties to meshes."""
     register_class(SpectralExtender)
-    setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=names.EXTENDERS_LABEL))
+    setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
     active = IntProperty(name="Active Extender", description="The extender chosen in the panel", min=0)
     setattr(Mesh, names.ACTIVE_EXTENDER_PROPERTY, active)
     setattr(Mesh, names.EXTENDER_LAYER_PROPERTY, StringProperty(options={"HIDDEN"}))

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import native, pinned_chart, placement, unwrapping
-from .polygon_mesh import PolygonMesh
+from . import native, pinned_chart, placement, solve
+from .mesh import PolygonMesh
+from .options import Options
 
 # Relative residual that the map on screen needs; a pixel is a thousandth of it.
 _TOLERANCE = 1e-4
@@ -25,7 +26,7 @@ class ExtenderAdjustment:
         corners: (N,) intp, the corners of the charts that the extender acts on, whole faces.
     """
 
-    def __init__(self, mesh: PolygonMesh, options: unwrapping.Options, extender: tuple[int, int]) -> None:
+    def __init__(self, mesh: PolygonMesh, options: Options, extender: tuple[int, int]) -> None:
         """Take the charts of `mesh` that hold both vertices of `extender`.
 
         Extenders of `mesh` between the same two vertices give way to the one adjusted.
@@ -49,7 +50,7 @@ class ExtenderAdjustment:
                 mesh.vertices,
                 mesh.face_offsets,
                 mesh.corner_vertices,
-                **unwrapping.arguments(self._mesh, replace(options, method="spectral")),
+                **solve.arguments(self._mesh, replace(options, method="spectral")),
             )
         except ValueError as error:
             raise AdjustmentError(str(error)) from error

@@ -7,7 +7,7 @@ Edges are vertex pairs in any order; `visible` (F,) bool are the faces that coun
 import numpy as np
 
 from . import native
-from .polygon_mesh import PolygonMesh
+from .mesh import PolygonMesh
 
 # Samples kept of one chart: every pin that moves by itself needs one more.
 _MOST_SAMPLES = 12
@@ -55,9 +55,7 @@ def faces_of_charts_at(mesh: PolygonMesh, visible: np.ndarray, edges: np.ndarray
 
 def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
     """Return the key of the edge from every corner to the next one of its face, (C,)."""
-    following = np.arange(1, len(mesh.corner_vertices) + 1)
-    following[mesh.face_offsets[1:] - 1] = mesh.face_offsets[:-1]
-    return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[following]], axis=1))
+    return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
 
 
 def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:

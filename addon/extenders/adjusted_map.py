@@ -8,10 +8,13 @@ import bmesh
 import bpy
 import numpy as np
 
-from .. import mesh_io, names, subdivision_surface
-from ..core import reporting
+from .. import names
+from ..core import texts
 from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
-from ..live import following
+from ..edit_mesh import subsurf
+from ..edit_mesh.read import read_mesh
+from ..edit_mesh.write import ensure_uv_map, write_loops
+from ..unwrapping.last_settings import last_settings
 from . import storage
 
 
@@ -46,7 +49,7 @@ class AdjustedMap:
             raise AdjustmentError(
                 f"{storage.label(extender)} is broken: a vertex of it is gone; remove it and add another"
             )
-        self._is_map_added = mesh_io.ensure_uv_map(self.mesh)
+        self._is_map_added = ensure_uv_map(self.mesh)
         try:
             self._adjustment = self._take(edit_object, ends)
         except AdjustmentError:
@@ -59,11 +62,11 @@ class AdjustedMap:
         self._before = [tuple(loop[layer].uv) for loop in self._loops]
 
     def _take(self, edit_object: bpy.types.Object, ends: tuple[int, int]) -> ExtenderAdjustment:
-        settings = following.last_settings()
-        subdivided = settings.use_subsurf and subdivision_surface.leading_modifier(edit_object) is not None
-        self.note = reporting.ADJUSTED_WITHOUT_SUBSURF if subdivided else ""
+        settings = last_settings()
+        subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
+        self.note = texts.ADJUSTED_WITHOUT_SUBSURF if subdivided else ""
         for all_visible in (False, True):
-            polygons = mesh_io.read(edit_object, False, all_visible, settings.correct_aspect).polygons
+            polygons = read_mesh(edit_object, False, all_visible, settings.correct_aspect).polygons
             unwrapped = polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]
             if np.isin(ends, unwrapped).all():
                 break
@@ -101,6 +104,5 @@ class AdjustedMap:
 
     def _write(self, uv: list) -> None:
         layer = self._bm.loops.layers.uv.active
-        for loop, point in zip(self._loops, uv):
-            loop[layer].uv = point
+        write_loops(layer, self._loops, uv)
         bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)

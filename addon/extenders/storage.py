@@ -18,6 +18,7 @@ from bmesh.types import BMesh, BMLayerItem
 
 from .. import names
 from ..core import extender_pairs as core
+from ..core import texts
 from ..core.extender_pairs import Extender
 
 
@@ -74,7 +75,7 @@ def renamed(extender: bpy.types.PropertyGroup) -> None:
     path = extender.path_from_id()
     others = [other.name for other in of(extender.id_data) if other.path_from_id() != path]
     with _writing():
-        extender.name = core.unique_name(extender.name or names.EXTENDER_NAME, others)
+        extender.name = core.unique_name(extender.name or texts.EXTENDER_NAME, others)
     _mark(extender.id_data)
 
 
@@ -115,7 +116,7 @@ def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float
 
 def label(extender: bpy.types.PropertyGroup) -> str:
     """Return what to call an extender in a message; a file may have one without a name."""
-    return extender.name or f"{names.EXTENDER_NAME} without a name"
+    return extender.name or f"{texts.EXTENDER_NAME} without a name"
 
 
 def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float) -> int:
@@ -133,7 +134,7 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
     taken = {extender.name for extender in of(mesh)}
     extenders = _read(mesh)
     for pair in fresh:
-        name = core.unique_name(names.EXTENDER_NAME, taken)
+        name = core.unique_name(texts.EXTENDER_NAME, taken)
         taken.add(name)
         extenders.append(Extender(name, strength, True, *(vertex_ids[vertex] for vertex in pair)))
     _write(mesh, extenders)

@@ -18,12 +18,17 @@ import numpy as np
 from bmesh.types import BMesh, BMLoop
 from bpy.app.handlers import persistent
 
-from .. import compatibility, edit_mode_unwrap, mesh_io, mesh_selection, names
+from .. import compatibility, names
+from ..core import texts
+from ..core.mesh import PolygonMesh
 from ..core.native import NativeModuleError
 from ..core.pinned_chart import PinnedChart, changed_edges, chart_of_face, faces_of_charts_at
-from ..core.polygon_mesh import PolygonMesh
-from ..operators.unwrap import UV_OT_spectral_unwrap
-from ..packing import PackingError
+from ..edit_mesh import selection
+from ..edit_mesh.packing import PackingError
+from ..edit_mesh.read import EditMesh, active_uv_layer
+from ..edit_mesh.write import write_loops
+from ..unwrapping import steps
+from ..unwrapping.last_settings import last_settings
 
 # A map that takes longer than this waits until the pins rest for a while.
 _SLOW = 2.0
@@ -133,25 +138,19 @@ def _look(scene: bpy.types.Scene) -> None:
 def _see(scene: bpy.types.Scene) -> dict[int, _Watch]:
     """See the meshes in edit mode that have a UV map as they are now."""
     with _window(scene):
-        edit_meshes = edit_mode_unwrap.read(bpy.context, replace(last_settings(), use_subsurf=False), all_visible=True)
+        edit_meshes = steps.read(bpy.context, replace(last_settings(), use_subsurf=False), all_visible=True)
     return {m.mesh.as_pointer(): _watch(m) for m in edit_meshes if m.polygons.uv is not None}
 
 
-def _watch(edit_mesh: mesh_io.EditMesh) -> _Watch:
+def _watch(edit_mesh: EditMesh) -> _Watch:
     polygons = edit_mesh.polygons
-    bm, layer = mesh_io.active_uv_layer(edit_mesh.mesh)
+    bm, layer = active_uv_layer(edit_mesh.mesh)
     pins = np.flatnonzero(polygons.pinned_corners)
     loops = []
     if len(pins):
         corners = chain.from_iterable(face.loops for face in bm.faces)
         loops = list(compress(corners, polygons.pinned_corners.tolist()))
     return _Watch(edit_mesh.edit_object, bm, layer.name, polygons, pins, loops, _last_operator_address())
-
-
-def last_settings() -> edit_mode_unwrap.Settings:
-    """Return the settings with which the operator was used last."""
-    properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-    return UV_OT_spectral_unwrap.settings(properties) if properties else edit_mode_unwrap.Settings()
 
 
 def _same_topology(one: PolygonMesh, other: PolygonMesh) -> bool:
@@ -249,8 +248,7 @@ def _write(watch: _Watch, drag: _Drag, chart: _Chart) -> bool:
         return False
     uv = uv[~chart.pinned_chart.pinned]
     layer = watch.bm.loops.layers.uv.active
-    for loop, point in zip(chart.loops, uv.tolist()):
-        loop[layer].uv = point
+    write_loops(layer, chart.loops, uv.tolist())
     watch.polygons.uv[chart.free] = uv.astype(np.float32)
     return True
 
@@ -262,18 +260,18 @@ def _follow_seams(scene: bpy.types.Scene, changed: dict[int, np.ndarray]) -> Non
     """
     settings = last_settings()
     with _window(scene):
-        edit_meshes = edit_mode_unwrap.read(bpy.context, settings, all_visible=True)
+        edit_meshes = steps.read(bpy.context, settings, all_visible=True)
         if settings.keep_in_place:
             edit_meshes = [m for m in edit_meshes if m.mesh.as_pointer() in changed]
             for edit_mesh in edit_meshes:
                 edges = changed[edit_mesh.mesh.as_pointer()]
                 visible = edit_mesh.polygons.selected_faces
                 visible &= faces_of_charts_at(edit_mesh.polygons, visible, edges)
-        solutions = edit_mode_unwrap.solve(edit_meshes, settings)
+        solutions = steps.solve(edit_meshes, settings)
         with ExitStack() as stack:
             for watch in _state.watches.values():
-                stack.enter_context(mesh_selection.visible_faces_selected(watch.bm))
-            outcome = edit_mode_unwrap.write(bpy.context, settings, edit_meshes, solutions)
+                stack.enter_context(selection.visible_faces_selected(watch.bm))
+            outcome = steps.write(bpy.context, settings, edit_meshes, solutions)
     _state.watches = _see(scene)
     if outcome.summary.solved:
         _push_undo_step()
@@ -293,7 +291,7 @@ def _window(scene: bpy.types.Scene) -> Iterator[None]:
 def _push_undo_step() -> None:
     with _guarded(), _window(bpy.context.scene):
         if bpy.ops.ed.undo_push.poll():
-            bpy.ops.ed.undo_push(message=names.LIVE_UNWRAP_LABEL)
+            bpy.ops.ed.undo_push(message=texts.LIVE_UNWRAP_LABEL)
 
 
 def _rest() -> float | None:
@@ -333,7 +331,7 @@ def _guarded() -> Iterator[None]:
 
 
 @contextmanager
-def _not_following() -> Iterator[None]:
+def not_following() -> Iterator[None]:
     """Within, nothing is followed, and what changed within is not followed afterwards."""
     if _state.is_busy or not is_on(bpy.context.scene):
         yield
@@ -350,7 +348,7 @@ def _not_following() -> Iterator[None]:
 def _tell(problem: str) -> None:
     if problem not in _state.told:
         _state.told.add(problem)
-        print(f"{names.LIVE_UNWRAP_LABEL} could not follow: {problem}")
+        print(f"{texts.LIVE_UNWRAP_LABEL} could not follow: {problem}")
 
 
 @persistent
@@ -413,9 +411,8 @@ _HANDLERS = (
 
 def register() -> None:
     """Add the toggle, off, and the handlers."""
-    edit_mode_unwrap.around_writing.append(_not_following)
     toggle = bpy.props.BoolProperty(
-        name=names.LIVE_UNWRAP_LABEL, description=names.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle
+        name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle
     )
     setattr(bpy.types.Scene, names.LIVE_UNWRAP_PROPERTY, toggle)
     for event, handler in _HANDLERS:
@@ -424,7 +421,6 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove the handlers, the toggle and its values."""
-    edit_mode_unwrap.around_writing.remove(_not_following)
     for timer in (look, _rest, _push_undo_step):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)

@@ -4,12 +4,14 @@
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
-from .. import names, progress
+from .. import names
+from ..core import texts
 from ..core.extender_adjustment import AdjustmentError
 from ..core.native import NativeModuleError
 from ..core.typed_number import TypedNumber
 from ..extenders import storage
 from ..extenders.adjusted_map import AdjustedMap
+from ..ui import progress
 
 # Change of strength per pixel, and what Shift makes of it.
 _STEP = 0.01
@@ -20,8 +22,8 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
     """Change the strength of an extender, and the map of its island with it."""
 
     bl_idname = names.ADJUST_EXTENDER_OPERATOR
-    bl_label = names.ADJUST_EXTENDER_LABEL
-    bl_description = names.ADJUST_EXTENDER_DESCRIPTION
+    bl_label = texts.ADJUST_EXTENDER_LABEL
+    bl_description = texts.ADJUST_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
     index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
@@ -120,7 +122,7 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
             self._problem = str(error)
         number = f"[{self._typed.text}|]" if self._typed.text else f"{self.strength:.3f}"
         keys = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
-        text = f"{names.ADJUST_EXTENDER_LABEL}: strength {number}   {self._problem or keys}"
+        text = f"{texts.ADJUST_EXTENDER_LABEL}: strength {number}   {self._problem or keys}"
         context.workspace.status_text_set(text)
         for area in context.screen.areas:
             if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:

@@ -5,8 +5,10 @@ import bmesh
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .. import mesh_selection, names
+from .. import names
+from ..core import texts
 from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
+from ..edit_mesh import selection
 from ..extenders import storage
 
 
@@ -14,17 +16,17 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
     """Add extenders between the selected vertices of every mesh in edit mode."""
 
     bl_idname = names.ADD_EXTENDER_OPERATOR
-    bl_label = names.ADD_EXTENDER_LABEL
-    bl_description = names.ADD_EXTENDER_DESCRIPTION
+    bl_label = texts.ADD_EXTENDER_LABEL
+    bl_description = texts.ADD_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    pairs: EnumProperty(name="Pairs", description="Which vertices make a pair", items=names.EXTENDER_PAIRS_ITEMS)
+    pairs: EnumProperty(name="Pairs", description="Which vertices make a pair", items=texts.EXTENDER_PAIRS_ITEMS)
     strength: FloatProperty(**names.EXTENDER_STRENGTH)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Return what one of the two ways to make pairs does."""
-        return next(text for identifier, _, text in names.EXTENDER_PAIRS_ITEMS if identifier == properties.pairs)
+        return next(text for identifier, _, text in texts.EXTENDER_PAIRS_ITEMS if identifier == properties.pairs)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -56,11 +58,11 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
         pairs = {}
         edited = context.objects_in_mode_unique_data
         for edit_object in edited:
-            selected = mesh_selection.selected_vertices(context, edit_object.data)
+            selected = selection.selected_vertices(context, edit_object.data)
             if not selected.vertices:
                 continue
             try:
-                if self.pairs == names.PAIRS_IN_ORDER:
+                if self.pairs == texts.PAIRS_IN_ORDER:
                     made = pairs_in_order(selected.vertices, selected.in_order)
                 else:
                     made = pairs_to_active(selected.vertices, selected.active)
@@ -95,8 +97,8 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
     """Remove one extender, or all broken ones."""
 
     bl_idname = names.REMOVE_EXTENDER_OPERATOR
-    bl_label = names.REMOVE_EXTENDER_LABEL
-    bl_description = names.REMOVE_EXTENDER_DESCRIPTION
+    bl_label = texts.REMOVE_EXTENDER_LABEL
+    bl_description = texts.REMOVE_EXTENDER_DESCRIPTION
 
     index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
     broken: BoolProperty(name="Broken", description="Remove all extenders with a vertex that is gone instead")
@@ -104,7 +106,7 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Return what is removed."""
-        return names.REMOVE_BROKEN_EXTENDERS_DESCRIPTION if properties.broken else names.REMOVE_EXTENDER_DESCRIPTION
+        return texts.REMOVE_BROKEN_EXTENDERS_DESCRIPTION if properties.broken else texts.REMOVE_EXTENDER_DESCRIPTION
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove from the list of the active object's mesh."""
@@ -125,8 +127,8 @@ class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
     """Select the vertices of one extender."""
 
     bl_idname = names.SELECT_EXTENDER_OPERATOR
-    bl_label = names.SELECT_EXTENDER_LABEL
-    bl_description = names.SELECT_EXTENDER_DESCRIPTION
+    bl_label = texts.SELECT_EXTENDER_LABEL
+    bl_description = texts.SELECT_EXTENDER_DESCRIPTION
 
     index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
 
@@ -147,5 +149,5 @@ class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
             self.report({"WARNING"}, f"{name} has hidden vertices: {hidden}; reveal them to select them")
         if len(present) == hidden:
             return {"CANCELLED"}
-        mesh_selection.select_only_vertices(context, mesh, present)
+        selection.select_only_vertices(context, mesh, present)
         return {"FINISHED"}

@@ -15,8 +15,8 @@ from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility, names
-from ..core import arrow_shapes
+from .. import compatibility
+from ..core import arrow_shapes, texts
 from ..core.arrow_shapes import ArrowSize
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
@@ -60,7 +60,7 @@ def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None
         problem = f"{type(error).__name__}: {error}"
         if problem not in _told:
             _told.add(problem)
-            print(f"{names.EXTENDERS_LABEL} could not be drawn: {problem}")
+            print(f"{texts.EXTENDERS_LABEL} could not be drawn: {problem}")
 
 
 def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:

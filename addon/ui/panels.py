@@ -4,6 +4,7 @@
 import bpy
 
 from .. import names
+from ..core import texts
 from ..extenders import storage, tracking
 
 
@@ -47,8 +48,8 @@ class _UnwrapPanel:
     """Unwrapping."""
 
     bl_region_type = "UI"
-    bl_category = names.SIDEBAR_TAB
-    bl_label = names.UNWRAP_LABEL
+    bl_category = texts.SIDEBAR_TAB
+    bl_label = texts.UNWRAP_LABEL
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -67,15 +68,15 @@ class _UnwrapPanel:
 class _ExtendersPanel(_UnwrapPanel):
     """The extenders of the active object's mesh."""
 
-    bl_label = names.EXTENDERS_LABEL
+    bl_label = texts.EXTENDERS_LABEL
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the list and the operators on it."""
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
         column = layout.column(align=True)
-        column.operator(names.ADD_EXTENDER_OPERATOR, icon="ADD").pairs = names.PAIRS_IN_ORDER
-        column.operator(names.ADD_EXTENDER_OPERATOR, text="Add to Active").pairs = names.PAIRS_TO_ACTIVE
+        column.operator(names.ADD_EXTENDER_OPERATOR, icon="ADD").pairs = texts.PAIRS_IN_ORDER
+        column.operator(names.ADD_EXTENDER_OPERATOR, text="Add to Active").pairs = texts.PAIRS_TO_ACTIVE
         if not storage.of(mesh):
             return
         layout.template_list(
@@ -89,7 +90,7 @@ class _ExtendersPanel(_UnwrapPanel):
         row.operator(names.REMOVE_EXTENDER_OPERATOR, text="Remove").broken = False
         if any(tracking.broken(mesh)):
             remove = layout.operator(
-                names.REMOVE_EXTENDER_OPERATOR, text=names.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"
+                names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"
             )
             remove.broken = True
 

@@ -130,8 +130,8 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     grid.modifiers.new("Subdivision", "SUBSURF")
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    settings = module("edit_mode_unwrap").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
+    settings = module("core.options").Settings(use_subsurf=subdivide)
+    monkeypatch.setattr(module("extenders.adjusted_map"), "last_settings", lambda: settings)
     reports()
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
     assert any("without its Subdivision Surface" in text for _, text in reports()) == subdivide

@@ -411,7 +411,7 @@ def test_lost_layer_breaks_the_extenders_and_keeps_the_list():
 
 
 def test_selection_in_the_uv_editor_counts_without_sync_selection():
-    selection = module("mesh_selection")
+    selection = module("edit_mesh.selection")
     grid = edit_grid()
     select(grid, range(20))
     bpy.context.scene.tool_settings.use_uv_select_sync = False

@@ -2,38 +2,24 @@
 """Unwrap the meshes in edit mode: read, solve, place, write, pack."""
 
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, ExitStack
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
-from . import mesh_io, names, packing
-from .core import reporting, unwrapping
-from .core.unwrapping import Solution
-from .mesh_io import EditMesh
+from ..core import texts
+from ..core.options import Settings
+from ..core.placement import place
+from ..core.progress import Progress
+from ..core.solve import Solution, solve_all
+from ..core.summary import Summary, summarize
+from ..edit_mesh import packing
+from ..edit_mesh.read import EditMesh, read_mesh
+from ..edit_mesh.write import ensure_uv_map, write_uv
 
-# What is entered for the time in which UVs are written: live unwrapping must not follow the pins that an unwrap moves.
-around_writing: list[Callable[[], AbstractContextManager[None]]] = []
-
-
-@dataclass(frozen=True)
-class Settings:
-    """The operator's settings, apart from Blender.
-
-    Attributes:
-        options: what the solver does.
-        keep_in_place: fit every island into its former bounds instead of packing all.
-        margin: space between packed islands.
-        correct_aspect: map without distortion on the image of the active face, whatever its shape.
-        use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
-    """
-
-    options: unwrapping.Options = unwrapping.Options()
-    keep_in_place: bool = False
-    margin: packing.Margin = packing.Margin()
-    correct_aspect: bool = True
-    use_subsurf: bool = False
+# Makes the context manager that is entered while UVs are written: live unwrapping must not follow the pins that move.
+WhileWriting = Callable[[], AbstractContextManager[None]]
 
 
 @dataclass(frozen=True)
@@ -47,14 +33,17 @@ class Outcome:
         warnings: what the user asked for and did not get.
     """
 
-    summary: reporting.Summary
+    summary: Summary
     without_bounds: int = 0
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
 
 
 def unwrap(
-    context: bpy.types.Context, settings: Settings, progress: unwrapping.Progress | None = None
+    context: bpy.types.Context,
+    settings: Settings,
+    progress: Progress | None = None,
+    while_writing: WhileWriting = nullcontext,
 ) -> Outcome | None:
     """Unwrap the selected visible faces of all objects in edit mode into their active UV maps.
 
@@ -67,12 +56,10 @@ def unwrap(
     edit_meshes = read(context, settings)
     if not edit_meshes:
         return None
-    return write(context, settings, edit_meshes, solve(edit_meshes, settings, progress))
+    return write(context, settings, edit_meshes, solve(edit_meshes, settings, progress), while_writing)
 
 
-def solve(
-    edit_meshes: Sequence[EditMesh], settings: Settings, progress: unwrapping.Progress | None = None
-) -> list[unwrapping.Solution]:
+def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> list[Solution]:
     """Solve the meshes that `read` returned. Touches nothing of Blender's, so that any thread may call it.
 
     `progress` gets the fraction done of all meshes.
@@ -86,7 +73,7 @@ def solve(
         edit_mesh.polygons if subdivision is None else subdivision.mesh
         for edit_mesh, subdivision in zip(edit_meshes, subdivisions)
     ]
-    solutions = unwrapping.solve_all(meshes, settings.options, progress)
+    solutions = solve_all(meshes, settings.options, progress)
     return [
         solution if subdivision is None else subdivision.on_coarse(solution)
         for solution, subdivision in zip(solutions, subdivisions)
@@ -97,25 +84,26 @@ def write(
     context: bpy.types.Context,
     settings: Settings,
     edit_meshes: Sequence[EditMesh],
-    solutions: Sequence[unwrapping.Solution],
+    solutions: Sequence[Solution],
+    while_writing: WhileWriting = nullcontext,
 ) -> Outcome:
     """Place the solved charts and write them. Failed charts keep their UVs; if all fail, nothing changes.
+
+    `while_writing` makes a context manager that is entered for the time in which UVs change.
 
     Raises:
         PackingError: Blender's packer did not run; nothing changed.
     """
-    summary = reporting.summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
+    summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     if summary.solved == 0:
         return Outcome(summary, 0, _notes(edit_meshes, settings), _warnings(edit_meshes, settings, solutions))
-    placement = unwrapping.place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
+    placement = place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
     solved = [
         (edit_mesh, uv, solution)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
-    with ExitStack() as stack:
-        for enter in around_writing:
-            stack.enter_context(enter())
+    with while_writing():
         _write(context, solved, None if settings.keep_in_place else settings.margin)
     return Outcome(
         summary,
@@ -125,22 +113,20 @@ def write(
     )
 
 
-def _warnings(
-    edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[unwrapping.Solution]
-) -> tuple[str, ...]:
+def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> tuple[str, ...]:
     """Return what extenders and stretching could not do."""
     warnings = [
-        reporting.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
-        reporting.too_small(sum(map(_too_small_faces, edit_meshes, solutions))),
-        reporting.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
-        reporting.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
+        texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
+        texts.too_small(sum(map(_too_small_faces, edit_meshes, solutions))),
+        texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
+        texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
-        warnings.append(reporting.NO_ACTIVE_EDGE)
+        warnings.append(texts.NO_ACTIVE_EDGE)
     return tuple(filter(None, warnings))
 
 
-def _too_small_faces(edit_mesh: EditMesh, solution: unwrapping.Solution) -> int:
+def _too_small_faces(edit_mesh: EditMesh, solution: Solution) -> int:
     return solution.too_small_faces(edit_mesh.polygons)
 
 
@@ -148,9 +134,9 @@ def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ..
     """Return what Blender's own Unwrap would report about the objects."""
     worlds = [edit_mesh.edit_object.matrix_world for edit_mesh in edit_meshes]
     scales = [tuple(world.to_3x3().col[axis].length for axis in range(3)) for world in worlds]
-    notes = [reporting.object_scale(scales, [world.is_negative for world in worlds])]
+    notes = [texts.object_scale(scales, [world.is_negative for world in worlds])]
     if settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes):
-        notes.append(reporting.NO_LEADING_SUBSURF)
+        notes.append(texts.NO_LEADING_SUBSURF)
     return tuple(filter(None, notes))
 
 
@@ -162,13 +148,13 @@ def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
     summary = outcome.summary
     pairs = (
         *(("INFO", note) for note in outcome.notes),
-        ("INFO", reporting.remedies(summary)),
-        ("INFO", reporting.unfolded(summary)),
-        ("INFO", reporting.pinned(summary)),
-        ("INFO", reporting.information(summary, seconds, names.SELECT_DEFECTS_LABEL) if summary.solved else ""),
+        ("INFO", texts.remedies(summary)),
+        ("INFO", texts.unfolded(summary)),
+        ("INFO", texts.pinned(summary)),
+        ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
         *(("WARNING", warning) for warning in outcome.warnings),
-        ("WARNING", reporting.without_bounds(outcome.without_bounds)),
-        ("WARNING", reporting.failures(summary)),
+        ("WARNING", texts.without_bounds(outcome.without_bounds)),
+        ("WARNING", texts.failures(summary)),
     )
     return [(level, text) for level, text in pairs if text]
 
@@ -185,7 +171,7 @@ def read(context: bpy.types.Context, settings: Settings, all_visible: bool = Fal
         and not context.scene.tool_settings.use_uv_select_sync
     )
     edit_meshes = [
-        mesh_io.read(edit_object, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
+        read_mesh(edit_object, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
         for edit_object in context.objects_in_mode_unique_data
         if all_visible or edit_object.data.total_face_sel
     ]
@@ -214,10 +200,10 @@ def _write(
     margin: packing.Margin | None,
 ) -> None:
     """Write the UVs, each (C, 2), at the solved corners, and pack the charts without pins unless `margin` is None."""
-    added = [edit_mesh.mesh for edit_mesh, _, _ in solved if mesh_io.ensure_uv_map(edit_mesh.mesh)]
+    added = [edit_mesh.mesh for edit_mesh, _, _ in solved if ensure_uv_map(edit_mesh.mesh)]
     try:
         for edit_mesh, uv, solution in solved:
-            mesh_io.write_uv(edit_mesh, uv, solution.solved_corners)
+            write_uv(edit_mesh, uv, solution.solved_corners)
         if margin is not None:
             _pack(context, solved, margin)
     except BaseException:
@@ -226,7 +212,7 @@ def _write(
             if edit_mesh.mesh in added:
                 edit_mesh.mesh.uv_layers.remove(edit_mesh.mesh.uv_layers.active)
             else:
-                mesh_io.write_uv(edit_mesh, edit_mesh.polygons.uv, solution.solved_corners)
+                write_uv(edit_mesh, edit_mesh.polygons.uv, solution.solved_corners)
         raise
 
 

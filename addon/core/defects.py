@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import native
-from .polygon_mesh import PolygonMesh
+from .mesh import PolygonMesh
 
 
 @dataclass(frozen=True)

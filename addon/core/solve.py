@@ -1,32 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solve the charts of polygon meshes and place them in the UV plane, without packing."""
+"""Solve the charts of polygon meshes: what runs in the thread of a job."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from . import native, placement
-from .polygon_mesh import PolygonMesh
-
-Progress = Callable[[float, str], "bool | None"]
-
-
-@dataclass(frozen=True)
-class Options:
-    """Options of `spectral_conformal.unwrap`, by the names and values it documents, as far as nothing else is said."""
-
-    method: str = "spectral"
-    weights: str = "uniform"
-    boundary: str = "length"
-    fill_holes: bool = False
-    soft_pins: float = 0.0
-    hole_rigidity: float = 0.0
-    area_blend: float = 0.0
-    fold_free: bool = False
-    stretch: float = 1.0
-    """How much longer the map is along `PolygonMesh.stretch_direction` than across it, where the mesh has one."""
+from . import native
+from .mesh import PolygonMesh
+from .options import Options
+from .progress import Progress, parts
 
 
 @dataclass(frozen=True)
@@ -166,86 +150,12 @@ def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
-    pinned = _usable_pins(mesh)
+    pinned = mesh.usable_pins()
     if not pinned.any():
         return {}
     return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": pinned, "soft_pins": options.soft_pins}
 
 
-def _usable_pins(mesh: PolygonMesh) -> np.ndarray:
-    """Return which corners of the selected faces are pinned at a place that is one, (C,) bool."""
-    if mesh.uv is None or mesh.pinned_corners is None:
-        return np.zeros(len(mesh.corner_vertices), dtype=bool)
-    return mesh.pinned_corners & np.isfinite(mesh.uv).all(axis=1) & mesh.selected_faces[mesh.face_of_corner()]
-
-
 def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
     """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
     return [solve(mesh, options, part) for mesh, part in zip(meshes, parts(meshes, progress))]
-
-
-def parts(meshes: Sequence[PolygonMesh], progress: Progress | None) -> list[Progress | None]:
-    """Return the progress function of each mesh, all together making `progress`; None for each where that is None."""
-    if progress is None:
-        return [None] * len(meshes)
-    sizes = np.array([max(1, np.count_nonzero(mesh.selected_faces)) for mesh in meshes], dtype=np.float64)
-    ends = np.cumsum(sizes) / sizes.sum()
-    return [_part(progress, end - size, size) for end, size in zip(ends.tolist(), (sizes / sizes.sum()).tolist())]
-
-
-def _part(progress: Progress, start: float, length: float) -> Progress:
-    """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
-    return lambda fraction, phase: progress(start + length * fraction, phase)
-
-
-def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
-    """Return the solution's map, (C, 2) float64, with charts that have one pin scaled about it to their former area."""
-    single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
-    chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
-    if (chart < 0).all():
-        return np.array(solution.uv, dtype=np.float64)
-    return placement.to_former_area(solution.uv, mesh.isotropic_uv(), chart, _usable_pins(mesh), mesh.face_offsets)
-
-
-@dataclass(frozen=True)
-class Placement:
-    """The maps of all meshes, placed together.
-
-    Attributes:
-        uv: one (C, 2) float64 array per mesh, meaningful at its solved corners.
-        without_bounds: number of charts that could not be kept in place because they had no extent before.
-    """
-
-    uv: list[np.ndarray]
-    without_bounds: int = 0
-
-
-def place(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], keep_in_place: bool) -> Placement:
-    """Place the solved charts of all meshes in one UV plane.
-
-    Charts with pins stay where the solver put them; one with a single pin is scaled about it to its former area. With
-    `keep_in_place` every other chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
-    charts without a former extent, the charts stand side by side in the unit square, to a common scale.
-    """
-    corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
-    chart_counts = [len(solution.charts) for solution in solutions]
-    first_chart = np.concatenate([[0], np.cumsum(chart_counts)])
-    uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
-    chart = np.concatenate(
-        [
-            np.where(solution.solved_corners, solution.chart_of_corner + first, -1)
-            for solution, first in zip(solutions, first_chart)
-        ]
-    )
-    former = np.concatenate(
-        [np.zeros((count, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, count in zip(meshes, corner_counts)]
-    )
-    chart = np.where(np.concatenate([solution.pinned_corners for solution in solutions]), -1, chart)
-    without_bounds = 0
-    if keep_in_place:
-        uv, kept = placement.into_former_bounds(uv, former, chart)
-        without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
-        chart = np.where(kept, -1, chart)
-    uv = placement.side_by_side(uv, chart)
-    placed = np.split(uv, np.cumsum(corner_counts)[:-1])
-    return Placement([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, placed)], without_bounds)

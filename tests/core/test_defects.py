@@ -2,8 +2,8 @@
 """Defects of the UV maps of several meshes, found together and told apart again."""
 
 import numpy as np
-from spectral_unwrap.core import map_defects
-from spectral_unwrap.core.polygon_mesh import PolygonMesh
+from spectral_unwrap.core import defects
+from spectral_unwrap.core.mesh import PolygonMesh
 
 
 def strip(n, uv_offset=0.0):
@@ -26,7 +26,7 @@ def strip(n, uv_offset=0.0):
 def test_defects_are_those_of_each_mesh():
     first, second = strip(3), strip(5, uv_offset=10.0)
     second.uv[16:] = second.uv[16:] * [-1.0, 1.0] + [28.0, 0.0]  # the last quad folded over
-    one, other = map_defects.find([first, second], between_islands=False)
+    one, other = defects.find([first, second], between_islands=False)
     assert not one.chosen(True, True).any()
     assert other.flipped.tolist() == [False, False, False, False, True]
     assert other.overlapping.tolist() == [False, False, False, True, True]
@@ -36,8 +36,8 @@ def test_defects_are_those_of_each_mesh():
 
 def test_islands_of_different_meshes_overlap_when_asked():
     meshes = [strip(3), strip(2, uv_offset=2.5)]
-    assert not any(found.overlapping.any() for found in map_defects.find(meshes, between_islands=False))
-    one, other = map_defects.find(meshes, between_islands=True)
+    assert not any(found.overlapping.any() for found in defects.find(meshes, between_islands=False))
+    one, other = defects.find(meshes, between_islands=True)
     assert one.overlapping.tolist() == [False, False, True]
     assert other.overlapping.tolist() == [True, False]
 
@@ -47,7 +47,7 @@ def test_faces_without_finite_uvs_are_told_and_the_others_are_looked_at():
     mesh.uv[1] = np.nan
     mesh.uv[14] = np.inf
     mesh.selected_faces[3] = False
-    (found,) = map_defects.find([mesh], between_islands=True)
+    (found,) = defects.find([mesh], between_islands=True)
     assert found.not_finite.tolist() == [True, False, False, False]
     assert found.chosen(False, False).tolist() == found.not_finite.tolist()
     assert not found.flipped.any()

@@ -2,19 +2,21 @@
 """Suggested seams in the meshes in edit mode: what to cut, marking the cuts, and the unwrap after them."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 
 import bmesh
 import bpy
 import numpy as np
 
-from . import edit_mode_unwrap, mesh_selection
-from .core import unwrapping
-from .core.polygon_mesh import PolygonMesh
-from .core.seam_suggestion import Suggestion
-from .edit_mode_unwrap import Outcome, Settings
-from .mesh_io import EditMesh
+from ..core.mesh import PolygonMesh
+from ..core.options import Settings
+from ..core.seam_suggestion import Suggestion
+from ..core.solve import Solution
+from ..edit_mesh import selection
+from ..edit_mesh.read import EditMesh
+from . import steps
+from .steps import Outcome, WhileWriting
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,7 @@ class Target:
 def read(context: bpy.types.Context, settings: Settings) -> Target | None:
     """Read the meshes in edit mode; None if they have no visible faces."""
     for all_visible in (False, True):
-        edit_meshes = edit_mode_unwrap.read(context, _unsubdivided(settings), all_visible)
+        edit_meshes = steps.read(context, _unsubdivided(settings), all_visible)
         if edit_meshes:
             return Target(edit_meshes, settings, all_visible)
     return None
@@ -54,7 +56,7 @@ def read(context: bpy.types.Context, settings: Settings) -> Target | None:
 def read_again(context: bpy.types.Context, target: Target) -> Target | None:
     """Read the same once more; None if anything in it has changed or gone since."""
     settings = _unsubdivided(target.settings)
-    edit_meshes = edit_mode_unwrap.read_again(context, settings, target.edit_meshes, target.all_visible)
+    edit_meshes = steps.read_again(context, settings, target.edit_meshes, target.all_visible)
     return None if edit_meshes is None else replace(target, edit_meshes=edit_meshes)
 
 
@@ -67,7 +69,7 @@ def read_cut_open(context: bpy.types.Context, target: Target, cuts: Suggestion) 
     with ExitStack() as stack:
         for index, edit_mesh in enumerate(target.edit_meshes):
             stack.enter_context(_seams(edit_mesh.mesh, cuts.edges(index)))
-        return edit_mode_unwrap.read(context, target.settings, target.all_visible)
+        return steps.read(context, target.settings, target.all_visible)
 
 
 def mark(target: Target, cuts: Suggestion, seam: bool = True) -> None:
@@ -81,7 +83,8 @@ def write(
     context: bpy.types.Context,
     target: Target,
     cuts: Suggestion,
-    solutions: Sequence[unwrapping.Solution],
+    solutions: Sequence[Solution],
+    while_writing: WhileWriting = nullcontext,
 ) -> Outcome:
     """Mark the cuts and write the solutions of what `read_cut_open` returned for them.
 
@@ -90,13 +93,13 @@ def write(
     """
     mark(target, cuts)
     try:
-        edit_meshes = edit_mode_unwrap.read(context, target.settings, target.all_visible)
+        edit_meshes = steps.read(context, target.settings, target.all_visible)
         with ExitStack() as stack:
             # Blender packs no other faces than selected ones.
             for edit_mesh in edit_meshes if target.all_visible else ():
                 bm = bmesh.from_edit_mesh(edit_mesh.mesh)
-                stack.enter_context(mesh_selection.visible_faces_selected(bm))
-            return edit_mode_unwrap.write(context, target.settings, edit_meshes, solutions)
+                stack.enter_context(selection.visible_faces_selected(bm))
+            return steps.write(context, target.settings, edit_meshes, solutions, while_writing)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
         mark(target, cuts, seam=False)

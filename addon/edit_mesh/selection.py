@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
 
-from . import compatibility
+from .. import compatibility
 
 
 def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:

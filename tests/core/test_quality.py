@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from spectral_unwrap.core import map_quality
-from spectral_unwrap.core.polygon_mesh import PolygonMesh
-from spectral_unwrap.core.unwrapping import Solution
+from spectral_unwrap.core import quality
+from spectral_unwrap.core.mesh import PolygonMesh
+from spectral_unwrap.core.solve import Solution
 
 
 def squares(sizes, image_sizes, selected=None, solved=None, mean_qc=1.0):
@@ -31,7 +31,7 @@ def squares(sizes, image_sizes, selected=None, solved=None, mean_qc=1.0):
 
 def measure(*pairs, factor=2.0):
     meshes, solutions = zip(*pairs)
-    return map_quality.measure(meshes, solutions, factor)
+    return quality.measure(meshes, solutions, factor)
 
 
 def test_isometric_map_is_even():

@@ -1,19 +1,91 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the operator tells the user: counts and distortion of the solved islands, reasons of the failed ones.
+"""Every sentence, label and description that an artist reads, apart from those that the solver itself returns.
 
-Blender calls a chart an island; so do these sentences.
+Without bpy, so that both the Blender layer and the rest of core can import it. Blender calls a chart an island; so do
+these sentences. A function that returns an empty text has nothing to say.
 """
+
+from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
-import numpy as np
+if TYPE_CHECKING:
+    from .defects import Defects
+    from .quality import MapQuality
+    from .summary import Summary
 
-from .map_defects import Defects
-from .map_quality import MapQuality
-from .unwrapping import Solution
+UNWRAP_LABEL = "Spectral Unwrap"
+UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
+SELECT_FAILED_LABEL = "Select Failed Islands"
+SELECT_FAILED_DESCRIPTION = (
+    f"Select the faces of the islands that {UNWRAP_LABEL} cannot solve, among the selected faces, or among all visible "
+    "ones if none is selected"
+)
+SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
+SELECT_DEFECTS_DESCRIPTION = (
+    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map"
+)
+SUGGEST_SEAMS_LABEL = "Suggest Seams"
+SUGGEST_SEAMS_DESCRIPTION = (
+    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
+    "visible ones if none is selected; then unwrap again"
+)
+LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
+LIVE_UNWRAP_DESCRIPTION = "Let islands follow while their pins are moved, and unwrap again when seams are changed"
+EXTENDER_NAME = "Extender"
+ADD_EXTENDER_LABEL = "Add Extender"
+ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
+REMOVE_EXTENDER_LABEL = "Remove Extender"
+REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
+REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
+REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders with a vertex that is gone"
+ADJUST_EXTENDER_LABEL = "Adjust Extender"
+ADJUST_EXTENDER_DESCRIPTION = "Change the strength of the active extender by dragging, while its island follows"
+SELECT_EXTENDER_LABEL = "Select Extender Vertices"
+SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
+SIDEBAR_TAB = "Spectral"
+EXTENDERS_LABEL = "Extenders"
+
+# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
+# spectral_conformal.unwrap.
+METHOD_ITEMS = (
+    ("SPECTRAL", "Spectral", "Least angle distortion with the whole boundary free; no pins"),
+    ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
+    ("FIEDLER", "Fiedler Vector", "Smallest nontrivial eigenvector over all vertices, for comparison"),
+    ("AREA", "Area Normalized", "Least angle distortion relative to the area of the map, for comparison"),
+)
+WEIGHTS_ITEMS = (
+    ("UNIFORM", "Uniform", "Every triangle counts by its area"),
+    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same, for irregularly sampled meshes"),
+)
+BOUNDARY_ITEMS = (
+    ("LENGTH", "Length", "Weigh boundary vertices by the length of their boundary edges, whatever the sampling"),
+    ("VERTEX", "Vertex", "Weigh all boundary vertices equally, as in the original paper"),
+)
+MARGIN_METHOD_ITEMS = (
+    ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
+    ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
+    ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
+)
+PACK = "PACK"
+KEEP = "KEEP"
+PLACEMENT_ITEMS = (
+    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile"),
+    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before"),
+)
+PAIRS_IN_ORDER = "IN_ORDER"
+PAIRS_TO_ACTIVE = "TO_ACTIVE"
+EXTENDER_PAIRS_ITEMS = (
+    (
+        PAIRS_IN_ORDER,
+        "In Order",
+        "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
+        "on, in the order in which they were selected",
+    ),
+    (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
+)
 
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
@@ -26,67 +98,6 @@ NO_UV_MAP = "There is no UV map to look at; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
-
-
-@dataclass(frozen=True)
-class Summary:
-    """Totals over all charts of all meshes.
-
-    Attributes:
-        solved: number of solved charts.
-        mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
-        max_qc: largest quasi-conformal distortion of a triangle.
-        flipped: number of faces with a flipped triangle.
-        overlapping: number of faces that cover others of their chart.
-        unfolded: number of folded triangles that were unfolded on request.
-        embedded: number of charts whose map was replaced by an embedding on request.
-        mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
-        failures: how many charts failed for each reason.
-        remedies: how many charts were solved after each repair or change of method.
-        pinned: how many charts with two or more pins were solved by each method.
-        refused: why meshes were refused as a whole, one "name: reason" each.
-    """
-
-    solved: int
-    mean_qc: float
-    max_qc: float
-    flipped: int
-    overlapping: int
-    unfolded: int
-    embedded: int
-    mean_qc_change: tuple[float, float] | None
-    failures: Counter[str]
-    remedies: Counter[str]
-    pinned: Counter[str]
-    refused: tuple[str, ...]
-
-    @property
-    def failed(self) -> int:
-        """Number of failed charts."""
-        return sum(self.failures.values())
-
-
-def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
-    """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
-    charts = [chart for solution in solutions for chart in solution.charts]
-    solved = [chart for chart in charts if chart.status == "solved"]
-    area = sum(chart.area for chart in solved)
-    changed = [chart for chart in solved if _is_unfolded(chart)]
-    return Summary(
-        solved=len(solved),
-        mean_qc=sum(chart.mean_qc * (chart.area / area) for chart in solved) if area > 0.0 else float("nan"),
-        max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
-        flipped=sum(chart.flipped for chart in solved),
-        overlapping=sum(chart.overlapping for chart in solved),
-        unfolded=sum(chart.unfolded for chart in changed),
-        embedded=sum(chart.is_embedding for chart in changed),
-        mean_qc_change=_mean_qc_change(changed),
-        failures=Counter(chart.message for chart in charts if chart.status != "solved"),
-        # What unfolding did has a sentence of its own, with numbers that differ from chart to chart.
-        remedies=Counter(chart.message for chart in solved if chart.message and not _is_unfolded(chart)),
-        pinned=Counter(chart.method for chart in solved if chart.n_pins > 1),
-        refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
-    )
 
 
 def information(summary: Summary, seconds: float, where_to_see: str) -> str:
@@ -102,22 +113,6 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
     return (
         f"Unwrapped {_count(summary.solved, 'island')}: mean QC {_qc(summary.mean_qc)}, "
         f"maximum QC {_qc(summary.max_qc)}, {defects}, {seconds:.2f} s"
-    )
-
-
-def _is_unfolded(chart: Any) -> bool:  # noqa: ANN401 - a chart of the native module, which core does not import
-    return bool(chart.unfolded or chart.is_embedding) and not chart.flipped
-
-
-def _mean_qc_change(charts: Sequence[Any]) -> tuple[float, float] | None:
-    """Return the mean QC before and after unfolding, weighted by area, of the charts that had a map before."""
-    mapped = [chart for chart in charts if not np.isnan(chart.mean_qc_before)]
-    area = sum(chart.area for chart in mapped)
-    if not area > 0.0:
-        return None
-    return tuple(
-        sum(value(chart) * (chart.area / area) for chart in mapped)
-        for value in (lambda chart: chart.mean_qc_before, lambda chart: chart.mean_qc)
     )
 
 
@@ -205,13 +200,6 @@ def unused_extenders(count: int) -> str:
         f"{_count(count, 'extender')} had no effect: both vertices must lie in one unwrapped island, "
         "which pins must not hold"
     )
-
-
-def count_failed(solutions: Sequence[Solution]) -> tuple[int, int]:
-    """Return the numbers of failed charts and of their faces; a mesh refused as a whole counts as one chart."""
-    charts = sum(chart.status != "solved" for solution in solutions for chart in solution.charts)
-    faces = sum(int(solution.failed_faces.sum()) for solution in solutions)
-    return charts + sum(bool(solution.error) for solution in solutions), faces
 
 
 def selected_failed(islands: int, faces: int) -> str:

@@ -3,22 +3,14 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
 
 import bmesh
 import bpy
 import numpy as np
 
-from . import compatibility, mesh_io
-from .mesh_io import EditMesh
-
-
-@dataclass(frozen=True)
-class Margin:
-    """Space between islands, and what it is measured by: an identifier of `names.MARGIN_METHOD_ITEMS`."""
-
-    size: float = 0.001
-    method: str = "SCALED"
+from .. import compatibility
+from ..core.options import Margin
+from .read import EditMesh, active_uv_layer
 
 
 class PackingError(RuntimeError):
@@ -81,17 +73,17 @@ def _selected_uvs(
 ) -> Iterator[None]:
     """Make the `chosen` faces the whole UV selection; then restore what was there."""
     meshes = [mesh for mesh in meshes if mesh.uv_layers.active]
-    saved = [compatibility.read_uv_selection(*mesh_io.active_uv_layer(mesh)) for mesh in meshes]
+    saved = [compatibility.read_uv_selection(*active_uv_layer(mesh)) for mesh in meshes]
     try:
         with _sync_selection(context, False):
             for mesh in meshes:
-                bm, layer = mesh_io.active_uv_layer(mesh)
+                bm, layer = active_uv_layer(mesh)
                 flags = chosen[mesh].tolist() if mesh in chosen else [False] * len(bm.faces)
                 compatibility.select_uv_of_faces(bm, layer, flags)
             yield
     finally:
         for mesh, selection in zip(meshes, saved):
-            compatibility.write_uv_selection(*mesh_io.active_uv_layer(mesh), selection)
+            compatibility.write_uv_selection(*active_uv_layer(mesh), selection)
 
 
 @contextmanager

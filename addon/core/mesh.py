@@ -38,6 +38,16 @@ class PolygonMesh:
         """Return the face of every corner, (C,) intp."""
         return np.repeat(np.arange(len(self.selected_faces)), np.diff(self.face_offsets))
 
+    def next_corner(self) -> np.ndarray:
+        """Return the corner that follows every corner in its face, (C,) intp."""
+        return next_corner(self.face_offsets)
+
+    def usable_pins(self) -> np.ndarray:
+        """Return which corners of the selected faces are pinned at a finite position, (C,) bool."""
+        if self.uv is None or self.pinned_corners is None:
+            return np.zeros(len(self.corner_vertices), dtype=bool)
+        return self.pinned_corners & np.isfinite(self.uv).all(axis=1) & self.selected_faces[self.face_of_corner()]
+
     def isotropic_uv(self) -> np.ndarray | None:
         """Return `uv` in coordinates in which a square of the image is a square and areas are those of `uv`."""
         return None if self.uv is None else self.uv * self._isotropy()
@@ -56,3 +66,10 @@ class PolygonMesh:
             np.array_equal(mine, yours, equal_nan=np.asarray(mine).dtype.kind == "f" and yours is not None)
             for mine, yours in pairs
         )
+
+
+def next_corner(face_offsets: np.ndarray) -> np.ndarray:
+    """Return the corner that follows every corner in its face, (C,) intp, of faces without gaps between them."""
+    following = np.arange(1, face_offsets[-1] + 1)
+    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    return following

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .polygon_mesh import PolygonMesh
-from .unwrapping import Solution
+from .mesh import PolygonMesh
+from .solve import Solution
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class MapQuality:
 
 
 def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor: float) -> MapQuality:
-    """Measure the maps that `unwrapping.solve` returned for the selected faces of the meshes."""
+    """Measure the maps that `solve` returned for the selected faces of the meshes."""
     parts = [_areas(mesh, solution) for mesh, solution in zip(meshes, solutions)]
     area, image = (np.concatenate(arrays) for arrays in zip(*parts))
     charts = [chart for solution in solutions for chart in solution.charts if chart.status == "solved"]
@@ -58,8 +58,7 @@ def _areas(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray, np.ndarra
 def _polygon_areas(points: np.ndarray, mesh: PolygonMesh) -> np.ndarray:
     """Return the area of the polygon that the corners (C, 3) of each face make, (F,), 0 where that is not finite."""
     first = mesh.face_offsets[:-1]
-    following = np.arange(1, len(points) + 1)
-    following[mesh.face_offsets[1:] - 1] = first
+    following = mesh.next_corner()
     face = mesh.face_of_corner()
     with np.errstate(invalid="ignore", over="ignore"):
         relative = points - points[first][face]

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 import spectral_conformal
 from spectral_unwrap.core import native
-from spectral_unwrap.core.polygon_mesh import PolygonMesh
-from spectral_unwrap.core.unwrapping import Options, place, solve
+from spectral_unwrap.core.mesh import PolygonMesh
+from spectral_unwrap.core.options import Options
+from spectral_unwrap.core.placement import place
+from spectral_unwrap.core.solve import solve
 
 CUBE_VERTICES = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
 CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

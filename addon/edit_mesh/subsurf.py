@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-from . import names
+from .. import names
 
 _COPIED_SETTINGS = ("subdivision_type", "levels", "quality", "boundary_smooth", "use_creases", "use_limit_surface")
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import bpy
 
-from . import names
+from .. import names
 
 
 def _draw_unwrap(layout: bpy.types.UILayout) -> None:

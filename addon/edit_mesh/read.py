@@ -2,17 +2,17 @@
 """Edit-mode meshes to arrays, and UV coordinates back."""
 
 from dataclasses import dataclass, replace
-from itertools import compress
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMEdge, BMesh, BMLayerItem
 
-from . import active_image, compatibility, names, subdivision_surface
-from .core.polygon_mesh import PolygonMesh
-from .core.subdivision import Subdivision, subdivision
-from .extenders import storage
+from .. import compatibility, names
+from ..core.mesh import PolygonMesh
+from ..core.subdivision import Subdivision, subdivision
+from ..extenders import storage
+from . import image_aspect, subsurf
 
 
 @dataclass
@@ -31,7 +31,7 @@ class EditMesh:
     extenders_without_strength: tuple[str, ...] = ()
 
 
-def read(
+def read_mesh(
     edit_object: bpy.types.Object,
     by_uv_selection: bool = False,
     all_visible: bool = False,
@@ -62,7 +62,7 @@ def read(
         forces, broken, without_strength = storage.resolve(bm, mesh)
         polygons = replace(polygons, extenders=tuple(forces), stretch_direction=_active_edge(bm))
         if correct_aspect:
-            polygons = replace(polygons, aspect=active_image.aspect(edit_object, bm))
+            polygons = replace(polygons, aspect=image_aspect.aspect(edit_object, bm))
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
         bpy.data.meshes.remove(copy)
@@ -87,10 +87,10 @@ def _restrict_to_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarra
 
 def _subdivide(copy: bpy.types.Mesh, edit_object: bpy.types.Object, polygons: PolygonMesh) -> Subdivision | None:
     """Subdivide `copy`, the mesh of `polygons`; None if the object's modifiers do not ask for it."""
-    modifier = subdivision_surface.leading_modifier(edit_object)
+    modifier = subsurf.leading_modifier(edit_object)
     if modifier is None or not polygons.selected_faces.any():
         return None
-    with subdivision_surface.subdivided(copy, modifier) as (mesh, face_of_face):
+    with subsurf.subdivided(copy, modifier) as (mesh, face_of_face):
         return subdivision(polygons, _read_arrays(mesh), face_of_face)
 
 
@@ -113,28 +113,7 @@ def _read_arrays(mesh: bpy.types.Mesh, all_visible: bool = False) -> PolygonMesh
     )
 
 
-def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
-    """Give a mesh in edit mode a UV map if it has none; return whether it was added."""
-    if mesh.uv_layers:
-        return False
-    mesh.uv_layers.new(name=names.DEFAULT_UV_MAP)
-    return True
-
-
 def active_uv_layer(mesh: bpy.types.Mesh) -> tuple[BMesh, BMLayerItem]:
     """Return the edit mesh of a mesh in edit mode with a UV map, and the active UV layer in it."""
     bm = bmesh.from_edit_mesh(mesh)
     return bm, bm.loops.layers.uv.active
-
-
-def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
-    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, into the active UV map; touch nothing else."""
-    bm, layer = active_uv_layer(edit_mesh.mesh)
-    affected = np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
-    faces = bm.faces if affected.all() else compress(bm.faces, affected.tolist())
-    u, v = uv[corners].T
-    coordinates = zip(u.tolist(), v.tolist())
-    for face in faces:
-        for loop in face.loops:
-            loop[layer].uv = next(coordinates)
-    bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)

@@ -7,8 +7,8 @@ from contextlib import contextmanager
 
 import bpy
 
-from . import names
-from .core.unwrapping import Progress
+from ..core import texts
+from ..core.progress import Progress
 
 # Events that a solve in the background lets through: they move the view, or concern nobody.
 _VIEW_EVENTS = frozenset(
@@ -31,7 +31,7 @@ def moves_view(event: bpy.types.Event) -> bool:
 class WindowProgress:
     """Progress at the mouse cursor and in the status bar, and a timer that wakes the modal operator to update it."""
 
-    def __init__(self, context: bpy.types.Context, label: str = names.UNWRAP_LABEL) -> None:
+    def __init__(self, context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> None:
         """Show 0 % of what the operator with this label does."""
         self._label = label
         self._window_manager = context.window_manager
@@ -56,7 +56,7 @@ class WindowProgress:
 
 
 @contextmanager
-def blocking(context: bpy.types.Context, label: str = names.UNWRAP_LABEL) -> Iterator[Progress]:
+def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Iterator[Progress]:
     """Yield the progress function of a solve that Blender waits for; `label` is the operator's."""
     if bpy.app.background:
         yield _printer(label)

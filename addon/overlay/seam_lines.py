@@ -10,13 +10,14 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from . import compatibility, names
-from .core import map_quality, reporting, seam_suggestion, unwrapping
-from .core.map_quality import MapQuality
-from .core.seam_suggestion import Suggestion
-from .core.unwrapping import Progress
-from .core.worker import Worker
-from .seam_suggestion import Target
+from .. import compatibility
+from ..core import quality, seam_suggestion, texts
+from ..core.progress import Progress
+from ..core.quality import MapQuality
+from ..core.seam_suggestion import Suggestion
+from ..core.solve import solve_all
+from ..core.worker import Worker
+from ..unwrapping.seams import Target
 
 _COLOR = (0.1, 1.0, 0.55)
 # Width in pixels and opacity of the cuts shown, and of those left out.
@@ -82,10 +83,10 @@ class SeamPreview:
         length, total = (
             length_text(context, cuts.length) for cuts in (self._suggestion.part(0, self.count), self._suggestion)
         )
-        parts = [reporting.preview(self.count, len(self._suggestion.cuts), length, total)]
+        parts = [texts.preview(self.count, len(self._suggestion.cuts), length, total)]
         if not missing:
-            parts.append(reporting.expected(self._measured[0], self._measured[self.count], self._factor))
-        context.workspace.status_text_set(f"{names.SUGGEST_SEAMS_LABEL}: {'; '.join(parts)}   {_KEYS}")
+            parts.append(texts.expected(self._measured[0], self._measured[self.count], self._factor))
+        context.workspace.status_text_set(f"{texts.SUGGEST_SEAMS_LABEL}: {'; '.join(parts)}   {_KEYS}")
 
     def end(self, context: bpy.types.Context) -> None:
         """Remove everything shown."""
@@ -105,8 +106,8 @@ class SeamPreview:
         measured = {}
         for count in counts:
             meshes = seam_suggestion.cut_open(self._target.polygons, self._suggestion.part(0, count))
-            solutions = unwrapping.solve_all(meshes, self._target.settings.options, progress)
-            measured[count] = map_quality.measure(meshes, solutions, self._factor)
+            solutions = solve_all(meshes, self._target.settings.options, progress)
+            measured[count] = quality.measure(meshes, solutions, self._factor)
         return measured
 
 
@@ -152,7 +153,7 @@ class _Lines:
             problem = f"{type(error).__name__}: {error}"
             if problem != self._problem:
                 self._problem = problem
-                print(f"{names.SUGGEST_SEAMS_LABEL} could not be drawn: {problem}")
+                print(f"{texts.SUGGEST_SEAMS_LABEL} could not be drawn: {problem}")
 
     def _fill(self) -> None:
         shader = gpu.shader.from_builtin(compatibility.LINE_SHADER)
