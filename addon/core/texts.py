@@ -93,6 +93,7 @@ NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge
 ADJUSTED_WITHOUT_SUBSURF = (
     "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
 )
+EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap with it"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map to look at; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
@@ -190,6 +191,22 @@ def extenders_without_strength(names: Sequence[str]) -> str:
     if not names:
         return ""
     return f"Skipped {_count(len(names), 'extender')} whose strength is no number that it can have: {', '.join(names)}"
+
+
+def broken_extender(name: str) -> str:
+    """Return why an extender that lacks a vertex cannot be adjusted."""
+    return f"{name} is broken: a vertex of it is gone; remove it and add another"
+
+
+def added_extenders(count: int, existing: int, follows: bool) -> str:
+    """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
+    parts = []
+    if count:
+        acts = "" if follows else f", which will act on the next unwrap; {ADJUST_EXTENDER_LABEL} acts at once"
+        parts.append(f"Added {_count(count, 'extender')}{acts}")
+    if existing:
+        parts.append(f"Pairs that have an extender already: {existing}")
+    return ". ".join(parts)
 
 
 def unused_extenders(count: int) -> str:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from .extender_adjust import MESH_OT_spectral_extender_adjust
+from .extender_adjust import MESH_OT_spectral_extender_adjust, stop_running
 from .extender_list import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_remove,
@@ -33,6 +33,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Unregister all operators."""
+    """Unregister all operators; those that wait for the user end as if cancelled."""
+    stop_running()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that changes an extender's strength while its island follows."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
@@ -9,7 +12,7 @@ from ..core import texts
 from ..core.extender_adjustment import AdjustmentError
 from ..core.native import NativeModuleError
 from ..core.typed_number import TypedNumber
-from ..extenders import storage
+from ..extenders import adjusted_map, storage
 from ..extenders.adjusted_map import AdjustedMap
 from ..ui import progress
 
@@ -26,7 +29,14 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
     bl_description = texts.ADJUST_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
-    index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
+    index: IntProperty(
+        name="Index",
+        description="Place in the list, -1 for the active extender",
+        default=-1,
+        min=-1,
+        # Panels set it for one click; the next does not remember it, and Adjust Last Operation does not show it.
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
     strength: FloatProperty(**names.EXTENDER_STRENGTH)
 
     @classmethod
@@ -40,7 +50,9 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
         return self._keep(adjusted) if adjusted else {"CANCELLED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin to drag at the strength that the extender has."""
+        """Begin to drag at the strength that the extender has; where nobody can drag, set the strength at once."""
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
         adjusted = self._adjusted(context)
         if adjusted is None:
             return {"CANCELLED"}
@@ -49,15 +61,26 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
         self._mouse_x = event.mouse_x
         self._typed = TypedNumber()
         self._problem = ""
-        self._show(context)
-        context.window_manager.modal_handler_add(self)
+        with self._restored_on_error(context):
+            self._show(context)
+            context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Drag, type, confirm or cancel; view navigation goes on."""
-        if context.mode != "EDIT_MESH" or not self._map.is_valid:
-            self._end(context)
+        if context.mode != "EDIT_MESH" or not self._map.is_shown or not self._map.is_valid:
+            self.cancel(context)
             return {"CANCELLED"}
+        with self._restored_on_error(context):
+            return self._handle(context, event)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Give map and strength back as they were. Blender calls it on closing, too."""
+        self._end(context)
+        if self._map.is_shown:
+            self._map.restore()
+
+    def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == "MOUSEMOVE":
             self._drag(context, event)
         elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
@@ -72,11 +95,13 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
 
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Give the map back as it was. Blender calls it on closing, too."""
-        self._end(context)
-        if self._map.is_valid:
-            self._map.restore()
+    @contextmanager
+    def _restored_on_error(self, context: bpy.types.Context) -> Iterator[None]:
+        try:
+            yield
+        except BaseException:
+            self.cancel(context)
+            raise
 
     def _adjusted(self, context: bpy.types.Context) -> AdjustedMap | None:
         """Return the map to adjust; None having reported why there is none."""
@@ -136,6 +161,9 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
             adjusted.restore()
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        except BaseException:
+            adjusted.restore()
+            raise
         adjusted.keep(self.strength)
         return {"FINISHED"}
 
@@ -143,3 +171,10 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
         # Blender has no workspace while it closes or loads a file.
         if context.workspace is not None:
             context.workspace.status_text_set(None)
+
+
+def stop_running() -> None:
+    """End a running drag as Esc does: Blender lets go of an operator that is unregistered without telling it."""
+    if adjusted_map.give_up():
+        for window in bpy.context.window_manager.windows:
+            window.workspace.status_text_set(None)

@@ -7,9 +7,29 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
 from ..core import texts
+from ..core.extender_adjustment import AdjustmentError
 from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
+from ..core.native import NativeModuleError
 from ..edit_mesh import selection
 from ..extenders import storage
+from ..live import following
+
+# Panels set these for one click; the next does not remember them, and Adjust Last Operation does not show them.
+_HIDDEN = {"HIDDEN", "SKIP_SAVE"}
+
+
+def _follow(
+    operator: bpy.types.Operator, edit_object: bpy.types.Object, strengths: dict[tuple[int, int], float]
+) -> None:
+    """Let the map follow changed extenders at once, in the operator's own undo step; report where it cannot."""
+    if not strengths:
+        return
+    try:
+        note = following.follow_extenders(edit_object, strengths)
+    except (AdjustmentError, NativeModuleError) as error:
+        note = str(error)
+    if note:
+        operator.report({"WARNING"}, note)
 
 
 class MESH_OT_spectral_extender_add(bpy.types.Operator):
@@ -43,14 +63,18 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
         except SelectionError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        added = sum(storage.add(mesh, mesh_pairs, self.strength) for mesh, mesh_pairs in pairs.items())
-        skipped = sum(map(len, pairs.values())) - added
-        if skipped:
-            self.report({"INFO" if added else "WARNING"}, f"Pairs that have an extender already: {skipped}")
-        return {"FINISHED"} if added else {"CANCELLED"}
+        added = {edit_object: storage.add(edit_object.data, made, self.strength) for edit_object, made in pairs.items()}
+        count = sum(map(len, added.values()))
+        existing = sum(map(len, pairs.values())) - count
+        follows = following.is_on(context.scene) and count > 0
+        if follows:
+            for edit_object, fresh in added.items():
+                _follow(self, edit_object, dict.fromkeys(fresh, self.strength))
+        self.report({"INFO" if count else "WARNING"}, texts.added_extenders(count, existing, follows))
+        return {"FINISHED"} if count else {"CANCELLED"}
 
-    def _pairs(self, context: bpy.types.Context) -> dict[bpy.types.Mesh, list[tuple[int, int]]]:
-        """Return the pairs of vertices of every mesh with a selection.
+    def _pairs(self, context: bpy.types.Context) -> dict[bpy.types.Object, list[tuple[int, int]]]:
+        """Return the pairs of vertices of every mesh with a selection, by its object.
 
         Raises:
             SelectionError: a selection makes no pairs.
@@ -68,7 +92,7 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
                     made = pairs_to_active(selected.vertices, selected.active)
             except SelectionError as error:
                 raise SelectionError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
-            pairs[edit_object.data] = made
+            pairs[edit_object] = made
         if not pairs:
             raise SelectionError("Nothing is selected; select the vertices to connect, one after the other")
         return pairs
@@ -100,8 +124,12 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
     bl_label = texts.REMOVE_EXTENDER_LABEL
     bl_description = texts.REMOVE_EXTENDER_DESCRIPTION
 
-    index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
-    broken: BoolProperty(name="Broken", description="Remove all extenders with a vertex that is gone instead")
+    index: IntProperty(
+        name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1, options=_HIDDEN
+    )
+    broken: BoolProperty(
+        name="Broken", description="Remove all extenders with a vertex that is gone instead", options=_HIDDEN
+    )
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -119,8 +147,17 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
             indices = [index for index in (self.chosen(mesh),) if index >= 0]
         if not indices:
             return {"CANCELLED"}
+        gone = self._acting(mesh, indices)
         storage.remove(mesh, indices)
+        if following.is_on(context.scene):
+            _follow(self, context.edit_object, dict.fromkeys(gone, 0.0))
         return {"FINISHED"}
+
+    def _acting(self, mesh: bpy.types.Mesh, indices: list[int]) -> list[tuple[int, int]]:
+        """Return the vertices of those of the extenders that act on the map."""
+        ends = storage.ends(bmesh.from_edit_mesh(mesh), mesh)
+        listed = storage.of(mesh)
+        return [ends[k] for k in indices if -1 not in ends[k] and listed[k].use and listed[k].strength != 0.0]
 
 
 class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
@@ -130,7 +167,9 @@ class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
     bl_label = texts.SELECT_EXTENDER_LABEL
     bl_description = texts.SELECT_EXTENDER_DESCRIPTION
 
-    index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
+    index: IntProperty(
+        name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1, options=_HIDDEN
+    )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select what is left of the extender."""

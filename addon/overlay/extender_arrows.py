@@ -9,17 +9,16 @@ vertices are connected.
 from collections.abc import Callable, Iterator
 
 import bpy
-import gpu
 import numpy as np
 from bmesh.types import BMVert
 from bpy_extras import view3d_utils
-from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility
 from ..core import arrow_shapes, texts
 from ..core.arrow_shapes import ArrowSize
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
+from ..ui import console
+from .fill import fill_triangles
 
 _Point = tuple[float, float]
 # A function that returns the places on the screen, in pixels, of two vertices of a mesh; None where one is not shown.
@@ -32,9 +31,9 @@ _ACTIVE_OUTLINE = (1.0, 1.0, 1.0, 1.0)
 _DIMMED = 0.3
 _SIZE = ArrowSize()
 _OUTLINE_PIXELS = 1.5
+_COULD_NOT = f"{texts.EXTENDERS_LABEL} could not be drawn"
 
 _handles: list[tuple[type, object]] = []
-_told: set[str] = set()
 
 
 def _draw_in_viewport() -> None:
@@ -52,15 +51,10 @@ def _draw_in_uv_editor() -> None:
 
 def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None:
     """Draw the arrows of all meshes in edit mode; the active one of the active object's mesh last, highlighted."""
-    try:
+    with console.errors_printed_once(_COULD_NOT):
         corners, colors = _triangles(context, places_of)
         if len(corners):
-            _fill(corners, colors)
-    except Exception as error:  # noqa: BLE001 - an error while drawing would come again with every redraw
-        problem = f"{type(error).__name__}: {error}"
-        if problem not in _told:
-            _told.add(problem)
-            print(f"{texts.EXTENDERS_LABEL} could not be drawn: {problem}")
+            fill_triangles(corners, colors)
 
 
 def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:
@@ -138,19 +132,6 @@ def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, 
     return places
 
 
-def _fill(corners: np.ndarray, colors: np.ndarray) -> None:
-    shader = gpu.shader.from_builtin(compatibility.SMOOTH_COLOR_SHADER)
-    points = np.column_stack([corners, np.zeros(len(corners))])
-    batch = batch_for_shader(
-        shader, "TRIS", {"pos": points.astype(np.float32).tolist(), "color": colors.astype(np.float32).tolist()}
-    )
-    gpu.state.blend_set("ALPHA")
-    try:
-        batch.draw(shader)
-    finally:
-        gpu.state.blend_set("NONE")
-
-
 def register() -> None:
     """Add the draw handlers; in background mode nothing is drawn."""
     if bpy.app.background:
@@ -164,4 +145,4 @@ def unregister() -> None:
     for space, handle in _handles:
         space.draw_handler_remove(handle, "WINDOW")
     _handles.clear()
-    _told.clear()
+    console.forget(_COULD_NOT)

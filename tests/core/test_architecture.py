@@ -14,6 +14,7 @@ STANDARD = {
     "collections",
     "contextlib",
     "dataclasses",
+    "enum",
     "hashlib",
     "itertools",
     "json",
