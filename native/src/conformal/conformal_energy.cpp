@@ -13,18 +13,22 @@ constexpr double greatest_entry = 1e12;
 }  // namespace
 
 ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
-                                 std::vector<std::array<int, 3>> triangles, std::vector<double> coverage,
+                                 std::vector<std::array<int, 3>> triangles, std::vector<double> triangle_weights,
                                  Weights weights, std::size_t n_virtual)
-    : triangles_(std::move(triangles)), coverage_(std::move(coverage)), weights_(weights), n_virtual_(n_virtual) {
+    : triangles_(std::move(triangles)),
+      triangle_weights_(std::move(triangle_weights)),
+      weights_(weights),
+      n_virtual_(n_virtual) {
   shapes_.resize(triangles_.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     shapes_[t] = lay_out(positions.row(a), positions.row(b), positions.row(c));
     if (t + n_virtual_ >= triangles_.size()) continue;
     if (shapes_[t].clamped) ++clamped_triangles_;
-    area_ += coverage_[t] * (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c))
-                                                : shapes_[t].area());
-    covered_ += coverage_[t];
+    area_ +=
+        triangle_weights_[t] *
+        (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes_[t].area());
+    weight_sum_ += triangle_weights_[t];
   }
   weigh();
   assemble(static_cast<int>(positions.rows()));
@@ -32,13 +36,13 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
 
 ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
     : triangles_(like.triangles_),
-      coverage_(like.coverage_),
+      triangle_weights_(like.triangle_weights_),
       shapes_(like.shapes_),
       stretched_(like.stretched_),
       weights_(weights),
       n_virtual_(like.n_virtual_),
       area_(like.area_),
-      covered_(like.covered_),
+      weight_sum_(like.weight_sum_),
       clamped_triangles_(like.clamped_triangles_) {
   weigh();
   assemble(like.n_vertices());
@@ -66,11 +70,11 @@ int ConformalEnergy::lift(double least_height) {
 }
 
 void ConformalEnergy::weigh() {
-  weight_unit_ = weights_ == Weights::inverse_area && covered_ > 0 ? area_ / covered_ : 1;
+  weight_unit_ = weights_ == Weights::inverse_area && weight_sum_ > 0 ? area_ / weight_sum_ : 1;
 }
 
 double ConformalEnergy::weight(std::size_t triangle) const {
-  const double share = coverage_[triangle];
+  const double share = triangle_weights_[triangle];
   if (weights_ == Weights::uniform) return share;
   const TriangleShape& shape = shapes_[triangle];
   return share / std::max(shape.area() / weight_unit_, 1 / (greatest_entry * shape.relative_height()));

@@ -75,7 +75,7 @@ double signed_area(const ConformalEnergy& energy, const ComplexVector& z) {
   const auto& triangles = energy.triangles();
   for (std::size_t t = 0; t + energy.n_virtual() < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    area += 0.5 * energy.coverage()[t] * cross(z[b] - z[a], z[c] - z[a]);
+    area += 0.5 * energy.triangle_weights()[t] * cross(z[b] - z[a], z[c] - z[a]);
   }
   return area;
 }

@@ -42,7 +42,7 @@ void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangu
     result.triangles.push_back({0, 1, 3});
     result.triangles.push_back({1, 2, 3});
   }
-  result.coverage.assign(result.triangles.size(), share);
+  result.triangle_weights.assign(result.triangles.size(), share);
   result.simple = along_02 || along_13;
 }
 
@@ -126,11 +126,11 @@ void fan(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& resul
 
 void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   result.triangles.clear();
-  result.coverage.clear();
+  result.triangle_weights.clear();
   result.simple = true;
   if (corners.rows() == 3) {
     result.triangles.push_back({0, 1, 2});
-    result.coverage.push_back(1.0);
+    result.triangle_weights.push_back(1.0);
     return;
   }
   if (corners.rows() == 4) {
@@ -141,7 +141,7 @@ void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTria
     fan(corners, result);
     result.simple = false;
   }
-  result.coverage.assign(result.triangles.size(), 1.0);
+  result.triangle_weights.assign(result.triangles.size(), 1.0);
 }
 
 }  // namespace spectral_conformal

@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// Triangles of one polygon, as corner numbers, each covering its part of the polygon with the given weight.
 struct PolygonTriangulation {
   std::vector<std::array<int, 3>> triangles;
-  std::vector<double> coverage;
+  std::vector<double> triangle_weights;
   bool simple = true;  ///< false: the projected polygon crosses or touches itself, and a fan stands in
 };
 

@@ -152,20 +152,20 @@ int count_flipped(const std::vector<DistortionElement>& elements, const ComplexV
 
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
-                                                   const std::vector<double>& coverage, std::size_t n_virtual) {
+                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual) {
   constexpr double virtual_weight = 1e-2;
   // Rounding leaves nothing of the shape of smaller ones in the map.
   constexpr double least_area = 1e-18;
   double total = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!shapes[t].clamped) total += coverage[t] * shapes[t].area();
+    if (!shapes[t].clamped) total += triangle_weights[t] * shapes[t].area();
   }
   std::vector<DistortionElement> elements;
   elements.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const bool is_virtual = t + n_virtual >= triangles.size();
     const bool is_degenerate = shapes[t].clamped || !(shapes[t].area() > least_area * total);
-    DistortionElement element{triangles[t], shapes[t], coverage[t] * shapes[t].area() / total,
+    DistortionElement element{triangles[t], shapes[t], triangle_weights[t] * shapes[t].area() / total,
                               !is_virtual && !is_degenerate};
     if (is_degenerate) element.softening = infinity;
     if (is_virtual) element.weight *= virtual_weight;

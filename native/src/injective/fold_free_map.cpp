@@ -25,9 +25,10 @@ class FoldFree {
     const auto end = static_cast<std::ptrdiff_t>(n);
     triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
     const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
-    const std::vector<double> coverage(energy.coverage().begin(), energy.coverage().begin() + end);
-    elements_ = distortion_elements(triangles_, shapes, coverage, 0);
-    choose_splits(energy.coverage());
+    const std::vector<double> triangle_weights(energy.triangle_weights().begin(),
+                                               energy.triangle_weights().begin() + end);
+    elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
+    choose_splits(energy.triangle_weights());
   }
 
   FoldFreeMap run(ComplexVector given) {
@@ -53,14 +54,15 @@ class FoldFree {
 
   /// Of a quad's two splits only one can be asked to have no fold: the first, unless its diagonal is an edge already,
   /// which no straight lines can draw twice.
-  void choose_splits(const std::vector<double>& coverage) {
+  void choose_splits(const std::vector<double>& triangle_weights) {
     const auto n = static_cast<std::ptrdiff_t>(triangles_.size());
-    if (std::all_of(coverage.begin(), coverage.begin() + n, [](double share) { return share == 1.0; })) {
+    if (std::all_of(triangle_weights.begin(), triangle_weights.begin() + n,
+                    [](double share) { return share == 1.0; })) {
       single_ = triangles_;
       return;
     }
     std::set<std::pair<int, int>> edges;
-    const auto is_first_of_quad = [&](std::size_t t) { return coverage[t] != 1.0; };
+    const auto is_first_of_quad = [&](std::size_t t) { return triangle_weights[t] != 1.0; };
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& [a, b, c] = triangles_[t];
       edges.insert({edge(a, b), edge(b, c)});

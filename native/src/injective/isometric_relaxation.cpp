@@ -31,11 +31,11 @@ BestScale best_scale(const std::vector<DistortionElement>& elements, const Compl
 }  // namespace
 
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
-                               const std::vector<TriangleShape>& shapes, const std::vector<double>& coverage,
+                               const std::vector<TriangleShape>& shapes, const std::vector<double>& triangle_weights,
                                std::size_t n_virtual, ComplexVector z, FactorizationBackend backend,
                                const IsometryOptions& options, const Progress& progress) {
   report(progress, 0, "relax");
-  std::vector<DistortionElement> elements = distortion_elements(triangles, shapes, coverage, n_virtual);
+  std::vector<DistortionElement> elements = distortion_elements(triangles, shapes, triangle_weights, n_virtual);
   IsometricMap result;
   result.z = std::move(z);
   result.flipped = count_flipped(elements, result.z);

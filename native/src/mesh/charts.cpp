@@ -315,7 +315,7 @@ class ChartBuilder {
     if (size == 3) {
       chart.triangles.push_back(
           {vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
-      chart.coverage.push_back(1.0);
+      chart.triangle_weights.push_back(1.0);
       chart.triangle_face.push_back(index);
       return;
     }
@@ -331,7 +331,7 @@ class ChartBuilder {
       const auto& local = polygon_.triangles[t];
       chart.triangles.push_back({vertex_of_corner_[corner(local[0])], vertex_of_corner_[corner(local[1])],
                                  vertex_of_corner_[corner(local[2])]});
-      chart.coverage.push_back(polygon_.coverage[t]);
+      chart.triangle_weights.push_back(polygon_.triangle_weights[t]);
       chart.triangle_face.push_back(index);
     }
   }

@@ -35,7 +35,7 @@ struct Chart {
   std::vector<int> faces;                     ///< in the mesh, ascending
   std::vector<int> vertices;                  ///< the mesh vertex of each chart vertex, ascending
   std::vector<std::array<int, 3>> triangles;  ///< chart vertices, counter-clockwise
-  std::vector<double> coverage;               ///< per triangle: 1, or 1/2 where both splits of a quad are present
+  std::vector<double> triangle_weights;       ///< per triangle: 1, or 1/2 where both splits of a quad are present
   std::vector<int> triangle_face;             ///< per triangle: index into `faces`
   std::vector<BoundaryLoop> boundary_loops;   ///< chart vertices; unordered
   int euler_characteristic = 0;

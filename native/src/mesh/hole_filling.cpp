@@ -41,7 +41,7 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
       centres.push_back(centre);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         result.triangles.push_back({apex, loop[i], loop[(i + 1) % loop.size()]});
-        result.coverage.push_back(1.0);
+        result.triangle_weights.push_back(1.0);
       }
       continue;
     }
@@ -50,7 +50,7 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
       const auto& [a, b, c] = polygon.triangles[t];
       result.triangles.push_back(
           {loop[static_cast<std::size_t>(a)], loop[static_cast<std::size_t>(b)], loop[static_cast<std::size_t>(c)]});
-      result.coverage.push_back(polygon.coverage[t]);
+      result.triangle_weights.push_back(polygon.triangle_weights[t]);
     }
   }
   result.centres.resize(static_cast<Eigen::Index>(centres.size()), 3);

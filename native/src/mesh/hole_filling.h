@@ -11,7 +11,7 @@ namespace spectral_conformal {
 struct HoleFilling {
   Positions centres;                          ///< (n, 3) positions of added vertices, numbered from V on
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise, like the patch's own
-  std::vector<double> coverage;               ///< per triangle
+  std::vector<double> triangle_weights;       ///< per triangle
 };
 
 /// Fills every loop but `outer`. A loop that is star-shaped about its barycentre, as seen along its vector area, gets a

@@ -27,14 +27,14 @@ double percentile(std::vector<double>& values, double fraction) {
 
 struct Measures {
   Distortion distortion;
-  std::vector<double> area;         ///< in 3D, coverage included; 0 for clamped triangles
+  std::vector<double> area;         ///< in 3D, times the triangle weight; 0 for clamped triangles
   std::vector<double> signed_area;  ///< of the image
 };
 
 /// Everything that is measured triangle by triangle.
 Measures measure_triangles(const Eigen::Ref<const Positions>& positions,
-                           const std::vector<std::array<int, 3>>& triangles, const std::vector<double>& coverage,
-                           const ComplexVector& z) {
+                           const std::vector<std::array<int, 3>>& triangles,
+                           const std::vector<double>& triangle_weights, const ComplexVector& z) {
   const std::size_t n = triangles.size();
   Measures result;
   result.area.assign(n, 0);
@@ -49,7 +49,7 @@ Measures measure_triangles(const Eigen::Ref<const Positions>& positions,
     const Complex d1 = z[b] - z[a];
     const Complex d2 = z[c] - z[a];
     distortion.qc[static_cast<Eigen::Index>(t)] = shape.quasi_conformal_distortion(d1, d2);
-    const double share = coverage.empty() ? 1.0 : coverage[t];
+    const double share = triangle_weights.empty() ? 1.0 : triangle_weights[t];
     result.area[t] = share * shape.area();
     const double image = 0.5 * std::imag(std::conj(d1) * d2);
     result.signed_area[t] = share * image;
@@ -118,9 +118,9 @@ struct InUnits {
 }  // namespace
 
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
-                              const std::vector<std::array<int, 3>>& triangles, const std::vector<double>& coverage,
-                              const ComplexVector& z) {
-  Measures measures = measure_triangles(positions, triangles, coverage, z);
+                              const std::vector<std::array<int, 3>>& triangles,
+                              const std::vector<double>& triangle_weights, const ComplexVector& z) {
+  Measures measures = measure_triangles(positions, triangles, triangle_weights, z);
   summarize(measures);
   double total = 0;
   for (const double area : measures.signed_area) total += area;
@@ -177,7 +177,7 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
     const int outer = outer_loop(chart.boundary_loops, chart.positions(mesh));
     ComplexVector own(chart.n_vertices());
     for (int v = 0; v < chart.n_vertices(); ++v) own[v] = z[chart.vertices[v]];
-    result.turning_number = turning_number(chart.boundary_loops[outer], chart.triangles, chart.coverage, own);
+    result.turning_number = turning_number(chart.boundary_loops[outer], chart.triangles, chart.triangle_weights, own);
   }
   return std::move(measures.distortion);
 }

@@ -17,7 +17,7 @@ MapTriangulation triangulate_map(const Chart& chart, const ComplexVector& z) {
     result.face.push_back(chart.triangle_face[t]);
   };
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    if (chart.coverage[t] == 1.0) {
+    if (chart.triangle_weights[t] == 1.0) {
       take(t);
       continue;
     }

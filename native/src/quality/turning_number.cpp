@@ -5,7 +5,7 @@
 namespace spectral_conformal {
 
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
-                   const std::vector<double>& coverage, const ComplexVector& map) {
+                   const std::vector<double>& triangle_weights, const ComplexVector& map) {
   // Products of coordinates must neither overflow nor vanish, whatever the unit.
   const double extent = map.size() == 0 ? 0 : map.cwiseAbs().maxCoeff();
   if (!(extent > 0)) return 0;
@@ -23,7 +23,7 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
       const Complex next = z[triangles[t][(k + 1) % 3]] - z[vertex];
       const Complex previous = z[triangles[t][(k + 2) % 3]] - z[vertex];
       const double angle = std::arg(std::conj(next) * previous);
-      interior[place] += coverage[t] * angle;
+      interior[place] += triangle_weights[t] * angle;
       if (angle < 0) folded[place] = 1;
     }
   }

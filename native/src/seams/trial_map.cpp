@@ -56,7 +56,7 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, MappedChart& ma
   std::size_t t = 0;
   for (int face = 0; t < chart.triangles.size(); ++face) {
     triangles.clear();
-    const bool both_splits = chart.coverage[t] != 1.0;
+    const bool both_splits = chart.triangle_weights[t] != 1.0;
     for (; t < chart.triangles.size() && chart.triangle_face[t] == face; ++t) {
       triangles.push_back(measure(positions, chart.triangles[t], mapped.z));
     }

@@ -32,9 +32,9 @@ struct Input {
     for (std::size_t t = 0; t < patch.chart.triangles.size(); ++t) {
       const auto& [a, b, c] = patch.chart.triangles[t];
       if (!(std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a])) > 0)) return false;
-      if (patch.chart.coverage[t] != 1.0 && t % 4 == 1) t += 2;
+      if (patch.chart.triangle_weights[t] != 1.0 && t % 4 == 1) t += 2;
     }
-    return turning_number(loops.front(), patch.chart.triangles, patch.chart.coverage, z) == 1;
+    return turning_number(loops.front(), patch.chart.triangles, patch.chart.triangle_weights, z) == 1;
   }
 };
 
@@ -98,7 +98,8 @@ TEST_CASE("without a map, with holes and with quads there is an embedding, nearl
     CHECK(map.is_locally_injective);
     CHECK(input.is_fold_free(map.z));
     const auto mean = [&](const ComplexVector& z) {
-      return measure_distortion(input.patch.positions, input.patch.chart.triangles, input.patch.chart.coverage, z)
+      return measure_distortion(input.patch.positions, input.patch.chart.triangles, input.patch.chart.triangle_weights,
+                                z)
           .mean_qc;
     };
     CHECK(mean(map.z) < mean(conformal_map(input.patch)) + 0.05);

@@ -18,8 +18,8 @@ constexpr double pi = 3.14159265358979323846;
 
 IsometricMap relax(const ConformalEnergy& energy, const ComplexVector& z, const IsometryOptions& options = {},
                    FactorizationBackend backend = FactorizationBackend::automatic, const Progress& progress = {}) {
-  return relax_to_isometry(energy.triangles(), energy.shapes(), energy.coverage(), energy.n_virtual(), z, backend,
-                           options, progress);
+  return relax_to_isometry(energy.triangles(), energy.shapes(), energy.triangle_weights(), energy.n_virtual(), z,
+                           backend, options, progress);
 }
 
 IsometricMap relax(const Patch& patch, const ComplexVector& z, const IsometryOptions& options = {},
@@ -32,7 +32,7 @@ ComplexVector conformal_map(const Patch& patch) {
 }
 
 Distortion distortion(const Patch& patch, const ComplexVector& z) {
-  return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, z);
+  return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z);
 }
 
 /// The mean of s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 at the scale of z: squared norms of real matrices and their inverses.
@@ -49,7 +49,7 @@ double symmetric_dirichlet_energy(const Patch& patch, const ComplexVector& z) {
     Eigen::Matrix2d image;
     image << (z[b] - z[a]).real(), (z[c] - z[a]).real(), (z[b] - z[a]).imag(), (z[c] - z[a]).imag();
     const Eigen::Matrix2d jacobian = image * edges.inverse();
-    const double weight = energy.coverage()[t] * shape.area();
+    const double weight = energy.triangle_weights()[t] * shape.area();
     sum += weight * (jacobian.squaredNorm() + jacobian.inverse().squaredNorm());
     area += weight;
   }
@@ -289,10 +289,11 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
   REQUIRE(filling.centres.rows() == 0);
   auto triangles = patch.chart.triangles;
-  auto coverage = patch.chart.coverage;
+  auto triangle_weights = patch.chart.triangle_weights;
   triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
-  coverage.insert(coverage.end(), filling.coverage.begin(), filling.coverage.end());
-  const ConformalEnergy filled(patch.positions, triangles, coverage, Weights::uniform, filling.triangles.size());
+  triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
+  const ConformalEnergy filled(patch.positions, triangles, triangle_weights, Weights::uniform,
+                               filling.triangles.size());
   const ComplexVector start = conformal_map(patch);
   const IsometricMap map = relax(filled, start, {1e-6, 50});
   const IsometricMap without = relax(patch, start, {1e-6, 50});

@@ -21,7 +21,7 @@ void check_consistent(const Mesh& mesh, const ChartDecomposition& decomposition)
     const Chart& chart = decomposition.charts[i];
     CHECK(std::is_sorted(chart.faces.begin(), chart.faces.end()));
     CHECK(std::is_sorted(chart.vertices.begin(), chart.vertices.end()));
-    REQUIRE(chart.coverage.size() == chart.triangles.size());
+    REQUIRE(chart.triangle_weights.size() == chart.triangles.size());
     REQUIRE(chart.triangle_face.size() == chart.triangles.size());
     for (const int face : chart.faces) {
       CHECK(decomposition.chart_of_face[face] == static_cast<int>(i));
@@ -29,11 +29,11 @@ void check_consistent(const Mesh& mesh, const ChartDecomposition& decomposition)
         CHECK(chart.vertices[decomposition.chart_vertex_of_corner[c]] == mesh.corners[c]);
       }
     }
-    // Directed edges with the coverage of their triangles; those of quads' inner splits cancel.
+    // Directed edges with the weights of their triangles; those of quads' inner splits cancel.
     std::map<std::array<int, 2>, double> directed;
     for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
       const auto& triangle = chart.triangles[t];
-      for (int k = 0; k < 3; ++k) directed[{triangle[k], triangle[(k + 1) % 3]}] += chart.coverage[t];
+      for (int k = 0; k < 3; ++k) directed[{triangle[k], triangle[(k + 1) % 3]}] += chart.triangle_weights[t];
     }
     if (!chart.orientable) continue;
     std::set<std::array<int, 2>> boundary;

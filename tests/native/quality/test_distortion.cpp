@@ -14,7 +14,7 @@ namespace spectral_conformal::test {
 namespace {
 
 Distortion measure(const Patch& patch, const ComplexVector& z) {
-  return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, z);
+  return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z);
 }
 
 /// A map with moderate distortion and no flips.
@@ -73,7 +73,7 @@ TEST_CASE("a map that is linear on a flat patch has one qc and one scale") {
   CHECK(distortion.log2_scale_deviation < 1e-11);
 }
 
-TEST_CASE("means are weighted by area and coverage, percentiles interpolate over the triangles") {
+TEST_CASE("means are weighted by area and triangle weight, percentiles interpolate over the triangles") {
   Mesh mesh = bumpy_grid(5, 4);
   mesh.add({29, 23, 30, 31});
   mesh.points.emplace_back(7, 3, 1);
@@ -84,7 +84,7 @@ TEST_CASE("means are weighted by area and coverage, percentiles interpolate over
   Eigen::VectorXd weight(n);
   for (Eigen::Index t = 0; t < n; ++t) {
     const auto& [a, b, c] = patch.chart.triangles[static_cast<std::size_t>(t)];
-    weight[t] = patch.chart.coverage[static_cast<std::size_t>(t)] *
+    weight[t] = patch.chart.triangle_weights[static_cast<std::size_t>(t)] *
                 triangle_area(patch.positions.row(a), patch.positions.row(b), patch.positions.row(c));
   }
   weight /= weight.sum();
