@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import live, native, placement, solve
+from . import native, pinned_chart, placement, solve
 from .mesh import PolygonMesh
 from .options import Options
 
@@ -96,7 +96,7 @@ class ExtenderAdjustment:
 
 def _faces_of_charts(mesh: PolygonMesh, extender: tuple[int, int]) -> np.ndarray:
     """Return which faces belong to charts with both vertices, (F,) bool."""
-    chart_of_face = live.chart_of_face(mesh, mesh.selected_faces)
+    chart_of_face = pinned_chart.chart_of_face(mesh, mesh.selected_faces)
     face_of_corner = mesh.face_of_corner()
     charts = [set(chart_of_face[face_of_corner[mesh.corner_vertices == vertex]].tolist()) for vertex in extender]
     common = (charts[0] & charts[1]) - {-1}

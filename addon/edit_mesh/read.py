@@ -8,9 +8,10 @@ import bpy
 import numpy as np
 from bmesh.types import BMEdge, BMesh, BMLayerItem
 
-from .. import compatibility, extenders, names
+from .. import compatibility, names
 from ..core.mesh import PolygonMesh
 from ..core.subdivision import Subdivision, subdivision
+from ..extenders import storage
 from . import image_aspect, subsurf
 
 
@@ -58,7 +59,7 @@ def read_mesh(
             polygons = replace(polygons, pinned_corners=compatibility.pinned_corners(copy))
             if by_uv_selection:
                 _restrict_to_selected_uvs(polygons, compatibility.selected_uv_corners(bm, layer))
-        forces, broken, without_strength = extenders.resolve(bm, mesh)
+        forces, broken, without_strength = storage.resolve(bm, mesh)
         polygons = replace(polygons, extenders=tuple(forces), stretch_direction=_active_edge(bm))
         if correct_aspect:
             polygons = replace(polygons, aspect=image_aspect.aspect(edit_object, bm))

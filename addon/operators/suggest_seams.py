@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
-from .. import live_unwrap, names
+from .. import names
 from ..core import texts
 from ..core.progress import Progress
 from ..core.seam_suggestion import Options, Search, Suggestion
 from ..core.solve import Solution, solve_all
 from ..core.summary import summarize
+from ..live import following
 from ..unwrapping import seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
@@ -137,7 +138,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         if solutions is None:
             seams.mark(target, cuts)
         else:
-            outcome = seams.write(context, target, cuts, solutions, live_unwrap.not_following)
+            outcome = seams.write(context, target, cuts, solutions, following.not_following)
         self.report({"INFO"}, texts.marked(len(cuts.cuts), length_text(context, cuts.length)))
         self._report_refused(target, cuts)
         if outcome is not None:

@@ -6,8 +6,9 @@ import time
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
-from .. import live_unwrap, names
+from .. import names
 from ..core import texts
+from ..live import following
 from ..unwrapping import steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
@@ -138,7 +139,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
             if edit_meshes is None:
                 self.report({"WARNING"}, texts.MESHES_CHANGED)
                 return {"CANCELLED"}
-        outcome = steps.write(done.context, settings, edit_meshes, done.result, live_unwrap.not_following)
+        outcome = steps.write(done.context, settings, edit_meshes, done.result, following.not_following)
         for level, text in steps.reports(outcome, time.perf_counter() - start):
             self.report({level}, text)
         return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

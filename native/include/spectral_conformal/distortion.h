@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "spectral_conformal/charts.h"
+#include "mesh/charts.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -22,11 +22,11 @@ struct Distortion {
   std::vector<bool> overlapping;    ///< (F,) covers another triangle; only from measure_mesh_distortion
 };
 
-/// positions (V, 3), triangles consistently wound, coverage (F,) or empty for 1, z (V,).
+/// positions (V, 3), triangles consistently wound, triangle_weights (F,) or empty for 1, z (V,).
 /// Triangles that lay_out would clamp have no distortion: qc 1, log2_scale 0, no weight, not flipped.
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
-                              const std::vector<std::array<int, 3>>& triangles, const std::vector<double>& coverage,
-                              const ComplexVector& z);
+                              const std::vector<std::array<int, 3>>& triangles,
+                              const std::vector<double>& triangle_weights, const ComplexVector& z);
 
 /// The same for a mesh of triangles as it comes: orients every chart first, so that a triangle that is wound the wrong
 /// way in 3D is not taken for flipped, and looks for flips chart by chart. z (n_vertices,) must be finite.

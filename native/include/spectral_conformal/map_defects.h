@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "spectral_conformal/charts.h"
+#include "mesh/charts.h"
 
 namespace spectral_conformal {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "spectral_conformal/triangle_shape.h"
+#include "geometry/triangle_shape.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {

@@ -1,0 +1,196 @@
+#include "seams/seam_graph.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// The discount of an edge folded by a right angle or more: concave and convex.
+constexpr double concave_discount = 0.5;
+constexpr double convex_discount = 0.25;
+/// The cost of turning back, in lengths of the two edges' mean.
+constexpr double turn_back_cost = 1.0;
+
+using QueueItem = std::pair<double, int>;
+using Queue = std::priority_queue<QueueItem, std::vector<QueueItem>, std::greater<>>;
+
+struct FaceShape {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d centre;
+};
+
+/// Newell's normal and the mean of the corners.
+FaceShape shape_of(const PolygonMesh& mesh, const Positions& positions, int face) {
+  FaceShape shape{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const int first = mesh.face_offsets[face];
+  const int size = mesh.face_offsets[face + 1] - first;
+  const Eigen::Vector3d origin = positions.row(mesh.corner_vertices[first]);
+  for (int i = 0; i < size; ++i) {
+    const Eigen::Vector3d p = positions.row(mesh.corner_vertices[first + i]);
+    const Eigen::Vector3d q = positions.row(mesh.corner_vertices[first + (i + 1) % size]);
+    shape.normal += (p - origin).cross(q - origin);
+    shape.centre += p / size;
+  }
+  shape.normal.normalize();
+  return shape;
+}
+
+}  // namespace
+
+SeamGraph::SeamGraph(const PolygonMesh& mesh)
+    : positions_(Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)) {
+  validate(mesh);
+  collect_edges(mesh);
+  start_.assign(static_cast<std::size_t>(mesh.n_vertices) + 1, 0);
+  for (const Edge& edge : edges_) {
+    for (const int v : edge.vertices) ++start_[v + 1];
+  }
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  arcs_.resize(static_cast<std::size_t>(start_.back()));
+  std::vector<int> fill(start_.begin(), start_.end() - 1);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [a, b] = edges_[e].vertices;
+    arcs_[fill[a]++] = {static_cast<int>(e), b};
+    arcs_[fill[b]++] = {static_cast<int>(e), a};
+  }
+  for (int i = 0; i < mesh.n_seam_edges; ++i) {
+    const int edge = find_edge(mesh.seam_edges[i][0], mesh.seam_edges[i][1]);
+    if (edge >= 0) cut(edge);
+  }
+  price_edges(mesh);
+}
+
+void SeamGraph::collect_edges(const PolygonMesh& mesh) {
+  struct Side {
+    std::array<int, 2> vertices;
+    int face;
+    bool operator<(const Side& other) const {
+      return vertices != other.vertices ? vertices < other.vertices : face < other.face;
+    }
+  };
+  std::vector<Side> sides;
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
+    const int first = mesh.face_offsets[face];
+    const int size = mesh.face_offsets[face + 1] - first;
+    for (int i = 0; i < size; ++i) {
+      const int a = mesh.corner_vertices[first + i];
+      const int b = mesh.corner_vertices[first + (i + 1) % size];
+      if (a != b) sides.push_back({{std::min(a, b), std::max(a, b)}, face});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i;
+    while (end < sides.size() && sides[end].vertices == sides[i].vertices) ++end;
+    const auto [a, b] = sides[i].vertices;
+    const double length = (positions_.row(a) - positions_.row(b)).norm();
+    edges_.push_back(
+        {sides[i].vertices, {sides[i].face, end > i + 1 ? sides[i + 1].face : -1}, length, length, end != i + 2});
+    i = end;
+  }
+}
+
+void SeamGraph::price_edges(const PolygonMesh& mesh) {
+  std::vector<FaceShape> shapes(static_cast<std::size_t>(mesh.n_faces));
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (mesh.face_offsets[face + 1] > mesh.face_offsets[face]) shapes[face] = shape_of(mesh, positions_, face);
+  }
+  for (Edge& edge : edges_) {
+    if (edge.cut) continue;
+    const FaceShape& left = shapes[edge.faces[0]];
+    const FaceShape& right = shapes[edge.faces[1]];
+    const double fold = std::min(1 - left.normal.dot(right.normal), 1.0);
+    const Eigen::Vector3d middle = 0.5 * (positions_.row(edge.vertices[0]) + positions_.row(edge.vertices[1]));
+    const bool concave = left.normal.dot(right.centre - middle) > 0;
+    if (fold > 0) edge.cost *= 1 - fold * (concave ? concave_discount : convex_discount);
+  }
+}
+
+int SeamGraph::find_edge(int a, int b) const {
+  for (int k = start_[a]; k < start_[a + 1]; ++k) {
+    if (arcs_[k].to == b) return arcs_[k].edge;
+  }
+  return -1;
+}
+
+std::vector<double> SeamGraph::distances(const std::vector<int>& sources, const std::function<bool(int)>& allowed,
+                                         std::vector<int>* parent) const {
+  std::vector<double> distance(static_cast<std::size_t>(n_vertices()), infinite);
+  if (parent != nullptr) parent->assign(distance.size(), -1);
+  Queue queue;
+  for (const int source : sources) {
+    distance[source] = 0;
+    queue.emplace(0.0, source);
+  }
+  while (!queue.empty()) {
+    const auto [d, vertex] = queue.top();
+    queue.pop();
+    if (d > distance[vertex]) continue;
+    for (int k = start_[vertex]; k < start_[vertex + 1]; ++k) {
+      const auto [edge, to] = arcs_[k];
+      const double through = d + (edges_[edge].cut ? 0 : edges_[edge].cost);
+      if (!(through < distance[to]) || !allowed(edge)) continue;
+      distance[to] = through;
+      if (parent != nullptr) (*parent)[to] = edge;
+      queue.emplace(through, to);
+    }
+  }
+  return distance;
+}
+
+double SeamGraph::turn_cost(int vertex, const Arc& in, const Arc& out) const {
+  const Edge& first = edges_[in.edge];
+  const Edge& second = edges_[out.edge];
+  if (first.cut || second.cut) return 0;
+  const int from = first.vertices[0] == vertex ? first.vertices[1] : first.vertices[0];
+  const double lengths = first.length * second.length;
+  if (!(lengths > 0)) return 0;
+  const double cosine =
+      (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(out.to) - positions_.row(vertex)) / lengths;
+  return turn_back_cost * 0.5 * (1 - cosine) * 0.5 * (first.length + second.length);
+}
+
+std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
+                                 const std::function<bool(int, int)>& allowed) const {
+  if (is_target[start] != 0) return {};
+  // The states are arcs: what a turn costs depends on the edge that it comes from.
+  std::vector<double> distance(arcs_.size(), infinite);
+  std::vector<int> previous(arcs_.size(), -1);
+  Queue queue;
+  const auto walk = [&](int from_arc, double d, int vertex) {
+    for (int k = start_[vertex]; k < start_[vertex + 1]; ++k) {
+      const Arc& out = arcs_[k];
+      if (!allowed(out.edge, vertex)) continue;
+      const double step = (edges_[out.edge].cut ? 0 : edges_[out.edge].cost) +
+                          (from_arc < 0 ? 0 : turn_cost(vertex, arcs_[from_arc], out));
+      if (!(d + step < distance[k])) continue;
+      distance[k] = d + step;
+      previous[k] = from_arc;
+      queue.emplace(distance[k], k);
+    }
+  };
+  walk(-1, 0, start);
+  while (!queue.empty()) {
+    const auto [d, arc] = queue.top();
+    queue.pop();
+    if (d > distance[arc]) continue;
+    if (is_target[arcs_[arc].to] != 0) {
+      std::vector<int> result;
+      for (int k = arc; k >= 0; k = previous[k]) result.push_back(arcs_[k].edge);
+      std::reverse(result.begin(), result.end());
+      return result;
+    }
+    walk(arc, d, arcs_[arc].to);
+  }
+  return {};
+}
+
+}  // namespace spectral_conformal

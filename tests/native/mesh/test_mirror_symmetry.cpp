@@ -1,0 +1,82 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/mirror_symmetry.h"
+#include "meshes.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+int matched_faces(const MirrorSymmetry& symmetry) {
+  return static_cast<int>(std::count_if(symmetry.face.begin(), symmetry.face.end(), [](int f) { return f >= 0; }));
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("mirror_symmetry");
+
+TEST_CASE("a symmetric mesh is mapped onto itself, wherever it lies") {
+  Mesh mesh = spiky_grid(2, 3);
+  for (Eigen::Vector3d& p : mesh.points) p += Eigen::Vector3d(1000, -50, 3);
+  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
+  CHECK(symmetry.axis == 0);
+  CHECK(matched_faces(symmetry) == mesh.n_faces());
+  for (int v = 0; v < static_cast<int>(mesh.points.size()); ++v) {
+    const int image = symmetry.vertex[v];
+    REQUIRE(image >= 0);
+    CHECK(symmetry.vertex[image] == v);
+    CHECK(mesh.points[v].x() + mesh.points[image].x() == doctest::Approx(2016));
+    CHECK(symmetry.side[v] == (mesh.points[v].x() < 1008 ? -1 : mesh.points[v].x() > 1008 ? 1 : 0));
+  }
+  for (int f = 0; f < mesh.n_faces(); ++f) CHECK(symmetry.face[symmetry.face[f]] == f);
+}
+
+TEST_CASE("the plane with most faces is taken, and what has no image there is left out") {
+  Mesh mesh = quad_grid(6, 3);
+  mesh.points[0].z() = 5;  // a corner: the plane z = constant matches nothing, x and y lose one face each
+  mesh.points[6].z() = 5;  // the other corner in x
+  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
+  CHECK(symmetry.axis == 0);
+  CHECK(matched_faces(symmetry) == mesh.n_faces());
+}
+
+TEST_CASE("a mesh without symmetry has few images, coordinates that are not finite none") {
+  CHECK(matched_faces(find_mirror_symmetry(bumpy_grid(6, 5).view())) == 0);
+  Mesh mesh = quad_grid(4, 4);
+  mesh.points[12].x() = std::numeric_limits<double>::quiet_NaN();
+  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
+  CHECK(symmetry.vertex[12] == -1);
+  CHECK(matched_faces(symmetry) == 12);
+  CHECK(find_mirror_symmetry(Mesh().view()).axis == -1);
+}
+
+TEST_CASE("vertices in the same place are told apart by their faces") {
+  // Two sheets on each side that touch in one point each, where both have a vertex.
+  Mesh mesh;
+  for (const double side : {1.0, -1.0}) {
+    for (const double up : {1.0, -1.0}) {
+      mesh.append({{{side, 0, 0}, {2 * side, 0, up}, {2 * side, 1, 2 * up}}, {{0, 1, 2}}});
+    }
+  }
+  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
+  CHECK(symmetry.axis == 0);
+  CHECK(symmetry.face == std::vector<int>{2, 3, 0, 1});
+}
+
+TEST_CASE("unselected faces are no images") {
+  const Mesh mesh = quad_grid(4, 1);
+  PolygonMesh view = mesh.view();
+  const bool selected[4] = {true, true, true, true};
+  view.selected_faces = selected;
+  CHECK(matched_faces(find_mirror_symmetry(view)) == 4);
+  const bool left[4] = {true, true, false, false};
+  view.selected_faces = left;
+  // The centre is that of the selection.
+  CHECK(find_mirror_symmetry(view).face == std::vector<int>{1, 0, -1, -1});
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
