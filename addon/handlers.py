@@ -7,8 +7,9 @@ They run often, most of the time for nothing that concerns the add-on, and leave
 import bpy
 from bpy.app.handlers import persistent
 
-from .extenders import adjusted_map, storage, tracking
-from .live import following
+from . import operators
+from .extenders import storage, tracking
+from .live import adjusted_map, following
 
 
 @persistent
@@ -38,6 +39,7 @@ def _after_undo(*_arguments: object) -> None:
 
 @persistent
 def _before_load(*_arguments: object) -> None:
+    operators.before_load()
     following.forget()
     tracking.forget()
     storage.forget()

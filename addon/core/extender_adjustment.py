@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from . import charts, native, placement, solve
+from .errors import ReadableError
 from .mesh import PolygonMesh
 from .options import Options
 
@@ -14,7 +15,7 @@ from .options import Options
 _TOLERANCE = 1e-4
 
 
-class AdjustmentError(ValueError):
+class AdjustmentError(ReadableError, ValueError):
     """The extenders cannot be adjusted; the message says why and what to do."""
 
 

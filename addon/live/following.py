@@ -14,10 +14,8 @@ import bpy
 
 from .. import names
 from ..core import texts
+from ..core.errors import PrintOnce, ReadableError
 from ..core.extender_adjustment import AdjustmentError
-from ..core.native import NativeModuleError
-from ..edit_mesh.packing import PackingError
-from ..ui import console
 from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
 from .snapshot import Edge, Snapshot
@@ -26,7 +24,6 @@ from .snapshot import Edge, Snapshot
 _REST = 0.3
 # Looking for changes may take this fraction of the time.
 _MAX_LOAD = 0.2
-_COULD_NOT = f"{texts.LIVE_UNWRAP_LABEL} could not follow"
 
 
 @dataclass
@@ -43,6 +40,7 @@ class _State:
 
 
 _state = _State()
+_print_once = PrintOnce(texts.could_not_follow)
 
 
 def is_on(scene: bpy.types.Scene) -> bool:
@@ -120,7 +118,7 @@ def after_undo() -> None:
 
 def toggled() -> None:
     """Begin, or stop, with what there is now; problems are told again."""
-    console.forget(_COULD_NOT)
+    _print_once.forget()
     see()
 
 
@@ -195,7 +193,7 @@ def _follow_strengths(edit_object: bpy.types.Object, strengths: Mapping[Edge, fl
     try:
         extenders.follow(edit_object, strengths)
     except AdjustmentError as error:
-        console.print_once(f"{_COULD_NOT}: {error}")
+        _print_once(error)
         return False
     return True
 
@@ -279,10 +277,10 @@ def _guarded() -> Iterator[None]:
     outer, _state.is_busy = _state.is_busy, True
     try:
         yield
-    except (NativeModuleError, PackingError) as error:
-        console.print_once(f"{_COULD_NOT}: {error}")
+    except ReadableError as error:
+        _print_once(error)
     except Exception as error:  # noqa: BLE001 - an error in a handler would come again with every movement of the mouse
         forget()
-        console.print_once(f"{_COULD_NOT}: {type(error).__name__}: {error}")
+        _print_once(error)
     finally:
         _state.is_busy = outer

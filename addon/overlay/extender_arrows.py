@@ -15,9 +15,9 @@ from bpy_extras import view3d_utils
 
 from ..core import arrow_shapes, texts
 from ..core.arrow_shapes import ArrowSize
+from ..core.errors import PrintOnce
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
-from ..ui import console
 from .fill import fill_triangles
 
 _Point = tuple[float, float]
@@ -31,7 +31,8 @@ _ACTIVE_OUTLINE = (1.0, 1.0, 1.0, 1.0)
 _DIMMED = 0.3
 _SIZE = ArrowSize()
 _OUTLINE_PIXELS = 1.5
-_COULD_NOT = f"{texts.EXTENDERS_LABEL} could not be drawn"
+
+_print_once = PrintOnce(lambda problem: texts.not_drawn(texts.EXTENDERS_LABEL, problem))
 
 _handles: list[tuple[type, object]] = []
 
@@ -51,10 +52,12 @@ def _draw_in_uv_editor() -> None:
 
 def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None:
     """Draw the arrows of all meshes in edit mode; the active one of the active object's mesh last, highlighted."""
-    with console.errors_printed_once(_COULD_NOT):
+    try:
         corners, colors = _triangles(context, places_of)
         if len(corners):
             fill_triangles(corners, colors)
+    except Exception as error:  # noqa: BLE001 - it would come again with every redraw
+        _print_once(error)
 
 
 def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:
@@ -145,4 +148,4 @@ def unregister() -> None:
     for space, handle in _handles:
         space.draw_handler_remove(handle, "WINDOW")
     _handles.clear()
-    console.forget(_COULD_NOT)
+    _print_once.forget()

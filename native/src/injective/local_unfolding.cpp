@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "injective/distortion_descent.h"
+#include "injective/descent.h"
 
 namespace spectral_conformal {
 namespace {

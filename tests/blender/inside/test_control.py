@@ -2,7 +2,7 @@
 """Extenders, hole rigidity, the blend from angles to areas and stretching, in the operator."""
 
 import sys
-from types import SimpleNamespace
+from types import FunctionType, SimpleNamespace
 
 import bmesh
 import bpy
@@ -131,7 +131,7 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     settings = module("core.options").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("extenders.adjusted_map"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.adjusted_map"), "last_settings", lambda: settings)
     reports()
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
     assert any("without its Subdivision Surface" in text for _, text in reports()) == subdivide
@@ -204,19 +204,10 @@ class Dragged:
         # What a bpy operator instance would have.
         self.operator = SimpleNamespace(index=-1, strength=1.0, reported=[])
         self.operator.report = lambda levels, text: self.operator.reported.append(text)
-        for name in (
-            "_adjusted",
-            "_drag",
-            "_type",
-            "_show",
-            "_keep",
-            "_end",
-            "_handle",
-            "_restored_on_error",
-            "cancel",
-        ):
-            function = getattr(self.operator_class, name)
-            setattr(self.operator, name, function.__get__(self.operator))
+        for cls in reversed(self.operator_class.__mro__):
+            for name, function in vars(cls).items():
+                if isinstance(function, FunctionType) and cls.__module__.startswith("spectral_unwrap"):
+                    setattr(self.operator, name, function.__get__(self.operator))
         self.status = []
         self.context = SimpleNamespace(
             edit_object=bpy.context.edit_object,

@@ -1,4 +1,4 @@
-#include "injective/distortion_descent.h"
+#include "injective/descent.h"
 
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -157,7 +157,7 @@ class Directions {
   std::deque<Pair> pairs_;
 };
 
-/// The descent on given elements, whose softening it takes away as their images gain area.
+/// The descent on given elements, which regains the barriers of triangles that gain image area.
 class Relaxation {
  public:
   Relaxation(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
@@ -168,17 +168,20 @@ class Relaxation {
         options_(options),
         proxy_(elements, fixed, options.measure, z.size(), backend) {}
 
-  void run(const Progress& progress, Descent& result) {
-    // Each round presses harder on triangles that the last one did not pull in, and counts only if that helps.
-    constexpr double shares[] = {1, 0.5, 0.1};
-    for (const double share : shares) {
-      const ComplexVector before = z_;
-      soften(share);
-      descend_to_rest(progress, result);
-      const bool first = share == shares[0];
-      if (!first && count_flipped(elements_, z_) >= count_flipped(elements_, before)) z_ = before;
-      if (soft_ == 0) return;
+  Descent run(const Progress& progress) {
+    // Each round presses harder on triangles that the last one left flipped.
+    constexpr double fractions[] = {1, 0.5, 0.1};
+    for (const double fraction : fractions) {
+      const bool first = fraction == fractions[0];
+      const State before = state();
+      regularize(fraction);
+      if (first) result_.energy_before = energy_;
+      result_.status = minimize(progress);
+      if (!first && count_flipped(elements_, z_) >= count_flipped(elements_, before.z)) restore(before);
+      if (regularized_ == 0 || count_flipped(elements_, z_) == 0) break;
     }
+    result_.energy = energy_;
+    return result_;
   }
 
  private:
@@ -188,28 +191,54 @@ class Relaxation {
   struct Step {
     double length = 0;  ///< relative to the full one; 0 when none lowers the energy
     double relative_fall = 0;
+    double promised_fall = 0;  ///< relative: of the quadratic model over the full step
   };
 
-  void descend_to_rest(const Progress& progress, Descent& result) {
+  /// What a rejected round must leave as it was.
+  struct State {
+    ComplexVector z;
+    std::vector<double> regularization;
+    int regularized = 0;
+    double energy = 0;
+    DescentStatus status = DescentStatus::factorization_limit;
+  };
+
+  State state() const {
+    State state{z_, {}, regularized_, energy_, result_.status};
+    for (const DistortionElement& element : elements_) state.regularization.push_back(element.softening);
+    return state;
+  }
+
+  void restore(const State& state) {
+    z_ = state.z;
+    // A barrier that the rejected round raised would be infinite on a triangle that is flipped again.
+    for (std::size_t t = 0; t < elements_.size(); ++t) elements_[t].softening = state.regularization[t];
+    regularized_ = state.regularized;
+    energy_ = state.energy;
+    result_.status = state.status;
+  }
+
+  DescentStatus minimize(const Progress& progress) {
     constexpr int steps_per_factor = 10;
-    while (result.factorizations < options_.max_factorizations) {
-      const double done = static_cast<double>(result.factorizations) / options_.max_factorizations;
+    while (result_.factorizations < options_.max_factorizations) {
+      const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       directions_.clear();
-      if (!proxy_.factorize(z_, result.factorizations)) return;
+      if (!proxy_.factorize(z_, result_.factorizations)) return DescentStatus::indefinite_form;
       for (int k = 0; k < steps_per_factor; ++k) {
         report(progress, done, "relax");
         const Step step = descend();
-        if (step.length > 0) ++result.iterations;
+        if (step.length > 0) ++result_.iterations;
         const bool small = step.relative_fall < options_.tolerance;
-        if (small && k == 0) return;
+        if (small && k == 0) {
+          const bool is_minimum = step.length >= short_step || step.promised_fall < options_.tolerance;
+          return is_minimum ? DescentStatus::converged : DescentStatus::stalled;
+        }
         // A new factor takes larger steps where the energy changes quickly or barriers cut the steps short.
         if (small || step.relative_fall > quick_fall || step.length < short_step) break;
       }
     }
+    return DescentStatus::factorization_limit;
   }
-
-  /// Of each element: an isometry's, a similarity's.
-  double least_energy() const { return options_.measure == DistortionMeasure::conformal ? 2 : 4; }
 
   double evaluate(const ComplexVector& z, ComplexVector& gradient) const {
     const double energy = energy_and_gradient(elements_, options_.measure, z, gradient);
@@ -219,60 +248,69 @@ class Relaxation {
     return energy;
   }
 
+  /// The energy above its infimum, that of an isometry or a similarity.
+  double excess(double energy) const {
+    const double infimum = options_.measure == DistortionMeasure::conformal ? 2 : 4;
+    // The small constant ends the descent on developable patches, whose energy has no excess.
+    return std::abs(energy - infimum) + 1e-4;
+  }
+
   Step descend() {
-    constexpr double part_of_largest = 0.9;
+    constexpr double fraction_of_largest = 0.9;
     constexpr double sufficient = 1e-4;
     constexpr int max_halvings = 20;
     const ComplexVector direction = directions_.descent(proxy_, gradient_);
     const double slope = dot(gradient_, direction);
-    if (!(slope < 0)) return {};
-    double length = std::min(1.0, part_of_largest * largest_step(elements_, z_, direction));
+    Step step;
+    step.promised_fall = -0.5 * slope / excess(energy_);
+    if (!(slope < 0)) return step;
+    double length = std::min(1.0, fraction_of_largest * largest_step(elements_, z_, direction));
     for (int k = 0; k < max_halvings; ++k, length *= 0.5) {
       const ComplexVector moved = z_ + length * direction;
       ComplexVector gradient;
       const double energy = evaluate(moved, gradient);
       if (!(energy <= energy_ + sufficient * length * slope)) continue;
-      // The small constant ends the descent on developable patches, whose energy has no excess.
-      const double fall = (energy_ - energy) / (std::abs(energy - least_energy()) + 1e-4);
+      step.length = length;
+      step.relative_fall = (energy_ - energy) / excess(energy);
       directions_.add(moved - z_, gradient - gradient_);
       z_ = moved;
       energy_ = energy;
       gradient_ = std::move(gradient);
-      harden();
-      return {length, fall};
+      raise_barriers();
+      return step;
     }
-    return {};
+    return step;
   }
 
-  /// Softens the triangles without image area, in proportion to their size: as little as their surroundings bear.
-  void soften(double share) {
+  /// Regularises the triangles without image area, in proportion to their size: as little as their surroundings bear.
+  void regularize(double fraction) {
     constexpr double least_softening = 1e-2;
-    soft_ = 0;
+    regularized_ = 0;
     for (DistortionElement& element : elements_) {
       const MapJacobian j = jacobian(element, z_);
       // Once a barrier stands, it is kept.
       const bool holds = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
       if (!element.without_area() && (started_ || !element.barrier() || holds)) continue;
-      element.softening = share * std::max(j.half_square, least_softening);
-      ++soft_;
+      element.softening = fraction * std::max(j.half_square, least_softening);
+      ++regularized_;
     }
     started_ = true;
     energy_ = evaluate(z_, gradient_);
   }
 
   /// Triangles that have gained image area keep it from now on.
-  void harden() {
+  void raise_barriers() {
     constexpr double enough = 0.03;
-    if (soft_ == 0) return;
-    const int before = soft_;
+    if (regularized_ == 0) return;
+    const int before = regularized_;
     for (DistortionElement& element : elements_) {
       if (!element.without_area()) continue;
       const MapJacobian j = jacobian(element, z_);
       if (!(j.has_area() && j.determinant > enough * j.half_square)) continue;
       element.softening = 0;
-      --soft_;
+      --regularized_;
     }
-    if (soft_ == before) return;
+    if (regularized_ == before) return;
     directions_.clear();
     energy_ = evaluate(z_, gradient_);
   }
@@ -285,17 +323,16 @@ class Relaxation {
   Directions directions_;
   double energy_ = 0;
   ComplexVector gradient_;
-  int soft_ = 0;
+  int regularized_ = 0;   ///< elements
   bool started_ = false;  ///< barriers stand
+  Descent result_;
 };
 
 }  // namespace
 
 Descent descend(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
                 FactorizationBackend backend, const DescentOptions& options, const Progress& progress) {
-  Descent result;
-  Relaxation(elements, fixed, z, backend, options).run(progress, result);
-  return result;
+  return Relaxation(elements, fixed, z, backend, options).run(progress);
 }
 
 }  // namespace spectral_conformal

@@ -17,9 +17,9 @@ from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_loops
-from ..live import following
+from ..extenders import storage
 from ..unwrapping.last_settings import last_settings
-from . import storage
+from . import following
 
 
 class AdjustedMap:

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "injective/distortion_descent.h"
+#include <cmath>
+
+#include "injective/descent.h"
 #include "meshes.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/parameterize.h"
@@ -15,7 +17,7 @@ double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasu
 
 }  // namespace
 
-TEST_SUITE_BEGIN("distortion_descent");
+TEST_SUITE_BEGIN("descent");
 
 TEST_CASE("the conformal descent of a flat patch ends at a similarity, whatever the backend") {
   const Patch patch(flat_grid(8, 6));
@@ -79,6 +81,83 @@ TEST_CASE("a folded triangle is pulled in and then keeps its area") {
     REQUIRE(count_flipped(elements, z) > 0);
     descend(elements, {}, z, FactorizationBackend::automatic, {measure, 1e-3, 40}, {});
     CHECK(count_flipped(elements, z) == 0);
+  }
+}
+
+TEST_CASE("a rejected round takes its barriers back: the energy of what is returned is finite") {
+  // One flipped triangle is held. Later rounds find room for flipped ones that are not measured, which does not count:
+  // they are rejected. Barriers that stayed would be infinite on these triangles, and any step would be accepted.
+  const Patch patch(bumpy_grid(10, 8));
+  for (const double crease : {1.5, 2.5, 5.5, 6.5}) {
+    ComplexVector z = flat_map(patch.positions);
+    for (Complex& value : z) {
+      if (value.real() > crease) value.real(2 * crease - value.real());
+    }
+    auto elements = patch.elements();
+    std::size_t last = 0;
+    for (std::size_t t = 0; t < elements.size(); ++t) {
+      elements[t].measured = t % 2 == 0;
+      if (elements[t].measured && !(jacobian(elements[t], z).determinant > 0)) last = t;
+    }
+    std::vector<char> held(static_cast<std::size_t>(z.size()), 0);
+    for (const int v : elements[last].corners) held[v] = 1;
+    const int flipped = count_flipped(elements, z);
+    const Descent descent = descend(elements, held, z, FactorizationBackend::automatic, {});
+    CHECK(count_flipped(elements, z) >= 1);
+    CHECK(count_flipped(elements, z) < flipped);
+    const double energy = energy_of(elements, DistortionMeasure::symmetric_dirichlet, z);
+    CHECK(std::isfinite(energy));
+    CHECK(descent.energy == energy);
+  }
+}
+
+TEST_CASE("the status tells convergence from a bound that came first, the energies what was gained") {
+  const Patch patch(bumpy_grid(10, 8));
+  const ComplexVector start = flat_map(patch.positions) + 0.1 * random_map(patch.positions.rows());
+  for (const auto measure : {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal}) {
+    const auto run = [&](double tolerance, int max_factorizations, ComplexVector& z) {
+      auto elements = patch.elements();
+      const Descent descent =
+          descend(elements, {}, z, FactorizationBackend::automatic, {measure, tolerance, max_factorizations});
+      CHECK(descent.energy_before == energy_of(elements, measure, start));
+      CHECK(descent.energy == energy_of(elements, measure, z));
+      CHECK(descent.energy < descent.energy_before);
+      CHECK(descent.iterations > 0);
+      return descent;
+    };
+    ComplexVector z = start;
+    const Descent bounded = run(0, 1, z);
+    CHECK(bounded.status == DescentStatus::factorization_limit);
+    CHECK(bounded.factorizations == 1);
+    z = start;
+    const Descent converged = run(1e-3, 60, z);
+    CHECK(converged.status == DescentStatus::converged);
+    CHECK(converged.factorizations < 60);
+    CHECK(converged.energy < bounded.energy);
+    // From its end the descent has no way to go.
+    auto elements = patch.elements();
+    const ComplexVector end = z;
+    const Descent again = descend(elements, {}, z, FactorizationBackend::automatic, {measure, 1e-2, 60});
+    CHECK(again.status == DescentStatus::converged);
+    CHECK(again.energy > 0.99 * converged.energy);
+    CHECK(again.factorizations <= 2);
+  }
+}
+
+TEST_CASE("a descent that barriers stop although its gradient promises more has stalled") {
+  // Folded over near its end, where the flipped majority leaves no room: steps are cut to nothing.
+  const Patch patch(bumpy_grid(10, 8));
+  for (const double crease : {0.5, 1.5}) {
+    ComplexVector z = flat_map(patch.positions);
+    for (Complex& value : z) {
+      if (value.real() > crease) value.real(2 * crease - value.real());
+    }
+    auto elements = patch.elements();
+    const Descent descent =
+        descend(elements, {}, z, FactorizationBackend::automatic, {DistortionMeasure::conformal, 1e-2, 60});
+    CHECK(count_flipped(elements, z) > 0);
+    CHECK(descent.status == DescentStatus::stalled);
+    CHECK(descent.factorizations < 60);
   }
 }
 
