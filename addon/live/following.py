@@ -139,9 +139,10 @@ def stop() -> None:
 @contextmanager
 def not_following() -> Iterator[None]:
     """Within, nothing is followed, and what changed within is not followed afterwards."""
-    if _state.is_busy or not is_on(bpy.context.scene):
+    if _state.is_busy:
         yield
         return
+    # Also where it is off: it may be turned on within.
     _state.is_busy = True
     try:
         yield
