@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <utility>
 
 #include "quality/overlap.h"
-#include "quality/turning_number.h"
 
 namespace spectral_conformal {
 
@@ -103,6 +101,8 @@ class ChartUnwrapper {
   ChartUnwrapper(const Cut& cut, Chart chart, const UnwrapOptions& options) : cut_(cut), chart_(std::move(chart)) {
     report_.n_vertices = chart_.n_vertices();
     report_.method = options.solve.method;
+    report_.weights = options.patch.weights;
+    report_.boundary = options.patch.boundary;
     report_.faces = chart_.faces;
     report_.faces.insert(report_.faces.end(), chart_.duplicates.begin(), chart_.duplicates.end());
     std::sort(report_.faces.begin(), report_.faces.end());
@@ -110,8 +110,10 @@ class ChartUnwrapper {
       pins_ = chart_pins(cut.mesh, chart_, cut.decomposition.chart_vertex_of_corner, options.corner_pins);
       add_vertex_pins(cut.split, chart_, options.vertex_pins, pins_);
       report_.n_pins = static_cast<int>(pins_.size());
-      soft_pins_ = options.solve.method == Method::spectral ? options.solve.soft_pins : 0;
-      if (pins_.size() > 1 && !(soft_pins_ > 0)) report_.method = Method::lscm;
+      options_ = options.solve;
+      options_.extenders.clear();
+      options_.hole_rigidity = 0;
+      report_.method = options_.method = method_with_pins(options.solve, pins_.size());
       solver_ = std::make_unique<Solver>(chart_, chart_.positions(cut.mesh), options.patch,
                                          chart_metric(cut.mesh, chart_, options.metric));
     } catch (const InvalidMesh& problem) {
@@ -125,23 +127,24 @@ class ChartUnwrapper {
     UnwrappedChart report = report_;
     if (!solver_) return report;
     try {
-      SolveOptions options;
-      options.method = report.method;
+      SolveOptions options = options_;
       options.tolerance = tolerance;
-      options.soft_pins = soft_pins_;
       std::vector<std::size_t> acting;
       if (report.method == Method::spectral) {
         options.hole_rigidity = hole_rigidity;
         options.extenders = own(extenders, acting);
       }
       const Parameterization solution = solver_->solve(options, pins_, progress);
-      if (options.has_forces() && std::abs(solution.turning_number) != 1) {
-        throw SolveFailure(describe_winding(solution.turning_number),
-                           "weaken or remove extenders, or lower the hole rigidity.");
-      }
       report.solved = true;
       measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
       report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
+      report.method = solution.method;
+      report.weights = solution.weights;
+      report.boundary = solution.boundary;
+      report.fallback = solution.fallback;
+      report.clamped_triangles = solution.clamped_triangles;
+      report.eigenvalue_of = solution.eigenvalue_of;
+      report.attempts = solution.attempts;
       report.message = solution.message;
       report.eigenvalue = solution.eigenvalue;
       report.residual = solution.residual;
@@ -206,7 +209,7 @@ class ChartUnwrapper {
   Chart chart_;
   UnwrappedChart report_;  ///< before a solve
   Pins pins_;
-  double soft_pins_ = 0;
+  SolveOptions options_;  ///< without forces
   std::unique_ptr<Solver> solver_;                   ///< null where the chart cannot be solved
   std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
 };
