@@ -32,7 +32,7 @@ HEADER_ONLY = {"errors", "progress", "types"}
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
-    "CGAL": (r"CGAL/|boost/", {"polygon_triangulation.cpp"}),
+    "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {"module.cpp"}),
     "the dynamic linker": (r"dlfcn\.h", {"factorization.cpp"}),
 }
