@@ -236,7 +236,7 @@ class PatchSolver {
     const std::vector<sc::SpaceMetric> tensors = space_metric(vertices, triangles, metric);
     const py::gil_scoped_release unlocked;
     const auto start = std::chrono::steady_clock::now();
-    const sc::Chart chart = sc::single_patch(mesh);
+    const sc::Chart chart = sc::single_chart(mesh);
     charts_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     vertices_ = chart.vertices;
     solver_ = std::make_unique<sc::Solver>(chart, chart.positions(mesh), options,
