@@ -15,6 +15,7 @@
 #include <thread>
 #include <tuple>
 
+#include "linear_algebra/blas_threads.h"
 #include "linear_algebra/factorization.h"
 #include "mesh/chart_checks.h"
 #include "spectral_conformal/distortion.h"
