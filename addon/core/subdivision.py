@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .polygon_mesh import PolygonMesh
-from .unwrapping import Solution
+from .mesh import PolygonMesh
+from .solve import Solution
 
 
 @dataclass(frozen=True)

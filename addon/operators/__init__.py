@@ -3,8 +3,8 @@
 
 import bpy
 
-from .adjust_extender import MESH_OT_spectral_extender_adjust
-from .extenders import (
+from .extender_adjust import MESH_OT_spectral_extender_adjust
+from .extender_list import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,

@@ -4,17 +4,19 @@
 import bpy
 from bpy.props import BoolProperty
 
-from .. import mesh_io, mesh_selection, names
-from ..core import map_defects, reporting
+from .. import names
+from ..core import defects, texts
 from ..core.native import NativeModuleError
+from ..edit_mesh import selection
+from ..edit_mesh.read import read_mesh
 
 
 class UV_OT_spectral_select_defects(bpy.types.Operator):
     """Select the faces that are flipped or overlap others in the active UV map."""
 
     bl_idname = names.SELECT_DEFECTS_OPERATOR
-    bl_label = names.SELECT_DEFECTS_LABEL
-    bl_description = names.SELECT_DEFECTS_DESCRIPTION
+    bl_label = texts.SELECT_DEFECTS_LABEL
+    bl_description = texts.SELECT_DEFECTS_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
     flipped: BoolProperty(
@@ -52,26 +54,26 @@ class UV_OT_spectral_select_defects(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Look at the visible faces, in the UV editor at those shown there, and select the ones with defects."""
         if not (self.flipped or self.overlapping):
-            self.report({"WARNING"}, reporting.NO_DEFECT_CHOSEN)
+            self.report({"WARNING"}, texts.NO_DEFECT_CHOSEN)
             return {"CANCELLED"}
-        shows_selected = mesh_selection.selects_uvs(context)
+        shows_selected = selection.selects_uvs(context)
         edit_meshes = [
-            mesh_io.read(edit_object, all_visible=not shows_selected)
+            read_mesh(edit_object, all_visible=not shows_selected)
             for edit_object in context.objects_in_mode_unique_data
         ]
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
-            self.report({"WARNING"}, reporting.NO_UV_MAP)
+            self.report({"WARNING"}, texts.NO_UV_MAP)
             return {"CANCELLED"}
         try:
-            defects = map_defects.find([edit_mesh.polygons for edit_mesh in edit_meshes], self.between_islands)
+            found = defects.find([edit_mesh.polygons for edit_mesh in edit_meshes], self.between_islands)
         except NativeModuleError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        chosen = [found.chosen(self.flipped, self.overlapping) for found in defects]
-        self.report({"INFO"}, reporting.selected_defects(defects, self.flipped, self.overlapping))
+        chosen = [each.chosen(self.flipped, self.overlapping) for each in found]
+        self.report({"INFO"}, texts.selected_defects(found, self.flipped, self.overlapping))
         if any(faces.any() for faces in chosen):
             faces = {edit_mesh.mesh: flags for edit_mesh, flags in zip(edit_meshes, chosen)}
-            mesh_selection.select_shown(context, faces, self.extend)
+            selection.select_shown(context, faces, self.extend)
         # Finished even where there are none, so that the options can be changed.
         return {"FINISHED"}

@@ -3,17 +3,20 @@
 
 import bpy
 
-from .. import edit_mode_unwrap, mesh_selection, names
-from ..core import reporting
+from .. import names
+from ..core import summary, texts
 from ..core.native import NativeModuleError
+from ..core.options import Settings
+from ..edit_mesh import selection
+from ..unwrapping import steps
 
 
 class UV_OT_spectral_select_failed(bpy.types.Operator):
     """Select the faces of the islands that Spectral Unwrap cannot solve."""
 
     bl_idname = names.SELECT_FAILED_OPERATOR
-    bl_label = names.SELECT_FAILED_LABEL
-    bl_description = names.SELECT_FAILED_DESCRIPTION
+    bl_label = texts.SELECT_FAILED_LABEL
+    bl_description = texts.SELECT_FAILED_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -23,18 +26,18 @@ class UV_OT_spectral_select_failed(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Solve without writing anything, and select the faces of failed islands."""
-        settings = edit_mode_unwrap.Settings(correct_aspect=False)
-        edit_meshes = edit_mode_unwrap.read(context, settings) or edit_mode_unwrap.read(context, settings, True)
+        settings = Settings(correct_aspect=False)
+        edit_meshes = steps.read(context, settings) or steps.read(context, settings, True)
         try:
-            solutions = edit_mode_unwrap.solve(edit_meshes, settings)
+            solutions = steps.solve(edit_meshes, settings)
         except NativeModuleError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        islands, faces = reporting.count_failed(solutions)
-        self.report({"INFO"}, reporting.selected_failed(islands, faces))
+        islands, faces = summary.count_failed(solutions)
+        self.report({"INFO"}, texts.selected_failed(islands, faces))
         if not faces:
             return {"CANCELLED"}
-        mesh_selection.select_only(
+        selection.select_only(
             context,
             {edit_mesh.mesh: solution.failed_faces for edit_mesh, solution in zip(edit_meshes, solutions)},
         )

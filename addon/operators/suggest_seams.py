@@ -8,15 +8,21 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
-from .. import edit_mode_unwrap, live_unwrap, names, progress, seam_suggestion
-from ..core import reporting, unwrapping
+from .. import names
+from ..core import texts
 from ..core.native import NativeModuleError
+from ..core.progress import Progress
 from ..core.seam_suggestion import Options, Search, Suggestion
-from ..core.unwrapping import Progress, Solution
+from ..core.solve import Solution, solve_all
+from ..core.summary import summarize
 from ..core.worker import Worker
-from ..packing import PackingError
-from ..seam_preview import SeamPreview, length_text
-from ..seam_suggestion import Target
+from ..edit_mesh.packing import PackingError
+from ..live import following
+from ..overlay.seam_lines import SeamPreview, length_text
+from ..ui import progress
+from ..unwrapping import seams, steps
+from ..unwrapping.last_settings import last_settings
+from ..unwrapping.seams import Target
 
 # A search or solve shorter than this ends within the click that started it.
 _SECONDS_BEFORE_MODAL = 0.25
@@ -38,8 +44,8 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
     """Mark seams that lower the distortion, shown before they are marked, and unwrap again."""
 
     bl_idname = names.SUGGEST_SEAMS_OPERATOR
-    bl_label = names.SUGGEST_SEAMS_LABEL
-    bl_description = names.SUGGEST_SEAMS_DESCRIPTION
+    bl_label = texts.SUGGEST_SEAMS_LABEL
+    bl_description = texts.SUGGEST_SEAMS_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
     size_variation: FloatProperty(
@@ -78,7 +84,7 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
     )
     unwrap: BoolProperty(
         name="Unwrap",
-        description=f"Unwrap the faces afterwards, with the settings with which {names.UNWRAP_LABEL} was used last",
+        description=f"Unwrap the faces afterwards, with the settings with which {texts.UNWRAP_LABEL} was used last",
         default=True,
     )
 
@@ -89,7 +95,7 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where a mesh is in edit mode, once at a time."""
         if cls._running is not None and cls._running.is_wanted:
-            cls.poll_message_set(f"{names.SUGGEST_SEAMS_LABEL} is running; Esc cancels it")
+            cls.poll_message_set(f"{texts.SUGGEST_SEAMS_LABEL} is running; Esc cancels it")
             return False
         return context.mode == "EDIT_MESH"
 
@@ -107,16 +113,16 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
         if target is None:
             return {"CANCELLED"}
         try:
-            with progress.blocking(context, names.SUGGEST_SEAMS_LABEL) as report_progress:
+            with progress.blocking(context, texts.SUGGEST_SEAMS_LABEL) as report_progress:
                 found = _look(target, self._options(target), report_progress)
             if not found.suggestion.cuts:
                 return self._report_nothing(target, found)
             cuts = found.suggestion.part(0, self._count(found.suggestion))
             start, solutions = time.perf_counter(), None
             if self.unwrap:
-                edit_meshes = seam_suggestion.read_cut_open(context, target, cuts)
-                with progress.blocking(context, names.SUGGEST_SEAMS_LABEL) as report_progress:
-                    solutions = edit_mode_unwrap.solve(edit_meshes, target.settings, report_progress)
+                edit_meshes = seams.read_cut_open(context, target, cuts)
+                with progress.blocking(context, texts.SUGGEST_SEAMS_LABEL) as report_progress:
+                    solutions = steps.solve(edit_meshes, target.settings, report_progress)
         except NativeModuleError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -154,7 +160,7 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
         is_pressed = event.value == "PRESS"
         if context.mode != "EDIT_MESH" or (event.type in {"ESC", "RIGHTMOUSE"} and is_pressed):
             self.cancel(context)
-            self.report({"INFO"}, f"{names.SUGGEST_SEAMS_LABEL}: Cancelled")
+            self.report({"INFO"}, f"{texts.SUGGEST_SEAMS_LABEL}: Cancelled")
             return {"CANCELLED"}
         if event.type == "TIMER":
             return self._advance(context)
@@ -192,7 +198,7 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
         if worker.wait(_SECONDS_BEFORE_MODAL):
             return self._go_on(context)
         type(self)._running = worker
-        self._progress = progress.WindowProgress(context, names.SUGGEST_SEAMS_LABEL)
+        self._progress = progress.WindowProgress(context, texts.SUGGEST_SEAMS_LABEL)
         return {"RUNNING_MODAL"}
 
     def _go_on(self, context: bpy.types.Context) -> set[str]:
@@ -220,17 +226,17 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
         self._start = time.perf_counter()
         if not self.unwrap:
             return self._write_if_current(context, None)
-        target = seam_suggestion.read_again(context, self._target)
+        target = seams.read_again(context, self._target)
         if target is None:
             return self._report_change()
-        edit_meshes = seam_suggestion.read_cut_open(context, target, self._cuts)
+        edit_meshes = seams.read_cut_open(context, target, self._cuts)
         return self._wait(
             context,
-            Worker(lambda report_progress: edit_mode_unwrap.solve(edit_meshes, target.settings, report_progress)),
+            Worker(lambda report_progress: steps.solve(edit_meshes, target.settings, report_progress)),
         )
 
     def _write_if_current(self, context: bpy.types.Context, solutions: list[Solution] | None) -> set[str]:
-        target = seam_suggestion.read_again(context, self._target)
+        target = seams.read_again(context, self._target)
         if target is None:
             return self._report_change()
         return self._write(context, target, self._cuts, solutions, self._start)
@@ -247,16 +253,16 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
         outcome = None
         try:
             if solutions is None:
-                seam_suggestion.mark(target, cuts)
+                seams.mark(target, cuts)
             else:
-                outcome = seam_suggestion.write(context, target, cuts, solutions)
+                outcome = seams.write(context, target, cuts, solutions, following.not_following)
         except PackingError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, reporting.marked(len(cuts.cuts), length_text(context, cuts.length)))
+        self.report({"INFO"}, texts.marked(len(cuts.cuts), length_text(context, cuts.length)))
         self._report_refused(target, cuts)
         if outcome is not None:
-            for level, text in edit_mode_unwrap.reports(outcome, time.perf_counter() - start):
+            for level, text in steps.reports(outcome, time.perf_counter() - start):
                 self.report({level}, text)
         return {"FINISHED"}
 
@@ -270,7 +276,7 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> Target | None:
         """Return what is to be cut; None having reported that there is nothing."""
-        target = seam_suggestion.read(context, live_unwrap.last_settings())
+        target = seams.read(context, last_settings())
         if target is None:
             self.report({"WARNING"}, "No visible faces to cut")
         return target
@@ -287,15 +293,15 @@ class UV_OT_spectral_suggest_seams(bpy.types.Operator):
 
     def _report_nothing(self, target: Target, found: "_Found") -> set[str]:
         if not all(found.suggestion.errors):
-            self.report({"INFO"}, reporting.nothing_to_suggest(self.max_length > 0.0))
+            self.report({"INFO"}, texts.nothing_to_suggest(self.max_length > 0.0))
         self._report_refused(target, found.suggestion)
-        failures = reporting.failures(reporting.summarize(found.uncut, target.names))
+        failures = texts.failures(summarize(found.uncut, target.names))
         if failures:
             self.report({"WARNING"}, failures)
         return {"CANCELLED"}
 
     def _report_refused(self, target: Target, suggestion: Suggestion) -> None:
-        refused = reporting.without_suggestion(suggestion.errors, target.names)
+        refused = texts.without_suggestion(suggestion.errors, target.names)
         if refused:
             self.report({"WARNING"}, refused)
 
@@ -317,7 +323,7 @@ def _look(target: Target, options: Options, report_progress: Progress) -> _Found
     suggestion = _search.suggest(target.polygons, options, report_progress)
     if suggestion.cuts:
         return _Found(suggestion)
-    return _Found(suggestion, unwrapping.solve_all(target.polygons, target.settings.options, report_progress))
+    return _Found(suggestion, solve_all(target.polygons, target.settings.options, report_progress))
 
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:

@@ -6,11 +6,16 @@ import time
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
-from .. import edit_mode_unwrap, names, progress
-from ..core import unwrapping
+from .. import names
+from ..core import texts
 from ..core.native import NativeModuleError
-from ..packing import Margin, PackingError
-from ..solving import UnwrapInThread
+from ..edit_mesh.packing import PackingError
+from ..live import following
+from ..ui import progress
+from ..unwrapping import steps
+from ..unwrapping.in_thread import UnwrapInThread
+from ..unwrapping.last_settings import settings_of
+from ..unwrapping.steps import Outcome
 
 # A solve shorter than this ends within the click that started it.
 _SECONDS_BEFORE_MODAL = 0.25
@@ -20,16 +25,16 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
     """Unwrap the selected faces by Spectral Conformal Parameterization."""
 
     bl_idname = names.UNWRAP_OPERATOR
-    bl_label = names.UNWRAP_LABEL
-    bl_description = names.UNWRAP_DESCRIPTION
+    bl_label = texts.UNWRAP_LABEL
+    bl_description = texts.UNWRAP_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    method: EnumProperty(name="Method", description="Unwrapping method", items=names.METHOD_ITEMS)
-    weights: EnumProperty(name="Weights", description="How much each triangle counts", items=names.WEIGHTS_ITEMS)
+    method: EnumProperty(name="Method", description="Unwrapping method", items=texts.METHOD_ITEMS)
+    weights: EnumProperty(name="Weights", description="How much each triangle counts", items=texts.WEIGHTS_ITEMS)
     boundary: EnumProperty(
-        name="Boundary", description="How much each boundary vertex counts", items=names.BOUNDARY_ITEMS
+        name="Boundary", description="How much each boundary vertex counts", items=texts.BOUNDARY_ITEMS
     )
-    placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=names.PLACEMENT_ITEMS)
+    placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=texts.PLACEMENT_ITEMS)
     fill_holes: BoolProperty(
         name="Fill Holes",
         description="Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
@@ -85,7 +90,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         name="Correct Aspect", description="Map UVs taking image aspect ratio into account", default=True
     )
     margin_method: EnumProperty(
-        name="Margin Method", description="What the margin is measured by", items=names.MARGIN_METHOD_ITEMS
+        name="Margin Method", description="What the margin is measured by", items=texts.MARGIN_METHOD_ITEMS
     )
     margin: FloatProperty(
         name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
@@ -98,7 +103,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where a mesh is in edit mode, one solve at a time."""
         if cls._running is not None and cls._running.worker.is_wanted:
-            cls.poll_message_set(f"{names.UNWRAP_LABEL} is running; Esc cancels it")
+            cls.poll_message_set(f"{texts.UNWRAP_LABEL} is running; Esc cancels it")
             return False
         return context.mode == "EDIT_MESH"
 
@@ -133,7 +138,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         layout.prop(self, "correct_aspect")
         layout.prop(self, "placement")
         column = layout.column()
-        column.active = self.placement == names.PACK
+        column.active = self.placement == texts.PACK
         column.prop(self, "margin_method")
         column.prop(self, "margin")
 
@@ -142,7 +147,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         start = time.perf_counter()
         try:
             with progress.blocking(context) as report_progress:
-                outcome = edit_mode_unwrap.unwrap(context, self.settings(), report_progress)
+                outcome = steps.unwrap(context, settings_of(self), report_progress, following.not_following)
         except (NativeModuleError, PackingError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -152,10 +157,10 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         """Unwrap as `execute` does, but solve in a thread, so that Blender's windows live and Esc cancels."""
         if bpy.app.background:
             return self.execute(context)
-        edit_meshes = edit_mode_unwrap.read(context, self.settings())
+        edit_meshes = steps.read(context, settings_of(self))
         if not edit_meshes:
             return self._report(None, 0.0)
-        running = UnwrapInThread(self.settings(), edit_meshes)
+        running = UnwrapInThread(settings_of(self), edit_meshes)
         if running.worker.wait(_SECONDS_BEFORE_MODAL):
             return self._write(context, running)
         type(self)._running = running
@@ -167,7 +172,7 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         """Wait for the solve; let nothing but view navigation through."""
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, f"{names.UNWRAP_LABEL}: Cancelled")
+            self.report({"INFO"}, f"{texts.UNWRAP_LABEL}: Cancelled")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
@@ -190,37 +195,17 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
     def _write(self, context: bpy.types.Context, solved: UnwrapInThread) -> set[str]:
         """Write what was solved in a thread and report the result."""
         try:
-            outcome = solved.write(context)
+            outcome = solved.write(context, following.not_following)
         except (NativeModuleError, PackingError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return self._report(outcome, solved.seconds)
 
-    def settings(self) -> edit_mode_unwrap.Settings:
-        """Return the settings that the properties make."""
-        return edit_mode_unwrap.Settings(
-            unwrapping.Options(
-                self.method.lower(),
-                self.weights.lower(),
-                self.boundary.lower(),
-                fill_holes=self.fill_holes,
-                soft_pins=self.soft_pin_strength if self.soft_pins and self.method == "SPECTRAL" else 0.0,
-                hole_rigidity=self.hole_rigidity,
-                area_blend=self.area_blend,
-                fold_free=self.fold_free,
-                stretch=self.stretch,
-            ),
-            keep_in_place=self.placement == names.KEEP,
-            margin=Margin(self.margin, self.margin_method),
-            correct_aspect=self.correct_aspect,
-            use_subsurf=self.use_subsurf_data,
-        )
-
-    def _report(self, outcome: edit_mode_unwrap.Outcome | None, seconds: float) -> set[str]:
+    def _report(self, outcome: Outcome | None, seconds: float) -> set[str]:
         """Tell the user what was done in `seconds`; return the operator's status."""
         if outcome is None:
             self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
             return {"CANCELLED"}
-        for level, text in edit_mode_unwrap.reports(outcome, seconds):
+        for level, text in steps.reports(outcome, seconds):
             self.report({level}, text)
         return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

@@ -10,6 +10,7 @@ ADDON = Path(__file__).resolve().parents[2] / "addon"
 CORE = ADDON / "core"
 BLENDER = {"bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "addon_utils"}
 STANDARD = {
+    "__future__",
     "collections",
     "contextlib",
     "dataclasses",

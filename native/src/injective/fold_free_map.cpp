@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "geometry/quad_splits.h"
-#include "injective/distortion_descent.h"
+#include "injective/descent.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
 #include "quality/turning_number.h"
@@ -121,7 +121,7 @@ class FoldFree {
       unfold_locally(lifted, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
     }
     relax(lifted, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
-    relax(lifted, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
+    result.relaxation = relax(lifted, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
     result.folded = count_folded(elements_, result.z);
     result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
     return result;
@@ -161,16 +161,19 @@ class FoldFree {
     return lifted;
   }
 
-  /// Lessens the distortion without a new fold.
-  void relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
-             const Progress& progress, ComplexVector& z) const {
+  /// Lessens the distortion without a new fold. None where that did no good and z stays.
+  std::optional<Descent> relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
+                               const Progress& progress, ComplexVector& z) const {
     constexpr int max_factorizations = 60;
     const int folded = count_folded(elements, z);
     const double factor = mean_scale_factor(elements, z);
-    if (!(factor > 0) || !std::isfinite(factor)) return;
+    if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
-    descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
-    if (relaxed.allFinite() && count_folded(elements, relaxed) <= folded) z = std::move(relaxed);
+    const Descent descent =
+        descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
+    if (!relaxed.allFinite() || count_folded(elements, relaxed) > folded) return std::nullopt;
+    z = std::move(relaxed);
+    return descent;
   }
 
   const FoldFreePatch& patch_;

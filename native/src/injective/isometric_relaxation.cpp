@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "injective/distortion_descent.h"
+#include "injective/descent.h"
 
 namespace spectral_conformal {
 namespace {
@@ -26,6 +26,20 @@ BestScale best_scale(const std::vector<DistortionElement>& elements, const Compl
   }
   if (!(weight > 0)) return {};
   return {std::sqrt(std::sqrt(q / p)), 2 * std::sqrt(p) * std::sqrt(q) / weight};
+}
+
+RelaxationStatus relaxation_status(DescentStatus status) {
+  switch (status) {
+    case DescentStatus::converged:
+      return RelaxationStatus::converged;
+    case DescentStatus::factorization_limit:
+      return RelaxationStatus::factorization_limit;
+    case DescentStatus::stalled:
+      return RelaxationStatus::stalled;
+    case DescentStatus::indefinite_form:
+      break;
+  }
+  return RelaxationStatus::indefinite_form;
 }
 
 }  // namespace
@@ -53,7 +67,9 @@ IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
   relaxed *= scale.factor;
   const int flipped = count_flipped(elements, relaxed);
   result.energy = result.energy_before;
+  result.status = RelaxationStatus::rejected;
   if (flipped > result.flipped || !relaxed.allFinite()) return result;
+  result.status = relaxation_status(descent.status);
   result.z = std::move(relaxed);
   result.energy = scale.energy;
   result.flipped = flipped;

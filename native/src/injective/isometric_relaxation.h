@@ -11,6 +11,15 @@
 
 namespace spectral_conformal {
 
+enum class RelaxationStatus {
+  converged,            ///< a step with a fresh factor took away less than IsometryOptions::tolerance
+  factorization_limit,  ///< IsometryOptions::max_factorizations came first: more of them would lower the energy further
+  stalled,              ///< the gradient promises more, but flips or rounding leave (almost) no step along it
+  indefinite_form,      ///< the quadratic form of the direction is not positive definite in double precision
+  no_image_area,        ///< no triangle of the given map has image area to measure: it is returned as it is
+  rejected              ///< the descent left more flipped triangles, or overflowed: the given map is returned
+};
+
 struct IsometryOptions {
   /// Stop when a step with a fresh factor takes away less than this part of the energy above that of an isometry.
   double tolerance = 1e-2;
@@ -25,8 +34,9 @@ struct IsometricMap {
   ComplexVector z;           ///< (V,) u + i v, at the scale of least energy; the input where nothing could be done
   double energy_before = 0;  ///< of the input; 0 when no triangle of it could be measured
   double energy = 0;         ///< of z
-  int iterations = 0;        ///< steps taken
-  int factorizations = 0;    ///< those repeated because of rounding included
+  RelaxationStatus status = RelaxationStatus::no_image_area;  ///< why the descent ended
+  int iterations = 0;                                         ///< steps taken
+  int factorizations = 0;                                     ///< those repeated because of rounding included
   /// Triangles of z, neither virtual nor clamped, without positive image area; never more than before.
   int flipped = 0;
 };

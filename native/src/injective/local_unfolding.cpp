@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "injective/distortion_descent.h"
+#include "injective/descent.h"
 #include "quality/flips.h"
 
 namespace spectral_conformal {

@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 import scenes
 
-edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
-progress = importlib.import_module("spectral_unwrap.progress")
-solving = importlib.import_module("spectral_unwrap.solving")
-unwrapping = importlib.import_module("spectral_unwrap.core.unwrapping")
+options = importlib.import_module("spectral_unwrap.core.options")
+progress = importlib.import_module("spectral_unwrap.ui.progress")
+in_thread = importlib.import_module("spectral_unwrap.unwrapping.in_thread")
+steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 native = importlib.import_module("spectral_unwrap.core.native")
 
 
 def started():
     """Start to unwrap in a thread what is in edit mode."""
-    settings = edit_mode_unwrap.Settings(unwrapping.Options())
-    return solving.UnwrapInThread(settings, edit_mode_unwrap.read(bpy.context, settings))
+    settings = options.Settings()
+    return in_thread.UnwrapInThread(settings, steps.read(bpy.context, settings))
 
 
 def printed(capfd):
@@ -93,7 +93,7 @@ def test_error_in_the_thread_is_raised_on_writing(monkeypatch):
     def fail(*_arguments):
         raise native.NativeModuleError("not installed")
 
-    monkeypatch.setattr(edit_mode_unwrap, "solve", fail)
+    monkeypatch.setattr(steps, "solve", fail)
     grid = scenes.grid(2, 2)
     scenes.edit(grid)
     before = scenes.read_uv(grid)

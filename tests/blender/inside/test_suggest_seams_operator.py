@@ -233,8 +233,8 @@ def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
     for edge in scenes.edit_mesh(cube).edges:
         edge.seam = False
     scenes.write_uv(cube, 0.5 + 0.1 * packed)
-    settings = module("edit_mode_unwrap").Settings(keep_in_place=True)
-    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    settings = module("core.options").Settings(keep_in_place=True)
+    monkeypatch.setattr(module("operators.suggest_seams"), "last_settings", lambda: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     low, high = scenes.bounds(scenes.read_uv(cube))
     assert low.min() >= 0.5 - 1e-5
@@ -245,8 +245,8 @@ def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkey
     cube = CLOSED["cube"]()
     cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
     scenes.edit(cube)
-    settings = module("edit_mode_unwrap").Settings(use_subsurf=True)
-    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    settings = module("core.options").Settings(use_subsurf=True)
+    monkeypatch.setattr(module("operators.suggest_seams"), "last_settings", lambda: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert seams(cube)
     assert texts(reports, "Warning") == []
@@ -313,7 +313,7 @@ def test_a_one_sided_band_is_cut(reports):
 def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
     cube = scenes.cube()
     scenes.edit(cube)
-    packing = module("packing")
+    packing = module("edit_mesh.packing")
 
     def fail(*_arguments):
         raise packing.PackingError("not today")

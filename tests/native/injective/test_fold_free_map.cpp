@@ -59,6 +59,7 @@ TEST_CASE("a map without folds is returned as it is") {
   CHECK(map.z == z);
   CHECK(map.folded_before == 0);
   CHECK_FALSE(map.is_embedding);
+  CHECK_FALSE(map.relaxation);
   CHECK(map.is_locally_injective);
 }
 
@@ -84,6 +85,9 @@ TEST_CASE("a map that winds round twice inside is given up for an embedding") {
   for (Complex& value : z) value *= value;
   const FoldFreeMap map = input.solve(z);
   CHECK(map.is_embedding);
+  REQUIRE(map.relaxation);
+  CHECK(map.relaxation->status == DescentStatus::converged);
+  CHECK(map.relaxation->energy < map.relaxation->energy_before);
   CHECK(map.is_locally_injective);
   CHECK(input.is_fold_free(map.z));
   // The patch is flat: relaxed, the embedding is nearly a similarity.

@@ -150,6 +150,7 @@ TEST_CASE("each factorisation more lowers the energy") {
   for (int k = 1; k <= 4; ++k) {
     const IsometricMap map = relax(patch, start, {0, k});
     CHECK(map.factorizations == k);
+    CHECK(map.status == RelaxationStatus::factorization_limit);
     CHECK(map.energy < map.energy_before);
     CHECK(map.energy < previous);
     previous = map.energy;
@@ -160,6 +161,7 @@ TEST_CASE("run to the end, the derivative vanishes in every direction") {
   const Patch patch(bumpy_grid(8, 7));
   const ComplexVector start = conformal_map(patch);
   const IsometricMap map = relax(patch, start, {1e-10, 100});
+  CHECK(map.status == RelaxationStatus::converged);
   const double step = 1e-5;
   const auto slope = [&](const ComplexVector& z, const ComplexVector& direction) {
     return (symmetric_dirichlet_energy(patch, z + step * direction) -
@@ -259,6 +261,8 @@ TEST_CASE("a start without any image area is returned as it is") {
   for (const ComplexVector& start : {mirrored, line, point}) {
     const IsometricMap map = relax(patch, start);
     CHECK(map.z == start);
+    CHECK(map.status == RelaxationStatus::no_image_area);
+    CHECK(map.iterations == 0);
     CHECK(map.energy_before == 0);
     CHECK(map.flipped == static_cast<int>(patch.chart.triangles.size()));
   }
