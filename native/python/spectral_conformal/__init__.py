@@ -11,6 +11,7 @@ progress function that returns False Cancelled; what it raises itself passes thr
 """
 
 from ._api import Solver, Unwrapper, build_info, distortion, map_defects, parameterize, unwrap
+from ._charts import chart_of_face
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
 from ._seams import suggest_cuts, suggest_seams
@@ -31,6 +32,7 @@ __all__ = [
     "Unwrapper",
     "blend_metric",
     "build_info",
+    "chart_of_face",
     "distortion",
     "map_defects",
     "metric_from_direction",
