@@ -6,6 +6,7 @@ from pathlib import Path
 
 import bmesh
 import bpy
+import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parent))
 
@@ -95,6 +96,41 @@ def pairs():
     extenders = sys.modules["spectral_unwrap.extenders.storage"]
     mesh = bpy.context.edit_object.data
     return extenders.ends(bmesh.from_edit_mesh(mesh), mesh)
+
+
+def raise_a_hill():
+    """Make the grid a surface on which forces matter, and unwrap it."""
+    mesh = bpy.context.edit_object.data
+    for vertex in bmesh.from_edit_mesh(mesh).verts:
+        x, y, _ = vertex.co
+        vertex.co.z = 1.2 * np.exp(-6.0 * ((x - 0.2) ** 2 + (y + 0.1) ** 2))
+    bmesh.update_edit_mesh(mesh)
+    with override("VIEW_3D"):
+        bpy.ops.mesh.select_all(action="SELECT")
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
+        bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
+    yield from drive.show_uvs()
+
+
+def make_two():
+    for pair in ((0, 6), (35, 24)):
+        yield from click_vertices(*pair)
+        yield from click_sidebar(ADD)
+    assert pairs() == [(0, 6), (35, 24)], pairs()
+
+
+def drag(pixels):
+    """Press the button and move the mouse."""
+    yield from click_sidebar(ADJUST)
+    for _ in range(5):
+        xdotool("mousemove_relative", "--", pixels // 5, 0)
+        yield
+
+
+def check_map_undo_and_redo(before, after):
+    point_at("VIEW_3D", 0.3, 0.3)
+    yield
+    yield from drive.check_undo_and_redo(before, after)
 
 
 def check_undo_and_redo(before, after):
