@@ -32,6 +32,7 @@ HEADER_ONLY = {"errors", "progress", "types"}
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
+    "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
     "CGAL": (r"CGAL/|boost/", {"polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {"module.cpp"}),
     "the dynamic linker": (r"dlfcn\.h", {"factorization.cpp"}),
