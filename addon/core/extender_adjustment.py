@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import live, native, placement, unwrapping
-from .polygon_mesh import PolygonMesh
+from . import native, pinned_chart, placement, solve
+from .mesh import PolygonMesh
+from .options import Options
 
 # Relative residual that the map on screen needs; a pixel is a thousandth of it.
 _TOLERANCE = 1e-4
@@ -25,7 +26,7 @@ class ExtenderAdjustment:
         corners: (N,) intp, the corners of the charts that the extender acts on, whole faces.
     """
 
-    def __init__(self, mesh: PolygonMesh, options: unwrapping.Options, extender: tuple[int, int]) -> None:
+    def __init__(self, mesh: PolygonMesh, options: Options, extender: tuple[int, int]) -> None:
         """Take the charts of `mesh` that hold both vertices of `extender`.
 
         Extenders of `mesh` between the same two vertices give way to the one adjusted.
@@ -49,7 +50,7 @@ class ExtenderAdjustment:
                 mesh.vertices,
                 mesh.face_offsets,
                 mesh.corner_vertices,
-                **unwrapping.arguments(self._mesh, replace(options, method="spectral")),
+                **solve.arguments(self._mesh, replace(options, method="spectral")),
             )
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
@@ -95,7 +96,7 @@ class ExtenderAdjustment:
 
 def _faces_of_charts(mesh: PolygonMesh, extender: tuple[int, int]) -> np.ndarray:
     """Return which faces belong to charts with both vertices, (F,) bool."""
-    chart_of_face = live.chart_of_face(mesh, mesh.selected_faces)
+    chart_of_face = pinned_chart.chart_of_face(mesh, mesh.selected_faces)
     face_of_corner = mesh.face_of_corner()
     charts = [set(chart_of_face[face_of_corner[mesh.corner_vertices == vertex]].tolist()) for vertex in extender]
     common = (charts[0] & charts[1]) - {-1}

@@ -87,10 +87,10 @@ PolygonMesh Mesh::view() const {
 
 std::vector<DistortionElement> Patch::elements() const {
   const ConformalEnergy uniform = energy(Weights::uniform);
-  return distortion_elements(uniform.triangles(), uniform.shapes(), uniform.coverage(), 0);
+  return distortion_elements(uniform.triangles(), uniform.shapes(), uniform.triangle_weights(), 0);
 }
 
-Patch::Patch(const Mesh& mesh) : chart(single_patch(mesh.view())), positions(chart.positions(mesh.view())) {}
+Patch::Patch(const Mesh& mesh) : chart(single_chart(mesh.view())), positions(chart.positions(mesh.view())) {}
 
 const BoundaryLoop& Patch::outer() const { return chart.boundary_loops[outer_loop(chart.boundary_loops, positions)]; }
 

@@ -33,7 +33,9 @@ struct Patch {
   Chart chart;
   Positions positions;
   explicit Patch(const Mesh& mesh);
-  ConformalEnergy energy(Weights weights) const { return {positions, chart.triangles, chart.coverage, weights}; }
+  ConformalEnergy energy(Weights weights) const {
+    return {positions, chart.triangles, chart.triangle_weights, weights};
+  }
   std::vector<DistortionElement> elements() const;
   /// The longest loop.
   const BoundaryLoop& outer() const;

@@ -11,7 +11,7 @@ NATIVE = ROOT / "native"
 PUBLIC_HEADERS = sorted((NATIVE / "include").rglob("*.h"))
 HEADERS = [*PUBLIC_HEADERS, *sorted((NATIVE / "src").rglob("*.h"))]
 SOURCES = sorted((NATIVE / "src").rglob("*.cpp"))
-BINDINGS = sorted((NATIVE / "bindings").glob("*.cpp"))
+BINDINGS = sorted(path for path in (NATIVE / "bindings").iterdir() if path.suffix in {".cpp", ".h"})
 TESTS = ROOT / "tests" / "native"
 # From the ground: a file includes from its own floor and from those below.
 FLOORS = (
@@ -30,12 +30,12 @@ FLOORS = (
 HEADER_ONLY = {"errors", "progress", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
-    "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"factorization.cpp"}),
+    "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
     "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
-    "CGAL": (r"CGAL/|boost/", {"polygon_triangulation.cpp"}),
-    "Python": (r"pybind11|Python\.h|numpy/", {"module.cpp"}),
-    "the dynamic linker": (r"dlfcn\.h", {"factorization.cpp"}),
+    "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
+    "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),
+    "the dynamic linker": (r"dlfcn\.h|windows\.h", {"blas_threads.cpp"}),
 }
 
 
@@ -58,7 +58,7 @@ def floor_of(path):
 
 def floor_of_header(header):
     """Return the floor of an included header of ours, None for any other."""
-    return next((floor_of(path) for path in HEADERS if header == f"{path.parent.name}/{path.name}"), None)
+    return next((floor_of(path) for path in [*HEADERS, *BINDINGS] if header == f"{path.parent.name}/{path.name}"), None)
 
 
 def upward_includes(floor, headers):
@@ -131,7 +131,7 @@ def test_a_source_includes_its_own_header_first(path):
     assert includes(path)[0] in {f"spectral_conformal/{path.stem}.h", f"{path.parent.name}/{path.stem}.h"}
 
 
-@pytest.mark.parametrize("path", HEADERS, ids=relative)
+@pytest.mark.parametrize("path", [path for path in [*HEADERS, *BINDINGS] if path.suffix == ".h"], ids=relative)
 def test_headers_are_guarded_and_leave_namespaces_closed(path):
     text = path.read_text(encoding="utf-8")
     assert text.startswith("#pragma once\n")

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/signed_area.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -13,18 +15,22 @@ constexpr double greatest_entry = 1e12;
 }  // namespace
 
 ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
-                                 std::vector<std::array<int, 3>> triangles, std::vector<double> coverage,
+                                 std::vector<std::array<int, 3>> triangles, std::vector<double> triangle_weights,
                                  Weights weights, std::size_t n_virtual)
-    : triangles_(std::move(triangles)), coverage_(std::move(coverage)), weights_(weights), n_virtual_(n_virtual) {
+    : triangles_(std::move(triangles)),
+      triangle_weights_(std::move(triangle_weights)),
+      weights_(weights),
+      n_virtual_(n_virtual) {
   shapes_.resize(triangles_.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    shapes_[t] = lay_out(positions.row(a), positions.row(b), positions.row(c));
+    shapes_[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
     if (t + n_virtual_ >= triangles_.size()) continue;
     if (shapes_[t].clamped) ++clamped_triangles_;
-    area_ += coverage_[t] * (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c))
-                                                : shapes_[t].area());
-    covered_ += coverage_[t];
+    area_ +=
+        triangle_weights_[t] *
+        (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes_[t].area());
+    weight_sum_ += triangle_weights_[t];
   }
   weigh();
   assemble(static_cast<int>(positions.rows()));
@@ -32,13 +38,13 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
 
 ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
     : triangles_(like.triangles_),
-      coverage_(like.coverage_),
+      triangle_weights_(like.triangle_weights_),
       shapes_(like.shapes_),
       stretched_(like.stretched_),
       weights_(weights),
       n_virtual_(like.n_virtual_),
       area_(like.area_),
-      covered_(like.covered_),
+      weight_sum_(like.weight_sum_),
       clamped_triangles_(like.clamped_triangles_) {
   weigh();
   assemble(like.n_vertices());
@@ -58,7 +64,7 @@ int ConformalEnergy::lift(double least_height) {
   for (TriangleShape& shape : stretched_) {
     // A raised shape must not count again because of rounding.
     if (!(shape.relative_height() < least_height * (1 - 1e-9))) continue;
-    shape = shape.raised(least_height);
+    shape = shape.clamped_to(least_height);
     ++lifted;
   }
   if (lifted > 0) assemble(n_vertices());
@@ -66,11 +72,11 @@ int ConformalEnergy::lift(double least_height) {
 }
 
 void ConformalEnergy::weigh() {
-  weight_unit_ = weights_ == Weights::inverse_area && covered_ > 0 ? area_ / covered_ : 1;
+  weight_unit_ = weights_ == Weights::inverse_area && weight_sum_ > 0 ? area_ / weight_sum_ : 1;
 }
 
 double ConformalEnergy::weight(std::size_t triangle) const {
-  const double share = coverage_[triangle];
+  const double share = triangle_weights_[triangle];
   if (weights_ == Weights::uniform) return share;
   const TriangleShape& shape = shapes_[triangle];
   return share / std::max(shape.area() / weight_unit_, 1 / (greatest_entry * shape.relative_height()));
@@ -98,13 +104,12 @@ void ConformalEnergy::assemble(int n_vertices) {
     const double half_weight = 0.5 * weight(t);
     const double double_area = s.x1 * s.y2;
     // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
-    const double cotangent[3] = {s.x1 * s.x2 / double_area, s.x1 * (s.x1 - s.x2) / double_area,
-                                 (s.x2 * (s.x2 - s.x1) + s.y2 * s.y2) / double_area};
+    const std::array<double, 3> scaled_cotangents = s.scaled_cotangents();
     for (int k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3];
       const int j = triangle[(k + 2) % 3];
       if (i == j) continue;
-      const double dirichlet = half_weight * cotangent[k];
+      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);
       diagonal[i] += dirichlet;
       diagonal[j] += dirichlet;
       // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2, L_ji its conjugate.
@@ -174,7 +179,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    sum += weight(t) * std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
+    sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
   return sum;
 }

@@ -23,11 +23,11 @@ enum class Weights {
 /// area form does not change.
 class ConformalEnergy {
  public:
-  /// positions (V, 3) near unit scale; triangles counter-clockwise; coverage per triangle. The last `n_virtual`
+  /// positions (V, 3) near unit scale; triangles counter-clockwise; triangle_weights per triangle. The last `n_virtual`
   /// triangles (filled holes) are in the energy and in no measure of the surface.
-  /// Nearly degenerate triangles are clamped as lay_out does and counted in clamped_triangles().
+  /// Nearly degenerate triangles are clamped as local_isometric_frame does and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
-                  std::vector<double> coverage, Weights weights, std::size_t n_virtual = 0);
+                  std::vector<double> triangle_weights, Weights weights, std::size_t n_virtual = 0);
   /// The same patch and metric with other weights.
   ConformalEnergy(const ConformalEnergy& like, Weights weights);
 
@@ -42,7 +42,7 @@ class ConformalEnergy {
   int n_vertices() const { return static_cast<int>(matrix_.rows()); }
   Weights weights() const { return weights_; }
   int clamped_triangles() const { return clamped_triangles_; }
-  /// True area of the surface, coverage included, in squared units of the positions.
+  /// True area of the surface, weighted by the triangle weights, in squared units of the positions.
   double area() const { return area_; }
   /// The factor by which inverse-area weights were multiplied (the mean triangle area); 1 for uniform weights.
   double weight_unit() const { return weight_unit_; }
@@ -62,7 +62,7 @@ class ConformalEnergy {
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
   /// Stretched by the metric, and lifted.
   const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
-  const std::vector<double>& coverage() const { return coverage_; }
+  const std::vector<double>& triangle_weights() const { return triangle_weights_; }
 
  private:
   void weigh();
@@ -70,14 +70,14 @@ class ConformalEnergy {
   void assemble(int n_vertices);
 
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<double> coverage_;
+  std::vector<double> triangle_weights_;
   std::vector<TriangleShape> shapes_;
   std::vector<TriangleShape> stretched_;  ///< empty without a metric or lifted triangles
   Weights weights_;
   std::size_t n_virtual_;
   double weight_unit_ = 1;
   double area_ = 0;
-  double covered_ = 0;  ///< coverage of all triangles, added up
+  double weight_sum_ = 0;  ///< sum of the triangle weights, without virtual triangles
   int clamped_triangles_ = 0;
   HermitianMatrix matrix_;
 };

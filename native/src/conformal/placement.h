@@ -5,7 +5,8 @@
 
 namespace spectral_conformal {
 
-/// Signed area of the map, coverage included, without the weights of section 4.1 and without virtual triangles.
+/// Signed area of the map, weighted by the triangle weights, without the weights of section 4.1 and without virtual
+/// triangles.
 double signed_area(const ConformalEnergy& energy, const ComplexVector& z);
 
 /// Fixes what the conformal energy leaves free: the mean of the vertices goes to 0, the signed area becomes `area`, and

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/signed_area.h"
+#include "quality/flips.h"
+
 namespace spectral_conformal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
 constexpr double isometry = 4;
-
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
 /// The determinant as DistortionElement::softening changes it, and the derivative of that.
 struct SoftDeterminant {
@@ -146,26 +147,26 @@ double largest_step(const std::vector<DistortionElement>& elements, const Comple
 
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
-    return element.measured && !(jacobian(element, z).determinant > 0);
+    return element.measured && !is_positive(element.corners, z);
   }));
 }
 
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
-                                                   const std::vector<double>& coverage, std::size_t n_virtual) {
+                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual) {
   constexpr double virtual_weight = 1e-2;
   // Rounding leaves nothing of the shape of smaller ones in the map.
   constexpr double least_area = 1e-18;
   double total = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!shapes[t].clamped) total += coverage[t] * shapes[t].area();
+    if (!shapes[t].clamped) total += triangle_weights[t] * shapes[t].area();
   }
   std::vector<DistortionElement> elements;
   elements.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const bool is_virtual = t + n_virtual >= triangles.size();
     const bool is_degenerate = shapes[t].clamped || !(shapes[t].area() > least_area * total);
-    DistortionElement element{triangles[t], shapes[t], coverage[t] * shapes[t].area() / total,
+    DistortionElement element{triangles[t], shapes[t], triangle_weights[t] * shapes[t].area() / total,
                               !is_virtual && !is_degenerate};
     if (is_degenerate) element.softening = infinity;
     if (is_virtual) element.weight *= virtual_weight;

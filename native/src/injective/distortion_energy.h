@@ -47,12 +47,12 @@ struct MapJacobian {
   bool has_area() const { return determinant > least_determinant * half_square && determinant > least_squared_scale; }
 };
 
-/// The elements of a patch, their weight coverage times area as a part of the whole. Degenerate triangles get an
+/// The elements of a patch, weighted by triangle weight times area as a part of the whole. Degenerate triangles get an
 /// infinite softening; the last `n_virtual` triangles (see hole_filling.h) a hundredth of their weight. shapes and
-/// coverage per triangle.
+/// triangle_weights per triangle.
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
-                                                   const std::vector<double>& coverage, std::size_t n_virtual);
+                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual);
 
 MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z);
 

@@ -7,7 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "injective/distortion_descent.h"
+#include "geometry/quad_splits.h"
+#include "injective/descent.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
 #include "quality/turning_number.h"
@@ -25,9 +26,10 @@ class FoldFree {
     const auto end = static_cast<std::ptrdiff_t>(n);
     triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
     const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
-    const std::vector<double> coverage(energy.coverage().begin(), energy.coverage().begin() + end);
-    elements_ = distortion_elements(triangles_, shapes, coverage, 0);
-    choose_splits(energy.coverage());
+    const std::vector<double> triangle_weights(energy.triangle_weights().begin(),
+                                               energy.triangle_weights().begin() + end);
+    elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
+    choose_splits(energy.triangle_weights());
   }
 
   FoldFreeMap run(ComplexVector given) {
@@ -51,16 +53,18 @@ class FoldFree {
  private:
   static std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-  /// Of a quad's two splits only one can be asked to have no fold: the first, unless its diagonal is an edge already,
-  /// which no straight lines can draw twice.
-  void choose_splits(const std::vector<double>& coverage) {
+  /// Of a quad's two splits only one can be required to have no fold: the first, unless its diagonal is an edge
+  /// already, which no straight lines can draw twice. Chosen before there is a map; mapped_triangulation then finds a
+  /// split without a fold.
+  void choose_splits(const std::vector<double>& triangle_weights) {
     const auto n = static_cast<std::ptrdiff_t>(triangles_.size());
-    if (std::all_of(coverage.begin(), coverage.begin() + n, [](double share) { return share == 1.0; })) {
+    if (std::all_of(triangle_weights.begin(), triangle_weights.begin() + n,
+                    [](double share) { return share == 1.0; })) {
       single_ = triangles_;
       return;
     }
     std::set<std::pair<int, int>> edges;
-    const auto is_first_of_quad = [&](std::size_t t) { return coverage[t] != 1.0; };
+    const auto is_first_of_quad = [&](std::size_t t) { return begins_quad(triangle_weights[t]); };
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& [a, b, c] = triangles_[t];
       edges.insert({edge(a, b), edge(b, c)});
@@ -68,7 +72,7 @@ class FoldFree {
         edges.insert(edge(c, a));
         continue;
       }
-      // triangulate_polygon puts the four triangles in a row: 0 1 2, 0 2 3, 0 1 3, 1 2 3.
+      // The four triangles in a row: quad_splits.
       const int d = triangles_[t + 1][2];
       edges.insert({edge(c, d), edge(d, a)});
       t += 3;
@@ -117,7 +121,7 @@ class FoldFree {
       unfold_locally(lifted, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
     }
     relax(lifted, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
-    relax(lifted, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
+    result.relaxation = relax(lifted, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
     result.folded = count_folded(elements_, result.z);
     result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
     return result;
@@ -138,15 +142,15 @@ class FoldFree {
       if (element.barrier()) {
         // A metric may have made it thinner than its image can be.
         constexpr double least_of_image = 1e-9;
-        shape = shape.raised(least_of_image);
+        shape = shape.clamped_to(least_of_image);
         continue;
       }
       element.softening = 0;
       element.measured = true;
       const double height = shape.relative_height();
-      shape = shape.raised(least_height);
+      shape = shape.clamped_to(least_height);
       const double side = std::sqrt(shape.area());
-      // Without extent, lay_out made it equilateral, of side 1.
+      // Without extent, local_isometric_frame made it equilateral, of side 1.
       const bool is_point = shape.clamped && height > 0.5;
       const double scale = is_point || side < least_side ? least_side / side : 1;
       shape.x1 *= scale;
@@ -157,16 +161,19 @@ class FoldFree {
     return lifted;
   }
 
-  /// Lessens the distortion without a new fold.
-  void relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
-             const Progress& progress, ComplexVector& z) const {
+  /// Lessens the distortion without a new fold. None where that did no good and z stays.
+  std::optional<Descent> relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
+                               const Progress& progress, ComplexVector& z) const {
     constexpr int max_factorizations = 60;
     const int folded = count_folded(elements, z);
     const double factor = mean_scale_factor(elements, z);
-    if (!(factor > 0) || !std::isfinite(factor)) return;
+    if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
-    descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
-    if (relaxed.allFinite() && count_folded(elements, relaxed) <= folded) z = std::move(relaxed);
+    const Descent descent =
+        descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
+    if (!relaxed.allFinite() || count_folded(elements, relaxed) > folded) return std::nullopt;
+    z = std::move(relaxed);
+    return descent;
   }
 
   const FoldFreePatch& patch_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "injective/distortion_descent.h"
+#include "injective/descent.h"
 
 namespace spectral_conformal {
 namespace {
@@ -28,14 +28,28 @@ BestScale best_scale(const std::vector<DistortionElement>& elements, const Compl
   return {std::sqrt(std::sqrt(q / p)), 2 * std::sqrt(p) * std::sqrt(q) / weight};
 }
 
+RelaxationStatus relaxation_status(DescentStatus status) {
+  switch (status) {
+    case DescentStatus::converged:
+      return RelaxationStatus::converged;
+    case DescentStatus::factorization_limit:
+      return RelaxationStatus::factorization_limit;
+    case DescentStatus::stalled:
+      return RelaxationStatus::stalled;
+    case DescentStatus::indefinite_form:
+      break;
+  }
+  return RelaxationStatus::indefinite_form;
+}
+
 }  // namespace
 
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
-                               const std::vector<TriangleShape>& shapes, const std::vector<double>& coverage,
+                               const std::vector<TriangleShape>& shapes, const std::vector<double>& triangle_weights,
                                std::size_t n_virtual, ComplexVector z, FactorizationBackend backend,
                                const IsometryOptions& options, const Progress& progress) {
   report(progress, 0, "relax");
-  std::vector<DistortionElement> elements = distortion_elements(triangles, shapes, coverage, n_virtual);
+  std::vector<DistortionElement> elements = distortion_elements(triangles, shapes, triangle_weights, n_virtual);
   IsometricMap result;
   result.z = std::move(z);
   result.flipped = count_flipped(elements, result.z);
@@ -53,7 +67,9 @@ IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
   relaxed *= scale.factor;
   const int flipped = count_flipped(elements, relaxed);
   result.energy = result.energy_before;
+  result.status = RelaxationStatus::rejected;
   if (flipped > result.flipped || !relaxed.allFinite()) return result;
+  result.status = relaxation_status(descent.status);
   result.z = std::move(relaxed);
   result.energy = scale.energy;
   result.flipped = flipped;

@@ -12,7 +12,7 @@ namespace spectral_conformal {
 int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z);
 
 /// Unfolds the folded triangles of a map and leaves the rest of it where it is: frees the vertices around them, ring by
-/// ring further, until a descent (distortion_descent.h) of the symmetric Dirichlet energy, at the scale of the
+/// ring further, until a descent (descent.h) of the symmetric Dirichlet energy, at the scale of the
 /// surroundings, finds room for them; what was freed is then relaxed to the least conformal distortion.
 ///
 /// elements as from distortion_elements, z (V,) finite, `held` (V,) or empty: vertices that must stay. Returns the

@@ -57,6 +57,7 @@ constexpr double pinned_residual_limit = 1e-10;
 constexpr double resolved = 1e-7;
 constexpr const char* unresolved =
     "The triangles differ so much in size or shape that double precision does not resolve the map";
+constexpr const char* weaken_forces = "weaken or remove extenders, or lower the hole rigidity.";
 /// Of the first attempt, which nearly always passes.
 constexpr double first_relative_shift = 1e-12;
 
@@ -101,7 +102,7 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
                const std::vector<TriangleMetric>& metric)
     : n_vertices_(chart.n_vertices()), options_(options) {
   Stopwatch watch(set_up_timings_);
-  const std::string problem = why_not_a_disk(chart, positions);
+  const std::string problem = why_not_parameterizable(chart, positions);
   if (!problem.empty()) throw InvalidMesh(problem);
   // Centred and scaled to extent 1, any coordinates give the same numbers.
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
@@ -117,17 +118,17 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
     }
   }
   std::vector<std::array<int, 3>> triangles = chart.triangles;
-  std::vector<double> coverage = chart.coverage;
+  std::vector<double> triangle_weights = chart.triangle_weights;
   if (options.fill_holes && !inner_.empty()) {
     const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, positions_);
     triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
-    coverage.insert(coverage.end(), filling.coverage.begin(), filling.coverage.end());
+    triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
     positions_.conservativeResize(n_vertices_ + filling.centres.rows(), 3);
     positions_.bottomRows(filling.centres.rows()) = filling.centres;
   }
   const std::size_t n_virtual = triangles.size() - chart.triangles.size();
-  energy_ = std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(coverage), options.weights,
-                                              n_virtual);
+  energy_ = std::make_unique<ConformalEnergy>(positions_, std::move(triangles), std::move(triangle_weights),
+                                              options.weights, n_virtual);
   for (std::size_t t = 0; t < metric.size(); ++t) {
     if (!is_positive_definite(metric[t]) && !energy_->shapes()[t].clamped) {
       throw InvalidMesh("The metric of face " + std::to_string(chart.faces[chart.triangle_face[t]]) +
@@ -190,17 +191,27 @@ bool SolveOptions::has_forces() const {
          std::any_of(extenders.begin(), extenders.end(), [](const Extender& e) { return e.strength != 0; });
 }
 
-Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& progress) {
-  if (options.method != Method::lscm && pins.size() > 1 && !is_attracted(options)) {
-    throw std::invalid_argument("Several pins need the method 'lscm', or soft_pins with 'spectral'.");
-  }
+Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
+  if (n_pins < 2 || options.method == Method::lscm || is_attracted(options)) return options.method;
+  if (options.method == Method::spectral) return Method::lscm;
+  throw InvalidMesh(
+      "The methods 'fiedler' and 'area' hold no pins; use 'spectral' or 'lscm', or remove all pins but one.");
+}
+
+Parameterization Solver::solve(const SolveOptions& given, const Pins& pins, const Progress& progress) {
+  SolveOptions options = given;
+  options.method = method_with_pins(given, pins.size());
   if (options.method != Method::spectral && options.has_forces()) {
-    throw std::invalid_argument("Extenders and hole rigidity need the method 'spectral'.");
+    throw InvalidMesh("Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.");
   }
-  Parameterization result =
-      options_.fold_free ? solve_fold_free(options, pins, progress) : solve_with_folds(options, pins, progress);
+  int attempts = 0;
+  Parameterization result = options_.fold_free ? solve_fold_free(options, pins, progress)
+                                               : solve_with_folds(options, pins, progress, attempts);
   if (options.method != Method::lscm && !pins.empty() && !fit_to_pins(result.z, pins)) {
     throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
+  }
+  if (options.method == Method::lscm || result.unfolded > 0 || result.is_embedding) {
+    result.eigenvalue_of = EigenvalueOf::map;
   }
   result.message += describe_unresolved(*energy_, result.z) + repairs_;
   if (!result.message.empty()) result.message.pop_back();  // the space after the last sentence
@@ -208,9 +219,10 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   return result;
 }
 
-Parameterization Solver::solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress) {
+Parameterization Solver::solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress,
+                                          int& attempts) {
   if (options.method != Method::lscm) {
-    return solve_with_remedies(options, is_attracted(options) ? pins : Pins{}, progress);
+    return solve_with_remedies(options, is_attracted(options) ? pins : Pins{}, progress, attempts);
   }
   blend_area(part(progress, 0.0, 0.5));
   return solve_pinned(pins, progress);
@@ -219,14 +231,17 @@ Parameterization Solver::solve_with_folds(const SolveOptions& options, const Pin
 Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins& pins, const Progress& progress) {
   Parameterization result;
   std::string failure;
+  int attempts = 0;
   // A single pin only moves the map, which may cost it digits: at the end.
   const bool moved = options.method == Method::lscm && pins.size() == 1;
   try {
-    result = solve_with_folds(options, moved ? Pins{} : pins, part(progress, 0.0, 0.5));
+    result = solve_with_folds(options, moved ? Pins{} : pins, part(progress, 0.0, 0.5), attempts);
   } catch (const SolveFailure& problem) {
     // Hard pins have no other map; everything else has the embedding.
     if (options.method == Method::lscm && pins.size() > 1) throw;
     failure = problem.reason();
+    result.method = options.method;
+    result.attempts = attempts;
     result.timings = set_up_timings_;
   }
   unfold(options, pins, failure, part(progress, 0.5, 1.0), result);
@@ -237,8 +252,9 @@ Parameterization Solver::solve_fold_free(const SolveOptions& options, const Pins
 double Solver::mean_distortion(const ComplexVector& z) const {
   const auto n = static_cast<std::ptrdiff_t>(energy_->triangles().size() - energy_->n_virtual());
   const auto triangles = energy_->triangles().begin();
-  const auto coverage = energy_->coverage().begin();
-  return measure_distortion(positions_.topRows(n_vertices_), {triangles, triangles + n}, {coverage, coverage + n}, z)
+  const auto triangle_weights = energy_->triangle_weights().begin();
+  return measure_distortion(positions_.topRows(n_vertices_), {triangles, triangles + n},
+                            {triangle_weights, triangle_weights + n}, z)
       .mean_qc;
 }
 
@@ -281,6 +297,11 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
     result.message += describe_unfolding(map, failure, before, before, result.turning_number, held);
     return;
   }
+  if (map.is_embedding) result.fallback = Fallback::tutte_embedding;
+  // Those of the quotient below.
+  result.weights = energy_->weights();
+  result.boundary = options_.boundary;
+  result.clamped_triangles = 0;
   result.unfolded = map.is_embedding ? map.folded_before : map.folded_before - map.folded;
   result.is_embedding = map.is_embedding;
   result.mean_qc_before = before;
@@ -289,7 +310,7 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
     throw SolveFailure("The map has no positive area", "add seams that make the patch flatter.");
   }
   const ComplexVector z = with_virtual_vertices(result.z);
-  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), z);
+  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->triangle_weights(), z);
   ComplexVector r;
   const double lambda = eigen_residual(*energy_, form_, z, r);
   result.eigenvalue = lambda * lambda_unit(Method::spectral);
@@ -298,33 +319,38 @@ void Solver::unfold(const SolveOptions& options, const Pins& pins, const std::st
 }
 
 Parameterization Solver::solve_with_remedies(const SolveOptions& options, const Pins& attractors,
-                                             const Progress& progress) {
+                                             const Progress& progress, int& attempts) {
   try {
-    return solve_eigenvector(options, attractors, progress);
+    return solve_eigenvector(options, attractors, progress, attempts);
   } catch (const SolveFailure& failure) {
     // With forces, the forces are what to change.
-    if (options.method != Method::spectral || options.has_forces()) throw;
+    if (options.method != Method::spectral || options.has_forces() || !options.fallbacks) throw;
     const bool by_length = options_.boundary == BoundaryMeasure::length;
     const bool uniform = energy_->weights() == Weights::uniform;
     struct Remedy {
       Weights weights;
       BoundaryMeasure boundary;
       double least_height;
+      Fallback fallback;
       const char* name;
     };
     const Remedy remedies[] = {
-        {energy_->weights(), options_.boundary, 1e-5, "triangles thinner than 1e-5 of their length raised to that"},
-        {energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length, 0,
+        {energy_->weights(), options_.boundary, 1e-5, Fallback::clamped_triangles,
+         "triangles thinner than 1e-5 of their length raised to that"},
+        {energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length, 0, Fallback::other_boundary,
          by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
-        {uniform ? Weights::inverse_area : Weights::uniform, options_.boundary, 0,
+        {uniform ? Weights::inverse_area : Weights::uniform, options_.boundary, 0, Fallback::other_weights,
          uniform ? "the weights 'inverse_area'" : "the weights 'uniform'"}};
     for (const Remedy& remedy : remedies) {
       try {
         Solver other(*this, remedy.weights, remedy.boundary);
-        if (remedy.least_height > 0 && other.energy_->lift(remedy.least_height) == 0) continue;
+        const int clamped = remedy.least_height > 0 ? other.energy_->lift(remedy.least_height) : 0;
+        if (remedy.least_height > 0 && clamped == 0) continue;
         // The fraction done only rises: the failed attempt has used it up.
         const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
-        Parameterization result = other.solve_eigenvector(options, attractors, rest);
+        Parameterization result = other.solve_eigenvector(options, attractors, rest, attempts);
+        result.fallback = remedy.fallback;
+        result.clamped_triangles = clamped;
         result.message = failure.reason() + ": solved with " + remedy.name + " instead. " + result.message;
         return result;
       } catch (const SolveFailure&) {
@@ -435,7 +461,7 @@ Solver::Eigenvector Solver::attempt(const SolveOptions& settings, const Pins& at
 }
 
 Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const Pins& given, const Progress& progress,
-                                           ComplexVector* with_virtual) {
+                                           int& attempts_made, ComplexVector* with_virtual) {
   constexpr Attempt attempts[] = {
       {first_relative_shift, 0, 6, 1.0, ""},
       {1e-10, 1, 24, 0.1, "The first solve failed its checks and was repeated with a larger shift and another start. "},
@@ -450,6 +476,7 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
   Timings timings;
   std::string why;
   for (const Attempt& attempt : attempts) {
+    ++attempts_made;
     Stopwatch watch(timings);
     ShiftedFactor own_factor;
     const bool first = &attempt == &attempts[0];
@@ -469,11 +496,15 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
       continue;
     }
     Parameterization result;
+    result.method = method;
+    result.weights = energy_->weights();
+    result.boundary = options_.boundary;
+    result.attempts = attempts_made;
     result.iterations = eigenvector.solves;
     result.residual = eigenvector.residual;
     result.eigenvalue = eigenvector.lambda * lambda_unit(method);
     watch.lap("eigenproblem");
-    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), eigenvector.z);
+    result.turning_number = turning_number(outer_, energy_->triangles(), energy_->triangle_weights(), eigenvector.z);
     if (!eigenvector.z.allFinite() || !std::isfinite(eigenvector.lambda)) {
       why = "The result is not finite";
       continue;
@@ -484,9 +515,11 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
       continue;
     }
     const bool winds_once = std::abs(result.turning_number) == 1;
-    // A strong attraction has such maps as its true optimum: the pair meets where the map branches.
-    if (method == Method::spectral && !winds_once && !settings.has_forces()) {
+    if (method == Method::spectral && !winds_once) {
       why = describe_winding(result.turning_number);
+      // A strong attraction has such maps as its true optimum, so that another attempt would end there too: the pair
+      // meets where the map branches.
+      if (settings.has_forces()) throw SolveFailure(why, weaken_forces);
       continue;
     }
     if (with_virtual != nullptr) *with_virtual = eigenvector.z;
@@ -494,16 +527,15 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
     watch.lap("placement");
     result.message = attempt.remedy;
     if (!winds_once) {
-      result.message +=
-          describe_winding(result.turning_number) + (settings.has_forces() ? "; weaken the extenders. " : ". ");
+      result.message += describe_winding(result.turning_number) + ". ";
     }
     result.timings = set_up_timings_;
     result.timings.insert(result.timings.end(), timings.begin(), timings.end());
     return result;
   }
-  throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",
-                     settings.has_forces() ? "weaken or remove extenders, or lower the hole rigidity."
-                                           : "add seams that make the patch flatter, or clean up degenerate faces.");
+  throw SolveFailure(
+      why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",
+      settings.has_forces() ? weaken_forces : "add seams that make the patch flatter, or clean up degenerate faces.");
 }
 
 void Solver::blend_area(const Progress& progress) {
@@ -512,10 +544,11 @@ void Solver::blend_area(const Progress& progress) {
   Solver conformal(*this, energy_->weights(), options_.boundary);
   conformal.is_blended_ = true;
   ComplexVector z;
-  conformal.solve_eigenvector({}, {}, part(progress, 0.0, 0.2), &z);
+  int attempts = 0;
+  conformal.solve_eigenvector({}, {}, part(progress, 0.0, 0.2), attempts, &z);
   const IsometricMap relaxed =
-      relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->coverage(), energy_->n_virtual(),
-                        std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
+      relax_to_isometry(energy_->triangles(), energy_->energy_shapes(), energy_->triangle_weights(),
+                        energy_->n_virtual(), std::move(z), options_.backend, {}, part(progress, 0.2, 1.0));
   std::string repairs = repairs_ + describe_relaxation(relaxed);
   std::vector<TriangleMetric> metric;
   metric.reserve(energy_->triangles().size());
@@ -536,6 +569,9 @@ void Solver::blend_area(const Progress& progress) {
 
 Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress) {
   Parameterization result;
+  result.method = Method::lscm;
+  result.weights = energy_->weights();
+  result.boundary = options_.boundary;
   result.timings = set_up_timings_;
   Stopwatch watch(result.timings);
   const bool hold = pins.size() >= 2;
@@ -571,7 +607,7 @@ Parameterization Solver::solve_pinned(const Pins& pins, const Progress& progress
   result.iterations = 1;
   watch.lap("solve");
   if (!result.z.allFinite()) throw SolveFailure("The pinned map is not finite", "clean up degenerate faces.");
-  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->coverage(), result.z);
+  result.turning_number = turning_number(outer_, energy_->triangles(), energy_->triangle_weights(), result.z);
   result.eigenvalue = energy_->value(result.z) / form_.value(result.z) * lambda_unit(Method::lscm);
   // With pins on vertices without mass the rest may all lie in one point.
   if (!std::isfinite(result.eigenvalue)) {

@@ -14,37 +14,22 @@ int handle_curves(const Chart& chart) {
 
 CutSurface::CutSurface(const PolygonMesh& mesh, const SeamGraph& graph, const Chart& chart)
     : mesh_(mesh),
-      face_of_corner_(static_cast<std::size_t>(mesh.face_offsets[mesh.n_faces]), -1),
-      twin_(face_of_corner_.size(), -1),
+      half_edges_(mesh),
+      twin_(static_cast<std::size_t>(half_edges_.n_corners()), -1),
       halves_(graph.edges().size(), {-1, -1}),
       side_of_face_(static_cast<std::size_t>(mesh.n_faces), -1),
       euler_characteristic_(chart.euler_characteristic),
+      loops_(0),
       orientable_(chart.orientable) {
-  for (const int face : chart.faces) {
-    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) face_of_corner_[c] = face;
-  }
-  for (const int face : chart.faces) {
-    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-      const int e = graph.find_edge(vertex_of(c), vertex_of(next(c)));
-      const auto& edge = graph.edges()[e];
-      if (!edge.cut && edge.faces[0] != edge.faces[1]) halves_[e][halves_[e][0] < 0 ? 0 : 1] = c;
-    }
-  }
-  for (const auto& [a, b] : halves_) {
-    if (b < 0) continue;
-    twin_[a] = b;
-    twin_[b] = a;
+  for (int c = 0; c < half_edges_.n_corners(); ++c) {
+    twin_[c] = half_edges_.twin(c);
+    if (c < twin_[c]) halves_[graph.find_edge(half_edges_.from(c), half_edges_.to(c))] = {c, twin_[c]};
   }
   loops_ = count_loops();
 }
 
-int CutSurface::next(int corner) const {
-  const int face = face_of_corner_[corner];
-  return corner + 1 == mesh_.face_offsets[face + 1] ? mesh_.face_offsets[face] : corner + 1;
-}
-
 int CutSurface::previous(int corner) const {
-  const int face = face_of_corner_[corner];
+  const int face = half_edges_.face(corner);
   return corner == mesh_.face_offsets[face] ? mesh_.face_offsets[face + 1] - 1 : corner - 1;
 }
 
@@ -56,14 +41,14 @@ CutSurface::Spoke CutSurface::fan_end(Spoke spoke) const {
   while (twin_[spoke.half_edge] >= 0) {
     const int across = twin_[spoke.half_edge];
     // Faces may be wound against each other, so the twin may start at this vertex, too.
-    const bool starts_here = vertex_of(across) == vertex_of(spoke.corner);
-    spoke = turned({starts_here ? across : next(across), across});
+    const bool starts_here = half_edges_.from(across) == half_edges_.from(spoke.corner);
+    spoke = turned({starts_here ? across : half_edges_.next(across), across});
   }
   return spoke;
 }
 
 CutSurface::Spoke CutSurface::next_on_boundary(const Spoke& spoke) const {
-  const int other = spoke.corner == spoke.half_edge ? next(spoke.half_edge) : spoke.half_edge;
+  const int other = spoke.corner == spoke.half_edge ? half_edges_.next(spoke.half_edge) : spoke.half_edge;
   return fan_end(turned({other, spoke.half_edge}));
 }
 
@@ -71,7 +56,7 @@ int CutSurface::count_loops() const {
   std::vector<char> walked(twin_.size(), 0);
   int loops = 0;
   for (int h = 0; h < static_cast<int>(twin_.size()); ++h) {
-    if (face_of_corner_[h] < 0 || twin_[h] >= 0 || walked[h] != 0) continue;
+    if (!half_edges_.is_used(half_edges_.face(h)) || twin_[h] >= 0 || walked[h] != 0) continue;
     ++loops;
     for (Spoke spoke{h, h}; walked[spoke.half_edge] == 0; spoke = next_on_boundary(spoke)) walked[spoke.half_edge] = 1;
   }
@@ -85,7 +70,7 @@ void CutSurface::cut(int edge) {
   const auto [half, twin] = halves_[edge];
   twin_[half] = twin_[twin] = -1;
   const Spoke from{half, half};
-  const Spoke to{next(half), half};
+  const Spoke to{half_edges_.next(half), half};
   const auto was_inside = [&, twin = twin](const Spoke& end) { return fan_end(turned(end)).half_edge == twin; };
   const int inside = (was_inside(from) ? 1 : 0) + (was_inside(to) ? 1 : 0);
   euler_characteristic_ += 1 - inside;
@@ -95,7 +80,7 @@ void CutSurface::cut(int edge) {
   while (spoke.half_edge != half && spoke.half_edge != twin) spoke = next_on_boundary(spoke);
   if (spoke.half_edge == half) {
     ++loops_;
-  } else if (vertex_of(spoke.corner) == vertex_of(to.corner)) {
+  } else if (half_edges_.from(spoke.corner) == half_edges_.from(to.corner)) {
     --loops_;
   }
 }
@@ -134,9 +119,9 @@ bool CutSurface::is_connected_across(const std::vector<int>& edges) {
   std::vector<int> queue;
   for (const int edge : edges) {
     for (const int half : halves_[edge]) {
-      if (half < 0 || side_of_face_[face_of_corner_[half]] >= 0) continue;
-      side_of_face_[face_of_corner_[half]] = static_cast<int>(queue.size());
-      queue.push_back(face_of_corner_[half]);
+      if (half < 0 || side_of_face_[half_edges_.face(half)] >= 0) continue;
+      side_of_face_[half_edges_.face(half)] = static_cast<int>(queue.size());
+      queue.push_back(half_edges_.face(half));
     }
   }
   int n_sides = static_cast<int>(queue.size());
@@ -147,7 +132,7 @@ bool CutSurface::is_connected_across(const std::vector<int>& edges) {
     const int face = queue[head];
     for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
       if (twin_[c] < 0) continue;
-      const int other = face_of_corner_[twin_[c]];
+      const int other = half_edges_.face(twin_[c]);
       const int side = sides.find(side_of_face_[face]);
       if (side_of_face_[other] < 0) {
         side_of_face_[other] = side;
@@ -170,16 +155,16 @@ bool CutSurface::is_connected_across(const std::vector<int>& edges) {
 bool CutSurface::is_orientable() const {
   std::vector<signed char> winding(static_cast<std::size_t>(mesh_.n_faces), 0);
   std::vector<int> queue;
-  for (std::size_t c = 0; c < face_of_corner_.size() && queue.empty(); ++c) {
-    if (face_of_corner_[c] >= 0) queue.push_back(face_of_corner_[c]);
+  for (int face = 0; face < mesh_.n_faces && queue.empty(); ++face) {
+    if (half_edges_.is_used(face)) queue.push_back(face);
   }
   for (const int seed : queue) winding[seed] = 1;
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const int face = queue[head];
     for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
       if (twin_[c] < 0) continue;
-      const int other = face_of_corner_[twin_[c]];
-      const bool opposed = vertex_of(c) != vertex_of(twin_[c]);
+      const int other = half_edges_.face(twin_[c]);
+      const bool opposed = half_edges_.from(c) != half_edges_.from(twin_[c]);
       const auto expected = static_cast<signed char>(opposed ? winding[face] : -winding[face]);
       if (winding[other] == 0) {
         winding[other] = expected;

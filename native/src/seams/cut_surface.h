@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/charts.h"
+#include "mesh/half_edges.h"
 #include "seams/seam_graph.h"
 
 namespace spectral_conformal {
@@ -18,8 +19,7 @@ int handle_curves(const Chart& chart);
 /// surface is not orientable: then every cut has to find out whether it is now.
 class CutSurface {
  public:
-  /// `chart` has all selected faces of `mesh`, and `graph` is that of `mesh`; both must outlive this object. What is
-  /// cut in the graph is cut already.
+  /// `chart` is the only one of `mesh`, and `graph` is that of `mesh`. The arrays of `mesh` must outlive this object.
   CutSurface(const PolygonMesh& mesh, const SeamGraph& graph, const Chart& chart);
 
   /// See handle_curves(Chart): the value for the surface as build_charts would cut it.
@@ -36,8 +36,6 @@ class CutSurface {
   };
 
   int handle_curves(bool orientable, int loops) const { return 2 - (orientable ? loops : 0) - euler_characteristic_; }
-  int vertex_of(int corner) const { return mesh_.corner_vertices[corner]; }
-  int next(int corner) const;
   int previous(int corner) const;
   /// The other half-edge at the corner.
   Spoke turned(const Spoke& spoke) const;
@@ -50,12 +48,11 @@ class CutSurface {
   bool is_connected_across(const std::vector<int>& edges);
   bool is_orientable() const;
 
-  const PolygonMesh mesh_;
-  std::vector<int> face_of_corner_;
-  std::vector<int> twin_;  ///< per half-edge (corner c to the next one): the one across, -1 at a cut
-  std::vector<std::array<int, 2>>
-      halves_;                     ///< per edge of the graph: its half-edges, -1 where it is a cut from the start
-  std::vector<int> side_of_face_;  ///< scratch of is_connected_across, -1 between calls
+  PolygonMesh mesh_;
+  HalfEdges half_edges_;
+  std::vector<int> twin_;                   ///< per half-edge: that of half_edges_, -1 where it was cut since
+  std::vector<std::array<int, 2>> halves_;  ///< per edge of the graph: its two half-edges, -1 where they are no twins
+  std::vector<int> side_of_face_;           ///< scratch of is_connected_across, -1 between calls
   int euler_characteristic_;
   int loops_;
   bool orientable_;

@@ -31,7 +31,7 @@ std::vector<DistortedPlace> scale_extrema(const PolygonMesh& mesh, const MappedC
   std::vector<double> field(chart.vertices.size(), 0);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const int face = chart.triangle_face[t];
-    const double share = chart.coverage[t] * mapped.area[face] + 1e-300;
+    const double share = chart.triangle_weights[t] * mapped.area[face] + 1e-300;
     for (const int v : chart.triangles[t]) {
       area[v] += share;
       field[v] += share * mapped.log2_scale[face];
@@ -58,7 +58,8 @@ std::vector<DistortedPlace> angle_peaks(const PolygonMesh& mesh, const MappedCha
   std::vector<double> excess(chart.vertices.size(), 0);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const int face = chart.triangle_face[t];
-    for (const int v : chart.triangles[t]) excess[v] += chart.coverage[t] * mapped.area[face] * (mapped.qc[face] - 1);
+    for (const int v : chart.triangles[t])
+      excess[v] += chart.triangle_weights[t] * mapped.area[face] * (mapped.qc[face] - 1);
   }
   std::vector<char> highest(chart.vertices.size(), 1);
   for (const auto& triangle : chart.triangles) {

@@ -130,8 +130,8 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     grid.modifiers.new("Subdivision", "SUBSURF")
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    settings = module("edit_mode_unwrap").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    settings = module("core.options").Settings(use_subsurf=subdivide)
+    monkeypatch.setattr(module("extenders.adjusted_map"), "last_settings", lambda: settings)
     reports()
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
     assert any("without its Subdivision Surface" in text for _, text in reports()) == subdivide
@@ -200,7 +200,7 @@ class Dragged:
     """Drives the modal operator without a window."""
 
     def __init__(self):
-        self.operator_class = module("operators.adjust_extender").MESH_OT_spectral_extender_adjust
+        self.operator_class = module("operators.extender_adjust").MESH_OT_spectral_extender_adjust
         # What a bpy operator instance would have.
         self.operator = SimpleNamespace(index=-1, strength=1.0, reported=[])
         self.operator.report = lambda levels, text: self.operator.reported.append(text)

@@ -93,7 +93,7 @@ def test_nothing_follows_unless_turned_on():
     edit_with_pins(grid, [0, 8])
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.2))
-    module("live_unwrap").look()
+    module("live.following").look()
     others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
 
@@ -195,14 +195,14 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
     other = scenes.grid(3, 3, offset=(9.0, 0.0, 0.0), name="Other")
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
-    settings = module("edit_mode_unwrap").Settings(keep_in_place=placement == "KEEP")
-    monkeypatch.setattr(module("live_unwrap"), "last_settings", lambda: settings)
+    settings = module("core.options").Settings(keep_in_place=placement == "KEEP")
+    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
     other_uv = scenes.read_uv(other)
     turn_on()
     mark_seams(cylinder, cylinder_seam())
     state = scenes.state(cylinder)
-    module("live_unwrap").look()
+    module("live.following").look()
     stretches = scenes.stretches(cylinder)
     np.testing.assert_allclose(stretches, stretches.mean(), rtol=1e-4)
     assert np.array_equal(scenes.read_uv(other), other_uv) == (placement == "KEEP")
@@ -211,7 +211,7 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
     followed = scenes.read_uv(cylinder)
     scenes.write_uv(cylinder, followed * 0.5)
     bpy.context.view_layer.update()
-    module("live_unwrap").look()
+    module("live.following").look()
     np.testing.assert_allclose(scenes.read_uv(cylinder), followed * 0.5, atol=1e-6)
 
 
@@ -223,7 +223,7 @@ def test_changed_faces_are_not_taken_for_changed_seams():
     bpy.ops.mesh.delete(type="FACE")
     before = scenes.read_uv(grid)
     mark_seams(grid, [(4, 13)])
-    module("live_unwrap").look()
+    module("live.following").look()
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     # From here on the mesh is known.
     move(grid, 8, (0.1, 0.1))
@@ -234,7 +234,7 @@ def test_what_undo_changes_is_not_followed():
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8])
     turn_on()
-    live = module("live_unwrap")
+    live = module("live.following")
     live._before_undo()
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.0))
@@ -251,7 +251,7 @@ def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8])
     turn_on()
-    live = module("live_unwrap")
+    live = module("live.following")
     monkeypatch.setattr(live, "_SLOW", -1.0)
     before = scenes.read_uv(grid)
     for _ in range(3):
@@ -288,7 +288,7 @@ def test_disabling_the_add_on_removes_handlers_and_property():
     addon_utils.disable("spectral_unwrap")
     events = ("depsgraph_update_post", "undo_pre", "undo_post", "redo_pre", "redo_post", "load_pre", "load_post")
     for event in events:
-        assert not [f for f in getattr(bpy.app.handlers, event) if "live_unwrap" in f.__module__]
+        assert not [f for f in getattr(bpy.app.handlers, event) if "live" in f.__module__]
     assert not hasattr(bpy.context.scene, "spectral_unwrap_live")
     assert "spectral_unwrap_live" not in bpy.context.scene
     move(grid, 8, (0.1, 0.0))

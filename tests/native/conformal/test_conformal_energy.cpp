@@ -162,7 +162,7 @@ TEST_CASE("similarities of the surface leave the energy as it is, similarities o
   const ComplexVector z = random_map(patch.positions.rows());
   for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
     const ConformalEnergy energy = patch.energy(weights);
-    const ConformalEnergy of_moved(moved, patch.chart.triangles, patch.chart.coverage, weights);
+    const ConformalEnergy of_moved(moved, patch.chart.triangles, patch.chart.triangle_weights, weights);
     CHECK((dense(of_moved.matrix()) - dense(energy.matrix())).norm() < 1e-12 * dense(energy.matrix()).norm());
     CHECK(of_moved.area() == doctest::Approx(3.7 * 3.7 * energy.area()).epsilon(1e-13));
     const Complex factor(0.3, -1.7);

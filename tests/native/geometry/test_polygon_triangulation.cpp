@@ -26,7 +26,7 @@ Positions tilted(const Points& polygon, std::size_t first = 0) {
 PolygonTriangulation triangulate(const Positions& corners) {
   PolygonTriangulation result;
   triangulate_polygon(corners, result);
-  REQUIRE(result.coverage.size() == result.triangles.size());
+  REQUIRE(result.triangle_weights.size() == result.triangles.size());
   return result;
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("concave polygons are filled without overlap by the same triangles, wh
         auto triangle = result.triangles[t];
         for (int& corner : triangle) corner = (corner + first) % n;
         CHECK(signed_area(polygon, triangle) > 0);
-        CHECK(result.coverage[t] == 1);
+        CHECK(result.triangle_weights[t] == 1);
         area += signed_area(polygon, triangle);
       }
       CHECK(area == doctest::Approx(shoelace(polygon)).epsilon(1e-14));
@@ -93,7 +93,7 @@ TEST_CASE("a convex quad has both splits at half weight") {
     const PolygonTriangulation result = triangulate(tilted(quad, first));
     CHECK(result.simple);
     CHECK(triangles_of(result, first, 4) == TriangleSet{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}});
-    CHECK(result.coverage == std::vector<double>(4, 0.5));
+    CHECK(result.triangle_weights == std::vector<double>(4, 0.5));
   }
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("a concave quad has the one split that stays inside, whatever corner c
     const PolygonTriangulation result = triangulate(tilted(arrow, first));
     CHECK(result.simple);
     CHECK(triangles_of(result, first, 4) == TriangleSet{{0, 1, 3}, {1, 2, 3}});
-    CHECK(result.coverage == std::vector<double>{1, 1});
+    CHECK(result.triangle_weights == std::vector<double>{1, 1});
   }
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("a quad with a straight corner is split at that corner") {
 TEST_CASE("a triangle is itself") {
   const PolygonTriangulation result = triangulate(tilted({{0, 0}, {1, 0}, {0, 1}}));
   CHECK(result.triangles == std::vector<std::array<int, 3>>{{0, 1, 2}});
-  CHECK(result.coverage == std::vector<double>{1});
+  CHECK(result.triangle_weights == std::vector<double>{1});
 }
 
 TEST_CASE("collinear corners in a larger polygon are no obstacle") {
@@ -168,7 +168,7 @@ TEST_CASE("the result replaces what was there before") {
   triangulate_polygon(tilted(comb), result);
   triangulate_polygon(tilted(arrow), result);
   CHECK(result.triangles.size() == 2);
-  CHECK(result.coverage.size() == 2);
+  CHECK(result.triangle_weights.size() == 2);
 }
 
 TEST_SUITE_END();

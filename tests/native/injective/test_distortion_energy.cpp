@@ -120,11 +120,11 @@ TEST_CASE("degenerate triangles only hold their vertices together, virtual ones 
   mesh.add({2, 1, static_cast<int>(mesh.points.size()) - 1});
   const Patch patch(mesh);
   const ConformalEnergy energy = patch.energy(Weights::uniform);
-  const auto elements = distortion_elements(energy.triangles(), energy.shapes(), energy.coverage(), 0);
+  const auto elements = distortion_elements(energy.triangles(), energy.shapes(), energy.triangle_weights(), 0);
   CHECK_FALSE(elements.back().measured);
   CHECK(std::isinf(elements.back().softening));
   CHECK(count_flipped(elements, flat_map(patch.positions)) == 0);
-  const auto with_virtual = distortion_elements(energy.triangles(), energy.shapes(), energy.coverage(), 2);
+  const auto with_virtual = distortion_elements(energy.triangles(), energy.shapes(), energy.triangle_weights(), 2);
   const std::size_t first_virtual = elements.size() - 2;
   CHECK(with_virtual[first_virtual].weight == doctest::Approx(0.01 * elements[first_virtual].weight));
   CHECK_FALSE(with_virtual[first_virtual].measured);

@@ -32,9 +32,9 @@ struct Input {
     for (std::size_t t = 0; t < patch.chart.triangles.size(); ++t) {
       const auto& [a, b, c] = patch.chart.triangles[t];
       if (!(std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a])) > 0)) return false;
-      if (patch.chart.coverage[t] != 1.0 && t % 4 == 1) t += 2;
+      if (patch.chart.triangle_weights[t] != 1.0 && t % 4 == 1) t += 2;
     }
-    return turning_number(loops.front(), patch.chart.triangles, patch.chart.coverage, z) == 1;
+    return turning_number(loops.front(), patch.chart.triangles, patch.chart.triangle_weights, z) == 1;
   }
 };
 
@@ -59,6 +59,7 @@ TEST_CASE("a map without folds is returned as it is") {
   CHECK(map.z == z);
   CHECK(map.folded_before == 0);
   CHECK_FALSE(map.is_embedding);
+  CHECK_FALSE(map.relaxation);
   CHECK(map.is_locally_injective);
 }
 
@@ -84,6 +85,9 @@ TEST_CASE("a map that winds round twice inside is given up for an embedding") {
   for (Complex& value : z) value *= value;
   const FoldFreeMap map = input.solve(z);
   CHECK(map.is_embedding);
+  REQUIRE(map.relaxation);
+  CHECK(map.relaxation->status == DescentStatus::converged);
+  CHECK(map.relaxation->energy < map.relaxation->energy_before);
   CHECK(map.is_locally_injective);
   CHECK(input.is_fold_free(map.z));
   // The patch is flat: relaxed, the embedding is nearly a similarity.
@@ -98,7 +102,8 @@ TEST_CASE("without a map, with holes and with quads there is an embedding, nearl
     CHECK(map.is_locally_injective);
     CHECK(input.is_fold_free(map.z));
     const auto mean = [&](const ComplexVector& z) {
-      return measure_distortion(input.patch.positions, input.patch.chart.triangles, input.patch.chart.coverage, z)
+      return measure_distortion(input.patch.positions, input.patch.chart.triangles, input.patch.chart.triangle_weights,
+                                z)
           .mean_qc;
     };
     CHECK(mean(map.z) < mean(conformal_map(input.patch)) + 0.05);

@@ -18,8 +18,8 @@ constexpr double pi = 3.14159265358979323846;
 
 IsometricMap relax(const ConformalEnergy& energy, const ComplexVector& z, const IsometryOptions& options = {},
                    FactorizationBackend backend = FactorizationBackend::automatic, const Progress& progress = {}) {
-  return relax_to_isometry(energy.triangles(), energy.shapes(), energy.coverage(), energy.n_virtual(), z, backend,
-                           options, progress);
+  return relax_to_isometry(energy.triangles(), energy.shapes(), energy.triangle_weights(), energy.n_virtual(), z,
+                           backend, options, progress);
 }
 
 IsometricMap relax(const Patch& patch, const ComplexVector& z, const IsometryOptions& options = {},
@@ -32,7 +32,7 @@ ComplexVector conformal_map(const Patch& patch) {
 }
 
 Distortion distortion(const Patch& patch, const ComplexVector& z) {
-  return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, z);
+  return measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, z);
 }
 
 /// The mean of s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 at the scale of z: squared norms of real matrices and their inverses.
@@ -49,7 +49,7 @@ double symmetric_dirichlet_energy(const Patch& patch, const ComplexVector& z) {
     Eigen::Matrix2d image;
     image << (z[b] - z[a]).real(), (z[c] - z[a]).real(), (z[b] - z[a]).imag(), (z[c] - z[a]).imag();
     const Eigen::Matrix2d jacobian = image * edges.inverse();
-    const double weight = energy.coverage()[t] * shape.area();
+    const double weight = energy.triangle_weights()[t] * shape.area();
     sum += weight * (jacobian.squaredNorm() + jacobian.inverse().squaredNorm());
     area += weight;
   }
@@ -150,6 +150,7 @@ TEST_CASE("each factorisation more lowers the energy") {
   for (int k = 1; k <= 4; ++k) {
     const IsometricMap map = relax(patch, start, {0, k});
     CHECK(map.factorizations == k);
+    CHECK(map.status == RelaxationStatus::factorization_limit);
     CHECK(map.energy < map.energy_before);
     CHECK(map.energy < previous);
     previous = map.energy;
@@ -160,6 +161,7 @@ TEST_CASE("run to the end, the derivative vanishes in every direction") {
   const Patch patch(bumpy_grid(8, 7));
   const ComplexVector start = conformal_map(patch);
   const IsometricMap map = relax(patch, start, {1e-10, 100});
+  CHECK(map.status == RelaxationStatus::converged);
   const double step = 1e-5;
   const auto slope = [&](const ComplexVector& z, const ComplexVector& direction) {
     return (symmetric_dirichlet_energy(patch, z + step * direction) -
@@ -259,6 +261,8 @@ TEST_CASE("a start without any image area is returned as it is") {
   for (const ComplexVector& start : {mirrored, line, point}) {
     const IsometricMap map = relax(patch, start);
     CHECK(map.z == start);
+    CHECK(map.status == RelaxationStatus::no_image_area);
+    CHECK(map.iterations == 0);
     CHECK(map.energy_before == 0);
     CHECK(map.flipped == static_cast<int>(patch.chart.triangles.size()));
   }
@@ -289,10 +293,11 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
   REQUIRE(filling.centres.rows() == 0);
   auto triangles = patch.chart.triangles;
-  auto coverage = patch.chart.coverage;
+  auto triangle_weights = patch.chart.triangle_weights;
   triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
-  coverage.insert(coverage.end(), filling.coverage.begin(), filling.coverage.end());
-  const ConformalEnergy filled(patch.positions, triangles, coverage, Weights::uniform, filling.triangles.size());
+  triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
+  const ConformalEnergy filled(patch.positions, triangles, triangle_weights, Weights::uniform,
+                               filling.triangles.size());
   const ComplexVector start = conformal_map(patch);
   const IsometricMap map = relax(filled, start, {1e-6, 50});
   const IsometricMap without = relax(patch, start, {1e-6, 50});

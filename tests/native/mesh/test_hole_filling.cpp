@@ -33,7 +33,7 @@ double area(const HoleFilling& filling, const Positions& positions) {
     const Eigen::Vector3d v = (all.row(c) - all.row(a)).transpose();
     const double triangle = 0.5 * u.cross(v).z();
     CHECK(triangle > 0);
-    sum += filling.coverage[t] * triangle;
+    sum += filling.triangle_weights[t] * triangle;
   }
   return sum;
 }
@@ -72,7 +72,7 @@ TEST_CASE("the filling of a patch agrees with its orientation and leaves the out
   const Patch patch(perforated_grid(10, 7));
   const int outer = outer_loop(patch.chart.boundary_loops, patch.positions);
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
-  CHECK(filling.triangles.size() == filling.coverage.size());
+  CHECK(filling.triangles.size() == filling.triangle_weights.size());
   Positions positions(patch.positions.rows() + filling.centres.rows(), 3);
   positions << patch.positions, filling.centres;
   Mesh closed;
@@ -80,7 +80,7 @@ TEST_CASE("the filling of a patch agrees with its orientation and leaves the out
   for (const auto& t : patch.chart.triangles) closed.add({t[0], t[1], t[2]});
   for (std::size_t t = 0; t < filling.triangles.size(); ++t) {
     // Of the two splits of a quad the first.
-    if (filling.coverage[t] < 1 && t % 4 > 1) continue;
+    if (filling.triangle_weights[t] < 1 && t % 4 > 1) continue;
     closed.add({filling.triangles[t][0], filling.triangles[t][1], filling.triangles[t][2]});
   }
   const Patch filled_patch(closed);

@@ -41,7 +41,7 @@ TEST_CASE("flat patches come back as themselves, by every method, at any scale a
           CHECK(map.turning_number == 1);
           CHECK_MESSAGE(map.message.empty(), map.message);
           const Distortion distortion =
-              measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, map.z);
+              measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
           CHECK(distortion.max_qc - 1 < 1e-9);
           CHECK(distortion.log2_scale.cwiseAbs().maxCoeff() < 1e-6);
         }
@@ -140,7 +140,35 @@ TEST_CASE("pins that cannot be used are refused") {
   CHECK_THROWS_AS(kept.solve({Method::lscm}, {{0, 1.0}, {3, 1.0}}), InvalidMesh);
   const double infinite = std::numeric_limits<double>::infinity();
   CHECK_THROWS_AS(kept.solve({Method::lscm}, {{0, 1.0}, {3, infinite}}), InvalidMesh);
-  CHECK_THROWS_AS(kept.solve({Method::spectral}, {{0, 1.0}, {3, 2.0}}), std::invalid_argument);
+}
+
+TEST_CASE("hard pins are held by pinned LSCM for 'spectral', and refused by the methods that hold none") {
+  const Patch patch(bumpy_grid(5, 4));
+  const Pins pins{{0, {1, 2}}, {5, {6, 2}}, {29, {6, 7}}};
+  const Parameterization held = solver(patch).solve({Method::spectral}, pins);
+  CHECK(held.method == Method::lscm);
+  CHECK(held.eigenvalue_of == EigenvalueOf::map);
+  CHECK(held.z == solver(patch).solve({Method::lscm}, pins).z);
+  for (const auto method : {Method::fiedler, Method::area}) {
+    CHECK_THROWS_AS(solver(patch).solve({method}, pins), InvalidMesh);
+    CHECK(solver(patch).solve({method}, {{0, {1, 2}}}).method == method);
+  }
+  SolveOptions soft;
+  soft.soft_pins = 1;
+  CHECK(solver(patch).solve(soft, pins).method == Method::spectral);
+  SolveOptions forced;
+  forced.hole_rigidity = 1;
+  CHECK_THROWS_AS(solver(patch).solve(forced, pins), InvalidMesh);
+}
+
+TEST_CASE("a map that winds twice under forces is a failure that names them") {
+  const Patch patch(bumpy_grid(8, 8));
+  SolveOptions options;
+  options.extenders = {{{20}, {60}, -1000}};
+  CHECK_THROWS_WITH_AS(solver(patch).solve(options, {}),
+                       "The boundary of the map winds round 2 times instead of once: weaken or remove extenders, or "
+                       "lower the hole rigidity.",
+                       SolveFailure);
 }
 
 TEST_CASE("vertices that no face uses, and holes, are no obstacle") {
@@ -154,7 +182,7 @@ TEST_CASE("vertices that no face uses, and holes, are no obstacle") {
 
 TEST_CASE("an energy that vanishes altogether is a failure, not a result") {
   Patch patch(bumpy_grid(4, 4));
-  std::fill(patch.chart.coverage.begin(), patch.chart.coverage.end(), 0.0);
+  std::fill(patch.chart.triangle_weights.begin(), patch.chart.triangle_weights.end(), 0.0);
   for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
     for (const auto backend : backends()) {
       Solver empty = solver(patch, Weights::uniform, BoundaryMeasure::length, backend);
@@ -191,7 +219,8 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
     options.area_blend = amount;
     Solver blended(patch.chart, patch.positions, options);
     const Parameterization map = blended.solve({}, {});
-    const Distortion measured = measure_distortion(patch.positions, patch.chart.triangles, patch.chart.coverage, map.z);
+    const Distortion measured =
+        measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
     CHECK(measured.log2_scale_deviation < last);
     last = measured.log2_scale_deviation;
     CHECK(std::count(measured.flipped.begin(), measured.flipped.end(), true) == 0);

@@ -13,8 +13,8 @@ constexpr double pi = 3.14159265358979323846;
 using Triangles = std::vector<std::array<int, 3>>;
 
 int turning(const BoundaryLoop& loop, const Triangles& triangles, const std::vector<Complex>& z) {
-  const std::vector<double> coverage(triangles.size(), 1.0);
-  return turning_number(loop, triangles, coverage, Eigen::Map<const ComplexVector>(z.data(), z.size()));
+  const std::vector<double> triangle_weights(triangles.size(), 1.0);
+  return turning_number(loop, triangles, triangle_weights, Eigen::Map<const ComplexVector>(z.data(), z.size()));
 }
 
 BoundaryLoop counted(int n) {
@@ -71,7 +71,7 @@ TEST_CASE("an ear that is folded over does not change the number of turns") {
   CHECK(turning(loop, triangles, {0.0, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.3}}) == 1);
 }
 
-TEST_CASE("both splits of a quad at half coverage count like one") {
+TEST_CASE("both splits of a quad at triangle weight 1/2 count like one") {
   const std::vector<Complex> z{0.0, {1, 0}, {1, 1}, {0, 1}};
   const Triangles both{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}};
   CHECK(turning_number({0, 1, 2, 3}, both, {0.5, 0.5, 0.5, 0.5}, Eigen::Map<const ComplexVector>(z.data(), 4)) == 1);
@@ -89,7 +89,7 @@ TEST_CASE("holes run the other way round") {
   const ComplexVector z = flat_map(patch.positions);
   for (const BoundaryLoop& loop : patch.chart.boundary_loops) {
     const int expected = shoelace_area(loop, z) > 0 ? 1 : -1;
-    CHECK(turning_number(loop, patch.chart.triangles, patch.chart.coverage, z) == expected);
+    CHECK(turning_number(loop, patch.chart.triangles, patch.chart.triangle_weights, z) == expected);
   }
 }
 
