@@ -106,6 +106,9 @@ OUT_OF_MEMORY = (
     "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
     "levels"
 )
+PACKED_BESIDE_FAILED = (
+    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it"
+)
 NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map to look at; unwrap first"
