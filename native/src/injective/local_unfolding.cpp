@@ -40,7 +40,7 @@ class Star {
   std::vector<int> elements_;
 };
 
-/// The vertices that a part of the map may move, and all elements that these touch.
+/// The vertices that are free to move, and all elements that have one of them.
 struct Region {
   std::vector<int> free;
   std::vector<int> elements;
@@ -59,8 +59,8 @@ class Unfolding {
         log_scale_(vertex_log_scale()) {}
 
   int run() {
-    constexpr int most_rings = 64;
-    for (int rings = 1; rings <= most_rings; rings *= 2) {
+    constexpr int max_rings = 64;  // seven doublings; beyond, the whole map is free on all but large charts
+    for (int rings = 1; rings <= max_rings; rings *= 2) {
       done_ = std::log2(rings) / 7;
       report(progress_, done_, "unfold");
       const std::vector<Region> regions = regions_around_folds(rings);
@@ -86,8 +86,8 @@ class Unfolding {
         weight[v] += 1;
       }
     }
-    constexpr int most_passes = 100;
-    for (int pass = 0; pass < most_passes; ++pass) {
+    constexpr int max_passes = 100;  // each reaches one ring further
+    for (int pass = 0; pass < max_passes; ++pass) {
       std::vector<int> without;
       std::vector<double> value;
       for (const DistortionElement& element : elements_) {
@@ -111,7 +111,7 @@ class Unfolding {
     return sum;
   }
 
-  /// The vertices within `rings` steps of a folded element, in connected parts.
+  /// The vertices within `rings` edges of a folded element, by connected components.
   std::vector<Region> regions_around_folds(int rings) const {
     std::vector<char> near(static_cast<std::size_t>(z_.size()), 0);
     std::vector<int> reached;
@@ -133,10 +133,10 @@ class Unfolding {
         }
       }
     }
-    return connected_parts(near, reached);
+    return connected_components(near, reached);
   }
 
-  std::vector<Region> connected_parts(std::vector<char>& near, const std::vector<int>& reached) const {
+  std::vector<Region> connected_components(std::vector<char>& near, const std::vector<int>& reached) const {
     std::vector<Region> regions;
     std::vector<char> taken(elements_.size(), 0);
     for (const int seed : reached) {
@@ -165,17 +165,17 @@ class Unfolding {
   }
 
   void unfold(const Region& region) {
-    // A problem of its own, with its own numbers for vertices.
+    // A problem of its own, with its own indices of vertices.
     std::vector<int> vertices;
     for (const int t : region.elements)
       vertices.insert(vertices.end(), elements_[t].corners.begin(), elements_[t].corners.end());
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    const auto number = [&](int v) {
+    const auto index = [&](int v) {
       return static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
     };
     std::vector<char> fixed(vertices.size(), 1);
-    for (const int v : region.free) fixed[number(v)] = 0;
+    for (const int v : region.free) fixed[index(v)] = 0;
     if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) fixed.clear();
     std::vector<DistortionElement> local;
     double log_scale = 0;
@@ -189,7 +189,7 @@ class Unfolding {
       element.shape.x2 *= scale;
       element.shape.y2 *= scale;
       element.weight = 1 / static_cast<double>(region.elements.size());
-      element.corners = {number(a), number(b), number(c)};
+      element.corners = {index(a), index(b), index(c)};
       local.push_back(element);
     }
     ComplexVector z(static_cast<Eigen::Index>(vertices.size()));
@@ -212,9 +212,9 @@ class Unfolding {
     if (!z.allFinite()) return false;
     const int after = count_folded(local, z);
     if (after > 0) return after < before;
-    // The descent left some elements soft that hold by now.
+    // Some elements have too little area for the descent to have raised their barrier, but are not flipped.
     for (DistortionElement& element : local) {
-      if (element.without_area()) element.softening = 0;
+      if (element.without_area()) element.regularization = 0;
     }
     ComplexVector relaxed = z;
     descend(local, fixed, relaxed, backend_, {DistortionMeasure::conformal, 1e-3, 20}, still_there);
