@@ -20,8 +20,7 @@ UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
 SELECT_FAILED_LABEL = "Select Failed Islands"
 SELECT_FAILED_DESCRIPTION = (
-    f"Select the faces of the islands that {UNWRAP_LABEL} cannot solve, among the selected faces, or among all visible "
-    "ones if none is selected"
+    f"Select the visible faces of the islands that {UNWRAP_LABEL} could not solve when they were unwrapped last"
 )
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
 SELECT_DEFECTS_DESCRIPTION = (
@@ -93,11 +92,45 @@ NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge
 ADJUSTED_WITHOUT_SUBSURF = (
     "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
 )
+NOTHING_SELECTED = "Nothing selected; select the faces to unwrap, in the UV editor their UVs"
+MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
+NO_VISIBLE_FACES = "No visible faces to cut"
+MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
+OUT_OF_MEMORY = (
+    "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
+    "levels"
+)
+NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map to look at; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+
+
+def is_running(label: str) -> str:
+    """Return why an operator is not available while the one with this label runs."""
+    return f"{label} is running; Esc cancels it"
+
+
+def cancelled(label: str) -> str:
+    """Return what the operator with this label says when it is cancelled."""
+    return f"{label}: Cancelled"
+
+
+def progress(label: str, percent: int, phase: str) -> str:
+    """Return what the status bar shows while the operator with this label runs."""
+    return " ".join(part for part in (f"{label}: {percent} %", phase, "  Esc: Cancel") if part)
+
+
+def printed_progress(label: str, percent: int, phase: str) -> str:
+    """Return the line that tells on a terminal how far the operator with this label is."""
+    return f"{label}: {percent} % ({phase})"
+
+
+def not_drawn(label: str, problem: str) -> str:
+    """Return the line that tells on a terminal that something could not be drawn."""
+    return f"{label} could not be drawn: {problem}"
 
 
 def information(summary: Summary, seconds: float, where_to_see: str) -> str:
@@ -209,6 +242,11 @@ def selected_failed(islands: int, faces: int) -> str:
     return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
 
 
+def changed_since_unwrapped(names: Sequence[str]) -> str:
+    """Return the warning for meshes that have other faces than when they were unwrapped."""
+    return f"Faces were added, removed or reordered since the last unwrap of {', '.join(names)}; unwrap again"
+
+
 def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
     """Return what Select Flipped and Overlapping says of the defects of each mesh, given which kinds were chosen."""
     kinds = [
@@ -248,6 +286,12 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
     if count == total:
         return f"{_count(total, 'cut')}, length {length}"
     return f"{count} of {_count(total, 'cut')}, length {length} of {total_length}"
+
+
+def preview_status(known: str) -> str:
+    """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
+    keys = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
+    return f"{SUGGEST_SEAMS_LABEL}: {known}   {keys}"
 
 
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's operators: thin classes; the work is in the plain functions beside this package."""
+"""The add-on's operators: thin classes; the work is in the plain functions of the other folders."""
 
 import bpy
+from bpy.app.handlers import persistent
 
+from ..unwrapping import last_result
+from . import job_operator
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,
 )
-from .select_defects import UV_OT_spectral_select_defects
-from .select_failed import UV_OT_spectral_select_failed
+from .select import UV_OT_spectral_select_defects, UV_OT_spectral_select_failed
 from .suggest_seams import UV_OT_spectral_suggest_seams
 from .unwrap import UV_OT_spectral_unwrap
 
@@ -26,13 +28,26 @@ _CLASSES = (
 )
 
 
+@persistent
+def _before_load(*_arguments: object) -> None:
+    job_operator.end_all()
+    last_result.forget()
+
+
 def register() -> None:
     """Register all operators."""
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
+    bpy.app.handlers.load_pre.append(_before_load)
 
 
 def unregister() -> None:
-    """Unregister all operators."""
+    """End the job that is under way and unregister all operators.
+
+    Blender drops running operators whose class goes without calling `cancel`.
+    """
+    job_operator.end_all()
+    last_result.forget()
+    bpy.app.handlers.load_pre.remove(_before_load)
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

@@ -14,9 +14,10 @@ from ..core.placement import place
 from ..core.progress import Progress
 from ..core.solve import Solution, solve_all
 from ..core.summary import Summary, summarize
-from ..edit_mesh import packing
+from ..edit_mesh import packing, selection
 from ..edit_mesh.read import EditMesh, read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_uv
+from . import last_result
 
 # Makes the context manager that is entered while UVs are written: live unwrapping must not follow the pins that move.
 WhileWriting = Callable[[], AbstractContextManager[None]]
@@ -37,26 +38,6 @@ class Outcome:
     without_bounds: int = 0
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
-
-
-def unwrap(
-    context: bpy.types.Context,
-    settings: Settings,
-    progress: Progress | None = None,
-    while_writing: WhileWriting = nullcontext,
-) -> Outcome | None:
-    """Unwrap the selected visible faces of all objects in edit mode into their active UV maps.
-
-    Returns None, having changed nothing, if no face is selected. `read`, `solve` and `write` are its three steps.
-
-    Raises:
-        NativeModuleError: `spectral_conformal` cannot be imported.
-        PackingError: Blender's packer did not run; nothing changed.
-    """
-    edit_meshes = read(context, settings)
-    if not edit_meshes:
-        return None
-    return write(context, settings, edit_meshes, solve(edit_meshes, settings, progress), while_writing)
 
 
 def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> list[Solution]:
@@ -96,6 +77,7 @@ def write(
     """
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     if summary.solved == 0:
+        last_result.remember(edit_meshes, solutions)
         return Outcome(summary, 0, _notes(edit_meshes, settings), _warnings(edit_meshes, settings, solutions))
     placement = place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
     solved = [
@@ -105,6 +87,7 @@ def write(
     ]
     with while_writing():
         _write(context, solved, None if settings.keep_in_place else settings.margin)
+    last_result.remember(edit_meshes, solutions)
     return Outcome(
         summary,
         placement.without_bounds,
@@ -165,11 +148,7 @@ def read(context: bpy.types.Context, settings: Settings, all_visible: bool = Fal
     Called from the UV editor without sync selection, only faces with a selected UV count. With `all_visible` the
     selection does not count at all.
     """
-    by_uv_selection = not all_visible and (
-        context.area is not None
-        and context.area.type == "IMAGE_EDITOR"
-        and not context.scene.tool_settings.use_uv_select_sync
-    )
+    by_uv_selection = not all_visible and selection.selects_uvs(context)
     edit_meshes = [
         read_mesh(edit_object, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
         for edit_object in context.objects_in_mode_unique_data

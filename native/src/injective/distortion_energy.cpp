@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/signed_area.h"
+
 namespace spectral_conformal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
 constexpr double isometry = 4;
-
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
 /// The determinant as DistortionElement::regularization changes it, and the derivative of that.
 struct RegularizedDeterminant {
@@ -144,9 +144,14 @@ double max_step(const std::vector<DistortionElement>& elements, const ComplexVec
   return largest;
 }
 
-int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
+bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance) {
+  return element.measured && !is_positive(element.corners, z, tolerance);
+}
+
+int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
+                  const FlipTolerance& tolerance) {
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
-    return element.measured && !(jacobian(element, z).determinant > 0);
+    return is_flipped(element, z, tolerance);
   }));
 }
 

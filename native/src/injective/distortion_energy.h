@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/triangle_shape.h"
+#include "quality/flips.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -82,7 +83,15 @@ double max_step(const std::vector<DistortionElement>& elements, const ComplexVec
 /// The factor that gives the measured elements the mean log scale 0, or 0 when none has image area.
 double mean_scale_factor(const std::vector<DistortionElement>& elements, const ComplexVector& z);
 
-/// Measured elements that are flipped or collapsed.
-int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z);
+/// For maps that are yet to be placed: turned and scaled, which rounds their coordinates. Sines of this size, a
+/// thousand times rounding, survive that.
+constexpr FlipTolerance unplaced{1e-13, 0};
+
+/// Whether an element is measured and flipped or collapsed.
+bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance = {});
+
+/// How many are.
+int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
+                  const FlipTolerance& tolerance = {});
 
 }  // namespace spectral_conformal

@@ -9,15 +9,6 @@
 namespace spectral_conformal {
 namespace {
 
-bool is_folded(const DistortionElement& element, const ComplexVector& z) {
-  // Of an image thinner than this, rounding decides on the sign.
-  constexpr double least_sine = 1e-13;
-  if (!element.measured) return false;
-  const Complex d1 = z[element.corners[1]] - z[element.corners[0]];
-  const Complex d2 = z[element.corners[2]] - z[element.corners[0]];
-  return !(std::imag(std::conj(d1) * d2) > least_sine * std::abs(d1) * std::abs(d2));
-}
-
 /// The elements at each vertex.
 class Star {
  public:
@@ -63,11 +54,11 @@ class Unfolding {
     for (int rings = 1; rings <= max_rings; rings *= 2) {
       done_ = std::log2(rings) / 7;
       report(progress_, done_, "unfold");
-      const std::vector<Region> regions = regions_around_folds(rings);
-      if (regions.empty()) break;  // nothing is folded, or nothing of it may move
+      const std::vector<Region> regions = regions_around_flips(rings);
+      if (regions.empty()) break;  // nothing is flipped, or nothing of it may move
       for (const Region& region : regions) unfold(region);
     }
-    return count_folded(elements_, z_);
+    return count_flipped(elements_, z_, unplaced);
   }
 
  private:
@@ -79,7 +70,7 @@ class Unfolding {
     std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
     std::vector<double> weight(sum.size(), 0);
     for (const DistortionElement& element : elements_) {
-      if (!element.measured || is_folded(element, z_)) continue;
+      if (!element.measured || is_flipped(element, z_, unplaced)) continue;
       const double logarithm = 0.5 * std::log(jacobian(element, z_).determinant);
       for (const int v : element.corners) {
         sum[v] += logarithm;
@@ -111,8 +102,8 @@ class Unfolding {
     return sum;
   }
 
-  /// The vertices within `rings` edges of a folded element, by connected components.
-  std::vector<Region> regions_around_folds(int rings) const {
+  /// The vertices within `rings` edges of a flipped element, by connected components.
+  std::vector<Region> regions_around_flips(int rings) const {
     std::vector<char> near(static_cast<std::size_t>(z_.size()), 0);
     std::vector<int> reached;
     const auto reach = [&](int v) {
@@ -121,7 +112,7 @@ class Unfolding {
       reached.push_back(v);
     };
     for (const DistortionElement& element : elements_) {
-      if (!is_folded(element, z_)) continue;
+      if (!is_flipped(element, z_, unplaced)) continue;
       for (const int v : element.corners) reach(v);
     }
     std::size_t ring_begin = 0;
@@ -203,14 +194,14 @@ class Unfolding {
     }
   }
 
-  /// Whether fewer elements are folded than before.
+  /// Whether fewer elements are flipped than before.
   bool descend_to_unfold(std::vector<DistortionElement>& local, const std::vector<char>& fixed,
                          ComplexVector& z) const {
-    const int before = count_folded(local, z);
+    const int before = count_flipped(local, z, unplaced);
     const Progress still_there = [this](double, const char* phase) { return !progress_ || progress_(done_, phase); };
     descend(local, fixed, z, backend_, {DistortionMeasure::symmetric_dirichlet, 1e-2, 30}, still_there);
     if (!z.allFinite()) return false;
-    const int after = count_folded(local, z);
+    const int after = count_flipped(local, z, unplaced);
     if (after > 0) return after < before;
     // Some elements have too little area for the descent to have raised their barrier, but are not flipped.
     for (DistortionElement& element : local) {
@@ -218,7 +209,7 @@ class Unfolding {
     }
     ComplexVector relaxed = z;
     descend(local, fixed, relaxed, backend_, {DistortionMeasure::conformal, 1e-3, 20}, still_there);
-    if (relaxed.allFinite() && count_folded(local, relaxed) == 0) z = std::move(relaxed);
+    if (relaxed.allFinite() && count_flipped(local, relaxed, unplaced) == 0) z = std::move(relaxed);
     return true;
   }
 
@@ -233,11 +224,6 @@ class Unfolding {
 };
 
 }  // namespace
-
-int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
-  return static_cast<int>(std::count_if(elements.begin(), elements.end(),
-                                        [&](const DistortionElement& element) { return is_folded(element, z); }));
-}
 
 int unfold_locally(const std::vector<DistortionElement>& elements, const std::vector<char>& held,
                    FactorizationBackend backend, ComplexVector& z, const Progress& progress) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mesh/boundary_loops.h"
+#include "quality/flips.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -121,14 +122,6 @@ class TutteSystem {
   bool analyzed_ = false;
 };
 
-int count_flipped(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& z) {
-  return static_cast<int>(std::count_if(triangles.begin(), triangles.end(), [&](const auto& triangle) {
-    const Complex d1 = z[triangle[1]] - z[triangle[0]];
-    const Complex d2 = z[triangle[2]] - z[triangle[0]];
-    return !(std::imag(std::conj(d1) * d2) > 0);
-  }));
-}
-
 /// The logarithm of every edge's length in the plane over that in 3D.
 std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const ComplexVector& z) {
   constexpr double min_distance = 1e-15;  // rounding leaves no shorter ones in the unit circle
@@ -204,7 +197,7 @@ Embedding reweighted_embedding(const std::vector<std::array<int, 3>>& triangles,
     report(progress, static_cast<double>(round) / rounds, "embedding");
     system.solve(z);
     const std::vector<double> stretch = log_stretch(edges, z);
-    const int flipped = count_flipped(triangles, z);
+    const int flipped = static_cast<int>(non_positive_triangles(triangles, z).size());
     const double unevenness = variance(stretch);
     if (round == 0 || std::tie(flipped, unevenness) < std::tie(best.flipped, best.unevenness)) {
       best = {z, flipped, unevenness};

@@ -83,13 +83,14 @@ std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Ei
   const EdgeGraph graph(neighbours);
   std::array<int, 2> pair{loop.front(), loop.front()};
   double farthest = -1;
-  constexpr int max_sweeps = 6;
+  constexpr int max_sweeps = 6;     // two are exact on a tree; further ones only lengthen the path
+  constexpr double growth = 1e-12;  // above the rounding of a sum of edge lengths, some 1e-13
   int source = loop.front();
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     const std::vector<double> distance = distances_from(source, graph, positions);
     const int target =
         *std::max_element(loop.begin(), loop.end(), [&](int a, int b) { return distance[a] < distance[b]; });
-    if (distance[target] <= farthest * (1 + 1e-12)) break;
+    if (distance[target] <= farthest * (1 + growth)) break;
     farthest = distance[target];
     pair = {source, target};
     source = target;

@@ -8,6 +8,8 @@
 #include <queue>
 #include <utility>
 
+#include "geometry/polygon_normal.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -26,19 +28,17 @@ struct FaceShape {
   Eigen::Vector3d centre;
 };
 
-/// Newell's normal and the mean of the corners.
+/// The unit normal and the mean of the corners.
 FaceShape shape_of(const PolygonMesh& mesh, const Positions& positions, int face) {
-  FaceShape shape{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   const int first = mesh.face_offsets[face];
   const int size = mesh.face_offsets[face + 1] - first;
-  const Eigen::Vector3d origin = positions.row(mesh.corner_vertices[first]);
+  Positions corners(size, 3);
+  FaceShape shape{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (int i = 0; i < size; ++i) {
-    const Eigen::Vector3d p = positions.row(mesh.corner_vertices[first + i]);
-    const Eigen::Vector3d q = positions.row(mesh.corner_vertices[first + (i + 1) % size]);
-    shape.normal += (p - origin).cross(q - origin);
-    shape.centre += p / size;
+    corners.row(i) = positions.row(mesh.corner_vertices[first + i]);
+    shape.centre += corners.row(i).transpose() / size;
   }
-  shape.normal.normalize();
+  shape.normal = polygon_normal(corners, corners.row(0).transpose()).normalized();
   return shape;
 }
 
