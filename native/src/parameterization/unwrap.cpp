@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "quality/overlap.h"
+#include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
 
