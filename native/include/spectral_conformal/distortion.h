@@ -23,7 +23,7 @@ struct Distortion {
 };
 
 /// positions (V, 3), triangles consistently wound, triangle_weights (F,) or empty for 1, z (V,).
-/// Triangles that lay_out would clamp have no distortion: qc 1, log2_scale 0, no weight, not flipped.
+/// Triangles that local_isometric_frame would clamp have no distortion: qc 1, log2_scale 0, no weight, not flipped.
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<double>& triangle_weights, const ComplexVector& z);

@@ -22,7 +22,7 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
   shapes_.resize(triangles_.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    shapes_[t] = lay_out(positions.row(a), positions.row(b), positions.row(c));
+    shapes_[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
     if (t + n_virtual_ >= triangles_.size()) continue;
     if (shapes_[t].clamped) ++clamped_triangles_;
     area_ +=
@@ -62,7 +62,7 @@ int ConformalEnergy::lift(double least_height) {
   for (TriangleShape& shape : stretched_) {
     // A raised shape must not count again because of rounding.
     if (!(shape.relative_height() < least_height * (1 - 1e-9))) continue;
-    shape = shape.raised(least_height);
+    shape = shape.clamped_to(least_height);
     ++lifted;
   }
   if (lifted > 0) assemble(n_vertices());

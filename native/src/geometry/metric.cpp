@@ -32,7 +32,7 @@ Eigen::Matrix<double, 2, 3> tangent_frame(const Eigen::Vector3d& p0, const Eigen
   Eigen::Matrix<double, 2, 3> frame = Eigen::Matrix<double, 2, 3>::Zero();
   const Eigen::Vector3d side = (p1 - p0).stableNormalized();
   const Eigen::Vector3d normal = side.cross((p2 - p0).stableNormalized());
-  if (!(normal.norm() > TriangleShape::minimum_height)) return frame;
+  if (!(normal.norm() > TriangleShape::min_height)) return frame;
   frame.row(0) = side;
   frame.row(1) = normal.normalized().cross(side);
   return frame;

@@ -15,8 +15,8 @@ struct TriangleShape {
   /// Height over the longest side, relative to that side.
   double relative_height() const;
   /// The same shape, its height over the longest side raised to at least this part of that side.
-  TriangleShape raised(double least_height) const;
-  /// Whether the shape was clamped, see lay_out.
+  TriangleShape clamped_to(double least_height) const;
+  /// Whether the shape was clamped, see local_isometric_frame.
   bool clamped = false;
 
   /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2:
@@ -35,12 +35,12 @@ struct TriangleShape {
   double quasi_conformal_distortion(Complex d1, Complex d2) const;
 
   /// The least height over the longest side, relative to that side.
-  static constexpr double minimum_height = 1e-10;
+  static constexpr double min_height = 1e-10;
 };
 
-/// Lays a triangle out in its plane. One whose height over its longest side is below minimum_height of that side gets
+/// Lays a triangle out in its plane. One whose height over its longest side is below min_height of that side gets
 /// that height, so that its cotangents stay finite; one without extent becomes equilateral. Either is marked clamped.
-TriangleShape lay_out(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
+TriangleShape local_isometric_frame(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
 
 /// Area of a triangle in 3D.
 double triangle_area(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);

@@ -140,15 +140,15 @@ class FoldFree {
       if (element.barrier()) {
         // A metric may have made it thinner than its image can be.
         constexpr double least_of_image = 1e-9;
-        shape = shape.raised(least_of_image);
+        shape = shape.clamped_to(least_of_image);
         continue;
       }
       element.softening = 0;
       element.measured = true;
       const double height = shape.relative_height();
-      shape = shape.raised(least_height);
+      shape = shape.clamped_to(least_height);
       const double side = std::sqrt(shape.area());
-      // Without extent, lay_out made it equilateral, of side 1.
+      // Without extent, local_isometric_frame made it equilateral, of side 1.
       const bool is_point = shape.clamped && height > 0.5;
       const double scale = is_point || side < least_side ? least_side / side : 1;
       shape.x1 *= scale;

@@ -44,7 +44,7 @@ Measures measure_triangles(const Eigen::Ref<const Positions>& positions,
   distortion.log2_scale = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
   for (std::size_t t = 0; t < n; ++t) {
     const auto& [a, b, c] = triangles[t];
-    const TriangleShape shape = lay_out(positions.row(a), positions.row(b), positions.row(c));
+    const TriangleShape shape = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
     if (shape.clamped) continue;
     const Complex d1 = z[b] - z[a];
     const Complex d2 = z[c] - z[a];

@@ -23,7 +23,7 @@ struct Triangle {
 Triangle measure(const Eigen::Ref<const Positions>& positions, const std::array<int, 3>& triangle,
                  const ComplexVector& z) {
   const auto& [a, b, c] = triangle;
-  const TriangleShape shape = lay_out(positions.row(a), positions.row(b), positions.row(c));
+  const TriangleShape shape = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
   Triangle result;
   if (shape.clamped) return result;
   const Complex d1 = z[b] - z[a];
