@@ -1,24 +1,23 @@
-"""The types of options and results."""
+"""The results: maps and what is said of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal, Optional
 
 import numpy as np
 import numpy.typing as npt
 
-Method = Literal["spectral", "lscm", "fiedler", "area"]
-Weights = Literal["uniform", "inverse_area"]
-Boundary = Literal["length", "vertex"]
-Factorization = Literal["auto", "cholmod", "eigen"]
-Pins = Mapping[int, "tuple[float, float]"]
-Extenders = Iterable["tuple[int, int, float]"]
-"""(vertex, vertex, strength): a soft force of section 4.2 that pushes the two apart, or pulls them together where the
-strength is negative. The strength is a fraction of the boundary's total mass."""
-Progress = Callable[[float, str], Optional[bool]]
-"""Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
+from ._options import Boundary, Method, Weights
+
+Fallback = Optional[Literal["clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
+"""What was changed about a problem whose own solve failed the checks; None where nothing was. "clamped_triangles": thin
+triangles were given a minimal height in the energy. "other_boundary", "other_weights": the form B with the other
+`boundary`, the energy L with the other `weights`. "tutte_embedding": `fold_free` replaced the map by a relaxed Tutte
+embedding."""
+EigenvalueOf = Literal["eigenvector", "map"]
+"""What an eigenvalue belongs to: the "eigenvector" of the problem that was solved, or a "map" that is none (pinned,
+unfolded, replaced), of which it is the quotient z*Lz / z*Bz of Eq. 5."""
 
 
 @dataclass(frozen=True)
@@ -27,26 +26,39 @@ class Parameterization:
 
     uv: npt.NDArray[np.float64]
     """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
+    method: Method
+    """The one used: "lscm" where two or more hard pins are held."""
+    weights: Weights
+    """Of the energy L that was really solved: not those asked for where `fallback` is "other_weights"."""
+    boundary: Boundary
+    """Of the form B that was really solved: not the one asked for where `fallback` is "other_boundary"."""
+    fallback: Fallback
+    """What was changed about the problem because its own solve failed the checks; None where nothing was."""
+    clamped_triangles: int
+    """Thin triangles that the fallback "clamped_triangles" gave a minimal height in the energy."""
     eigenvalue: float
-    """lambda of L z = lambda B z (Eq. 5) for the given vertices, forces included in B. For "lscm" z*Lz / z*Bz; for
-    "area" B = A."""
+    """lambda of L z = lambda B z (Eq. 5) for the given vertices, soft constraints included in B, for the method,
+    weights and boundary above. For "area" B = A."""
+    eigenvalue_of: EigenvalueOf
+    """Whether `eigenvalue` is that of an "eigenvector", or the quotient z*Lz / z*Bz of a "map" that is none."""
     residual: float
     """|L z - lambda B z| / (largest diagonal entry of L x |z|). For "lscm" |L z| over the free vertices / (largest
-    diagonal entry x extent of the map); for "area" and with forces (soft pins, extenders, hole rigidity) the last
-    relative change of the map."""
+    diagonal entry x extent of the map); for "area" and with soft constraints (soft pins, extenders, hole rigidity) the
+    last relative change of the map."""
     iterations: int
     """Solves with the factor."""
+    attempts: int
+    """Eigenproblems, or pinned systems, solved until one passed the checks, fallbacks included."""
     turning_number: int
     """Of the longest boundary loop: 1 for a map that does not wind round itself, -1 if that loop is a hole of it."""
     unfolded: int
-    """Folded triangles that `fold_free` has unfolded."""
+    """Flipped triangles that `fold_free` has unfolded."""
     is_embedding: bool
     """Whether `fold_free` had to replace the map by an embedding."""
     mean_qc_before: float
     """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
     message: str
-    """Remedies that were needed (the eigenvalue is then of the form and weights named here) and repaired faces; empty
-    when there was none."""
+    """For people: fallbacks that were needed and faces that were repaired; empty when there was none."""
     timings: dict[str, float]
     """Seconds per phase, by name."""
 
@@ -90,17 +102,26 @@ class MapDefects:
 
 @dataclass(frozen=True)
 class Chart:
-    """What became of one chart of `unwrap`."""
+    """What became of one chart of `unwrap`. Of a failed one, what was really solved is what was to be solved."""
 
     faces: npt.NDArray[np.int32]
     """Faces of the mesh, ascending."""
     status: Literal["solved", "failed"]
     message: str
-    """Why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
+    """For people: why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
+    method: Method
+    """This and the next four: what was really solved, see `Parameterization`."""
+    weights: Weights
+    boundary: Boundary
+    fallback: Fallback
+    clamped_triangles: int
     eigenvalue: float
     """Not a number for a failed chart, like residual, mean_qc and max_qc."""
+    eigenvalue_of: EigenvalueOf
+    """This and the next four: see `Parameterization`."""
     residual: float
     iterations: int
+    attempts: int
     turning_number: int
     mean_qc: float
     """As in `Distortion`, over the chart's triangles; of a convex quad's two splits the less distorted counts."""
@@ -110,13 +131,11 @@ class Chart:
     overlapping: int
     """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
     unfolded: int
-    """Folded triangles that `fold_free` has unfolded."""
+    """Flipped triangles that `fold_free` has unfolded."""
     is_embedding: bool
     """Whether `fold_free` had to replace the map by an embedding."""
     mean_qc_before: float
     """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
-    method: Method
-    """The one used: "lscm" for a chart with several pins, unless they are soft."""
     n_pins: int
     """Pinned vertices of the chart."""
     n_vertices: int
