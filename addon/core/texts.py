@@ -92,6 +92,12 @@ NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge
 ADJUSTED_WITHOUT_SUBSURF = (
     "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
 )
+EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap with it"
+NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
+STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
+OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
+NO_SUCH_EXTENDER = "No such extender; choose one in the list"
+ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "Nothing selected; select the faces to unwrap, in the UV editor their UVs"
 MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
 NO_VISIBLE_FACES = "No visible faces to cut"
@@ -129,6 +135,11 @@ def progress(label: str, percent: int, phase: str) -> str:
 def printed_progress(label: str, percent: int, phase: str) -> str:
     """Return the line that tells on a terminal how far the operator with this label is."""
     return f"{label}: {percent} % ({phase})"
+
+
+def could_not_follow(problem: str) -> str:
+    """Return the line that tells on a terminal that live unwrapping could not follow."""
+    return f"{LIVE_UNWRAP_LABEL} could not follow: {problem}"
 
 
 def not_drawn(label: str, problem: str) -> str:
@@ -226,6 +237,42 @@ def extenders_without_strength(names: Sequence[str]) -> str:
     if not names:
         return ""
     return f"Skipped {_count(len(names), 'extender')} whose strength is no number that it can have: {', '.join(names)}"
+
+
+def broken_extender(name: str) -> str:
+    """Return why an extender that lacks a vertex cannot be adjusted."""
+    return f"{name} is broken: a vertex of it is gone; remove it and add another"
+
+
+def adjusting(strength: str, note: str) -> str:
+    """Return what the status bar shows while a strength is dragged."""
+    return f"{ADJUST_EXTENDER_LABEL}: strength {strength}   {note}"
+
+
+def removed_broken(count: int) -> str:
+    """Return what Remove Broken says."""
+    return f"Removed broken extenders: {count}"
+
+
+def broken_extender_selected(name: str, gone: int) -> str:
+    """Return the warning that an extender lacks vertices that were to be selected."""
+    return f"{name} is broken: {gone} of its vertices gone; remove it"
+
+
+def hidden_vertices(name: str, hidden: int) -> str:
+    """Return the warning that vertices of an extender are hidden, which are not selected."""
+    return f"{name} has hidden vertices: {hidden}; reveal them to select them"
+
+
+def added_extenders(count: int, existing: int, follows: bool) -> str:
+    """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
+    parts = []
+    if count:
+        acts = "" if follows else f", which will act on the next unwrap; {ADJUST_EXTENDER_LABEL} acts at once"
+        parts.append(f"Added {_count(count, 'extender')}{acts}")
+    if existing:
+        parts.append(f"Pairs that have an extender already: {existing}")
+    return ". ".join(parts)
 
 
 def unused_extenders(count: int) -> str:

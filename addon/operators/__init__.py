@@ -2,10 +2,9 @@
 """The add-on's operators: thin classes; the work is in the plain functions of the other folders."""
 
 import bpy
-from bpy.app.handlers import persistent
 
 from ..unwrapping import last_result
-from . import job_operator
+from . import extender_adjust, job_operator
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
     MESH_OT_spectral_extender_add,
@@ -28,8 +27,8 @@ _CLASSES = (
 )
 
 
-@persistent
-def _before_load(*_arguments: object) -> None:
+def before_load() -> None:
+    """End the job that is under way, and forget what the file that is about to be left has to do with."""
     job_operator.end_all()
     last_result.forget()
 
@@ -38,16 +37,14 @@ def register() -> None:
     """Register all operators."""
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
-    bpy.app.handlers.load_pre.append(_before_load)
 
 
 def unregister() -> None:
-    """End the job that is under way and unregister all operators.
+    """End what is under way and unregister all operators.
 
     Blender drops running operators whose class goes without calling `cancel`.
     """
-    job_operator.end_all()
-    last_result.forget()
-    bpy.app.handlers.load_pre.remove(_before_load)
+    before_load()
+    extender_adjust.end_running()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

@@ -2,6 +2,7 @@
 
 #include "bindings/bind.h"
 #include "bindings/space_metric.h"
+#include "geometry/triangle_shape.h"
 
 namespace spectral_conformal::python {
 
@@ -47,8 +48,8 @@ py::array_t<double> metric_from_uv(const Array<double>& vertices, const Array<in
       const int v = triangles.at(t, k);
       return Complex(uv.at(v, 0), uv.at(v, 1));
     };
-    const TriangleShape shape = lay_out(corner(vertices, triangles, t, 0), corner(vertices, triangles, t, 1),
-                                        corner(vertices, triangles, t, 2));
+    const TriangleShape shape = local_isometric_frame(
+        corner(vertices, triangles, t, 0), corner(vertices, triangles, t, 1), corner(vertices, triangles, t, 2));
     set_metric(metric, t,
                shape.clamped ? TriangleMetric{} : metric_of_map(shape, image(1) - image(0), image(2) - image(0)));
   }

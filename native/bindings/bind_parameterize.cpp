@@ -11,6 +11,7 @@
 #include "bindings/bind.h"
 #include "bindings/options.h"
 #include "bindings/progress_function.h"
+#include "bindings/solve_record.h"
 #include "bindings/space_metric.h"
 #include "bindings/turns.h"
 #include "mesh/chart_checks.h"
@@ -25,17 +26,18 @@ namespace {
 class PatchSolver {
  public:
   PatchSolver(const Array<double>& vertices, const Array<int>& triangles, const std::optional<Array<double>>& metric,
-              const PatchOptions& options)
+              const py::object& options)
       : n_vertices_(vertices.shape(0)) {
     const MeshArrays arrays = triangle_mesh(vertices, triangles);
     const PolygonMesh mesh = arrays.view();
     const std::vector<SpaceMetric> tensors = space_metric(vertices, triangles, metric);
+    const PatchOptions patch_options = patch_options_of(options);
     const py::gil_scoped_release unlocked;
     const auto start = std::chrono::steady_clock::now();
-    const Chart chart = single_patch(mesh);
+    const Chart chart = single_chart(mesh);
     charts_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     vertices_ = chart.vertices;
-    solver_ = std::make_unique<Solver>(chart, chart.positions(mesh), options,
+    solver_ = std::make_unique<Solver>(chart, chart.positions(mesh), patch_options,
                                        chart_metric(mesh, chart, tensors.empty() ? nullptr : tensors.data()));
   }
 
@@ -46,14 +48,10 @@ class PatchSolver {
     solver_->factorize(callback);
   }
 
-  py::dict solve(const std::string& method, const PinList& pin_list, double soft_pins, const ExtenderList& extenders,
-                 double hole_rigidity, double tolerance, const py::object& progress) {
+  py::dict solve(const py::object& given_options, const PinList& pin_list, const ExtenderList& extenders,
+                 const py::object& progress) {
     const Progress callback = progress_of(progress);
-    SolveOptions options;
-    options.method = method_named(method);
-    options.tolerance = tolerance;
-    options.soft_pins = soft_pins;
-    options.hole_rigidity = hole_rigidity;
+    SolveOptions options = solve_options_of(given_options);
     for (const auto& [from, to, strength] : extenders) {
       options.extenders.push_back(
           {{chart_vertex(from, "has an extender")}, {chart_vertex(to, "has an extender")}, strength});
@@ -72,27 +70,19 @@ class PatchSolver {
     py::dict timings;
     timings["charts"] = charts_seconds_;
     for (const auto& [phase, seconds] : solution.timings) timings[phase.c_str()] = seconds;
-    py::dict result;
+    py::dict result = solve_record(solution);
     result["uv"] = real_view(z);
-    result["eigenvalue"] = solution.eigenvalue;
-    result["residual"] = solution.residual;
-    result["iterations"] = solution.iterations;
-    result["turning_number"] = solution.turning_number;
-    result["unfolded"] = solution.unfolded;
-    result["is_embedding"] = solution.is_embedding;
-    result["mean_qc_before"] = solution.mean_qc_before;
-    result["message"] = solution.message;
     result["timings"] = timings;
     return result;
   }
 
  private:
   int chart_vertex(int vertex, const char* role) const {
-    const auto place = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
-    if (place == vertices_.end() || *place != vertex) {
+    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
+    if (found == vertices_.end() || *found != vertex) {
       throw InvalidMesh("Vertex " + std::to_string(vertex) + " " + role + ", but no triangle uses it.");
     }
-    return static_cast<int>(place - vertices_.begin());
+    return static_cast<int>(found - vertices_.begin());
   }
 
   Turns turns_;
@@ -106,8 +96,7 @@ class PatchSolver {
 
 void bind_parameterize(py::module_& module) {
   py::class_<PatchSolver>(module, "Solver", py::module_local())
-      .def(
-          py::init<const Array<double>&, const Array<int>&, const std::optional<Array<double>>&, const PatchOptions&>())
+      .def(py::init<const Array<double>&, const Array<int>&, const std::optional<Array<double>>&, const py::object&>())
       .def("factorize", &PatchSolver::factorize)
       .def("solve", &PatchSolver::solve);
 }

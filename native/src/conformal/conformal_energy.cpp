@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/signed_area.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -22,7 +24,7 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
   shapes_.resize(triangles_.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    shapes_[t] = lay_out(positions.row(a), positions.row(b), positions.row(c));
+    shapes_[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
     if (t + n_virtual_ >= triangles_.size()) continue;
     if (shapes_[t].clamped) ++clamped_triangles_;
     area_ +=
@@ -62,7 +64,7 @@ int ConformalEnergy::lift(double least_height) {
   for (TriangleShape& shape : stretched_) {
     // A raised shape must not count again because of rounding.
     if (!(shape.relative_height() < least_height * (1 - 1e-9))) continue;
-    shape = shape.raised(least_height);
+    shape = shape.clamped_to(least_height);
     ++lifted;
   }
   if (lifted > 0) assemble(n_vertices());
@@ -102,13 +104,12 @@ void ConformalEnergy::assemble(int n_vertices) {
     const double half_weight = 0.5 * weight(t);
     const double double_area = s.x1 * s.y2;
     // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
-    const double cotangent[3] = {s.x1 * s.x2 / double_area, s.x1 * (s.x1 - s.x2) / double_area,
-                                 (s.x2 * (s.x2 - s.x1) + s.y2 * s.y2) / double_area};
+    const std::array<double, 3> scaled_cotangents = s.scaled_cotangents();
     for (int k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3];
       const int j = triangle[(k + 2) % 3];
       if (i == j) continue;
-      const double dirichlet = half_weight * cotangent[k];
+      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);
       diagonal[i] += dirichlet;
       diagonal[j] += dirichlet;
       // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2, L_ji its conjugate.
@@ -178,7 +179,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    sum += weight(t) * std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
+    sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
   return sum;
 }

@@ -25,7 +25,7 @@ class ConformalEnergy {
  public:
   /// positions (V, 3) near unit scale; triangles counter-clockwise; triangle_weights per triangle. The last `n_virtual`
   /// triangles (filled holes) are in the energy and in no measure of the surface.
-  /// Nearly degenerate triangles are clamped as lay_out does and counted in clamped_triangles().
+  /// Nearly degenerate triangles are clamped as local_isometric_frame does and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
                   std::vector<double> triangle_weights, Weights weights, std::size_t n_virtual = 0);
   /// The same patch and metric with other weights.

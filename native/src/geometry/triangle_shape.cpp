@@ -43,8 +43,8 @@ TriangleShape over_side(int apex, double length, double foot, double height) {
   return shape;
 }
 
-/// The corner opposite to the longest side is lifted off that side.
-TriangleShape lay_out_clamped(const std::array<Eigen::Vector3d, 3>& p) {
+/// Moves the corner opposite to the longest side away from that side.
+TriangleShape clamped_frame(const std::array<Eigen::Vector3d, 3>& p) {
   const double lengths[3] = {(p[2] - p[1]).norm(), (p[0] - p[2]).norm(), (p[1] - p[0]).norm()};
   const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
   const double length = lengths[apex];
@@ -52,7 +52,7 @@ TriangleShape lay_out_clamped(const std::array<Eigen::Vector3d, 3>& p) {
   if (length > 0) {
     const Eigen::Vector3d& base = p[(apex + 1) % 3];
     const double foot = (p[apex] - base).dot(p[(apex + 2) % 3] - base) / length;
-    shape = over_side(apex, length, foot, TriangleShape::minimum_height * length);
+    shape = over_side(apex, length, foot, TriangleShape::min_height * length);
   } else {
     shape.x2 = 0.5;
     shape.y2 = std::sqrt(0.75);
@@ -63,25 +63,25 @@ TriangleShape lay_out_clamped(const std::array<Eigen::Vector3d, 3>& p) {
 
 }  // namespace
 
-TriangleShape TriangleShape::raised(double least_height) const {
-  if (!(relative_height() < least_height)) return *this;
+TriangleShape TriangleShape::clamped_to(double height) const {
+  if (!(relative_height() < height)) return *this;
   const std::array<Complex, 3> z = {0.0, x1, Complex(x2, y2)};
   const double lengths[3] = {std::abs(z[2] - z[1]), std::abs(z[2]), x1};
   const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
   const double length = lengths[apex];
   const Complex base = z[(apex + 1) % 3];
   const double foot = std::real(std::conj(z[(apex + 2) % 3] - base) * (z[apex] - base)) / length;
-  TriangleShape shape = over_side(apex, length, foot, least_height * length);
+  TriangleShape shape = over_side(apex, length, foot, height * length);
   shape.clamped = clamped;
   return shape;
 }
 
-TriangleShape lay_out(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) {
+TriangleShape local_isometric_frame(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) {
   const Eigen::Vector3d e1 = p1 - p0;
   const Eigen::Vector3d e2 = p2 - p0;
   const double double_area = e1.cross(e2).norm();
   const double longest_squared = std::max({e1.squaredNorm(), e2.squaredNorm(), (p2 - p1).squaredNorm()});
-  if (!(double_area > TriangleShape::minimum_height * longest_squared)) return lay_out_clamped({p0, p1, p2});
+  if (!(double_area > TriangleShape::min_height * longest_squared)) return clamped_frame({p0, p1, p2});
   TriangleShape shape;
   shape.x1 = e1.norm();
   shape.x2 = e1.dot(e2) / shape.x1;

@@ -13,7 +13,7 @@ import scenes
 core_options = importlib.import_module("spectral_unwrap.core.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
-adjusted_map = importlib.import_module("spectral_unwrap.extenders.adjusted_map")
+adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
 packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
 progress = importlib.import_module("spectral_unwrap.ui.progress")

@@ -27,7 +27,7 @@ const TriangleMetric skew{3, -1.2, 0.8};
 TEST_SUITE_BEGIN("metric");
 
 TEST_CASE("the stretched triangle has the lengths of the metric") {
-  const TriangleShape shape = lay_out(p0, p1, p2);
+  const TriangleShape shape = local_isometric_frame(p0, p1, p2);
   const TriangleShape result = stretched(shape, skew);
   const Complex third(shape.x2, shape.y2);
   CHECK(result.x1 == doctest::Approx(length(skew, shape.x1)).epsilon(1e-14));
@@ -38,7 +38,7 @@ TEST_CASE("the stretched triangle has the lengths of the metric") {
 }
 
 TEST_CASE("stretched by the metric of a map, a triangle has the shape of its image") {
-  const TriangleShape shape = lay_out(p0, p1, p2);
+  const TriangleShape shape = local_isometric_frame(p0, p1, p2);
   const Complex d1(0.3, 2);
   const Complex d2(-4, 1);
   const TriangleShape result = stretched(shape, metric_of_map(shape, d1, d2));
@@ -52,7 +52,7 @@ TEST_CASE("a tensor of space is restricted to the plane, whichever corner comes 
   SpaceMetric tensor;
   tensor << 2, 0.3, -0.1, 0.3, 1, 0.2, -0.1, 0.2, 0.5;
   const auto check = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-    const TriangleShape result = stretched(lay_out(a, b, c), restrict_to_triangle(tensor, a, b, c));
+    const TriangleShape result = stretched(local_isometric_frame(a, b, c), restrict_to_triangle(tensor, a, b, c));
     const auto measured = [&](const Eigen::Vector3d& t) { return std::sqrt(t.dot(tensor * t)); };
     CHECK(result.x1 == doctest::Approx(measured(b - a)).epsilon(1e-13));
     CHECK(std::hypot(result.x2, result.y2) == doctest::Approx(measured(c - a)).epsilon(1e-13));

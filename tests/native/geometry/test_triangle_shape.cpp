@@ -29,7 +29,7 @@ TEST_CASE("laying out keeps lengths, area and the order of the corners") {
   const Point p[3] = {{0.3, -1.2, 4.0}, {2.5, 0.1, 3.2}, {-0.7, 1.9, 5.5}};
   for (int k = 0; k < 3; ++k) {
     const Point &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-    const TriangleShape shape = lay_out(a, b, c);
+    const TriangleShape shape = local_isometric_frame(a, b, c);
     const auto z = corners(shape);
     CHECK(std::abs(z[1]) == doctest::Approx((b - a).norm()).epsilon(1e-14));
     CHECK(std::abs(z[2]) == doctest::Approx((c - a).norm()).epsilon(1e-14));
@@ -44,7 +44,7 @@ TEST_CASE("laying out keeps lengths, area and the order of the corners") {
 }
 
 TEST_CASE("the holomorphic and antiholomorphic parts of f = a p + b conj(p) are 4 |T| a and 4 |T| b") {
-  const TriangleShape shape = lay_out({0, 0, 0}, {1, 2, 0.5}, {-1, 1, 2});
+  const TriangleShape shape = local_isometric_frame({0, 0, 0}, {1, 2, 0.5}, {-1, 1, 2});
   const auto z = corners(shape);
   const Complex a(0.3, -0.8), b(-1.1, 0.4);
   const auto f = [&](Complex p) { return a * p + b * std::conj(p); };
@@ -54,28 +54,29 @@ TEST_CASE("the holomorphic and antiholomorphic parts of f = a p + b conj(p) are 
 }
 
 TEST_CASE("a triangle below the least height is lifted to it, whichever side is its longest") {
-  constexpr double least = TriangleShape::minimum_height;
+  constexpr double least = TriangleShape::min_height;
   for (const double height : {0.0, 0.4 * least}) {
     const Point p[3] = {{0, 0, 0}, {2, 0, 0}, {0.5, 2 * height, 0}};
     for (int k = 0; k < 3; ++k) {
-      const TriangleShape shape = lay_out(p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+      const TriangleShape shape = local_isometric_frame(p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
       CHECK(shape.clamped);
       CHECK(height_over_longest_side(shape) == doctest::Approx(least).epsilon(1e-6));
       CHECK(shape.x1 == doctest::Approx((p[(k + 1) % 3] - p[k]).norm()).epsilon(1e-9));
       CHECK(std::abs(corners(shape)[2]) == doctest::Approx((p[(k + 2) % 3] - p[k]).norm()).epsilon(1e-9));
     }
   }
-  CHECK_FALSE(lay_out({0, 0, 0}, {2, 0, 0}, {0.5, 4 * least, 0}).clamped);
+  CHECK_FALSE(local_isometric_frame({0, 0, 0}, {2, 0, 0}, {0.5, 4 * least, 0}).clamped);
 }
 
 TEST_CASE("the relative height is that over the longest side, whichever that is") {
   const double height = 0.25;
   const Eigen::Vector3d corners[3] = {{0, 0, 0}, {2, 0, 0}, {0.7, 2 * height, 0}};
   for (int k = 0; k < 3; ++k) {
-    const TriangleShape shape = lay_out(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    const TriangleShape shape = local_isometric_frame(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
     CHECK(shape.relative_height() == doctest::Approx(height));
   }
-  CHECK(lay_out({0, 0, 0}, {1, 0, 0}, {0.4, 0, 0}).relative_height() == doctest::Approx(TriangleShape::minimum_height));
+  CHECK(local_isometric_frame({0, 0, 0}, {1, 0, 0}, {0.4, 0, 0}).relative_height() ==
+        doctest::Approx(TriangleShape::min_height));
 }
 
 TEST_CASE("a raised shape has its height over the longest side; fat ones stay") {
@@ -83,25 +84,26 @@ TEST_CASE("a raised shape has its height over the longest side; fat ones stay") 
   const Eigen::Vector3d needle[3] = {{0, 0, 0}, {1e-12, 0, 0}, {0, 2, 0}};
   for (const auto& corners : {cap, needle}) {
     for (int k = 0; k < 3; ++k) {
-      const TriangleShape shape = lay_out(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
-      const TriangleShape raised = shape.raised(1e-3);
+      const TriangleShape shape = local_isometric_frame(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+      const TriangleShape raised = shape.clamped_to(1e-3);
       CHECK(raised.relative_height() == doctest::Approx(1e-3));
       CHECK(raised.area() == doctest::Approx(0.5 * 2 * 2e-3));
       CHECK((raised.clamped == shape.clamped && raised.x1 > 0 && raised.y2 > 0));
     }
   }
-  const TriangleShape fat = lay_out({0, 0, 0}, {1, 0, 0}, {0.3, 0.5, 0});
-  CHECK(fat.raised(1e-3).y2 == fat.y2);
+  const TriangleShape fat = local_isometric_frame({0, 0, 0}, {1, 0, 0}, {0.3, 0.5, 0});
+  CHECK(fat.clamped_to(1e-3).y2 == fat.y2);
 }
 
 TEST_CASE("two coinciding corners are clamped, three become equilateral") {
   const Point p(1, 2, 3), q(2, 2, 3);
-  for (const TriangleShape& shape : {lay_out(p, p, q), lay_out(p, q, p), lay_out(q, p, p)}) {
+  for (const TriangleShape& shape :
+       {local_isometric_frame(p, p, q), local_isometric_frame(p, q, p), local_isometric_frame(q, p, p)}) {
     CHECK(shape.clamped);
     CHECK(shape.area() > 0);
     CHECK(std::isfinite(shape.x2 / shape.y2));
   }
-  const TriangleShape point = lay_out(p, p, p);
+  const TriangleShape point = local_isometric_frame(p, p, p);
   CHECK(point.clamped);
   const auto z = corners(point);
   CHECK(std::abs(z[1]) == doctest::Approx(std::abs(z[2])));
@@ -109,7 +111,7 @@ TEST_CASE("two coinciding corners are clamped, three become equilateral") {
 }
 
 TEST_CASE("coordinates that are not finite are clamped") {
-  CHECK(lay_out({0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<double>::quiet_NaN(), 0}).clamped);
+  CHECK(local_isometric_frame({0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<double>::quiet_NaN(), 0}).clamped);
 }
 
 TEST_SUITE_END();
