@@ -25,7 +25,8 @@ MODULES = {
         "importlib",
         "itertools",
     ),
-    *("json", "math", "numbers", "operator", "threading", "time", "types", "typing"),
+    *("difflib", "inspect", "json", "math", "numbers", "operator", "re", "threading", "time", "types", "typing"),
+    "typing_extensions",  # for type checkers alone
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }
 BUILTINS = {"open", "exec", "eval", "compile", "__import__", "input", "breakpoint"}
