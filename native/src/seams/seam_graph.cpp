@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graph/shortest_paths.h"
-
 #include "geometry/polygon_normal.h"
+#include "graph/shortest_paths.h"
 
 namespace spectral_conformal {
 namespace {

@@ -54,7 +54,7 @@ std::vector<int> in_order(const SeparableFaces& faces, const std::vector<double>
 
 /// The level of the cut with the lowest cost for its area, or a value that is not a number.
 double best_level(const SeparableFaces& faces, const Adjacency& dual, const std::vector<double>& level,
-                  const std::vector<int>& order, double low, double high, double least_share) {
+                  const std::vector<int>& order, double low, double high, double min_fraction) {
   double total = 0;
   for (const int face : order) total += faces.area[face];
   std::vector<char> inside(level.size(), 0);
@@ -71,7 +71,7 @@ double best_level(const SeparableFaces& faces, const Adjacency& dual, const std:
     }
     const double next = level[order[i + 1]];
     const double smaller = std::min(area, total - area);
-    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= least_share * total)) continue;
+    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= min_fraction * total)) continue;
     const double score = cost / std::sqrt(smaller);
     if (score < best) {
       best = score;
@@ -115,7 +115,7 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
 }
 
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
-                                  const std::vector<int>& sinks, double least_share) {
+                                  const std::vector<int>& sinks, double min_fraction) {
   std::vector<char> side(faces.member.size(), 0);
   const auto dual = dual_graph(faces);
   std::vector<double> level = distances(faces, dual, sources);
@@ -130,7 +130,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
   const std::vector<int> order = in_order(faces, level);
-  const double best = best_level(faces, dual, level, order, low, high, least_share);
+  const double best = best_level(faces, dual, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 
   // Nodes: 0 the source, 1 the sink, then the faces between.
