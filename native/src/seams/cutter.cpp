@@ -9,24 +9,28 @@
 namespace spectral_conformal {
 namespace {
 
+/// Fraction of the area within SeamSuggestionOptions::scale_limit, as documented there.
 constexpr double enough_area = 0.95;
-/// In the first rounds, extrema with at least this part of the volume of the largest are cut to together.
+/// While the scale is beyond its limit, extrema with at least this fraction of the volume of the largest are cut to
+/// together, for one solve instead of many: the limbs of a body, but not their fingers.
 constexpr double together = 0.2;
-/// A cut must lower the distortion by at least this part.
+/// A cut must lower the distortion by at least this fraction; less is not seen in a texture.
 constexpr double min_gain = 0.002;
-/// Overlaps of less than this part of the area are left to the user.
+/// Overlaps of less than this fraction of the area are left to the user: each cut against them costs several solves.
 constexpr double negligible_overlap = 0.005;
-/// A cut against overlaps must remove at least this part of them, and may raise the distortion by this factor.
+/// A cut against overlaps must remove at least this fraction of them, so that five suffice, and may raise the
+/// distortion by this factor, about as much as one of the last cuts gains.
 constexpr double min_overlap_gain = 0.2;
 constexpr double distortion_for_overlap = 1.05;
-/// What a cut gains counts less by this factor where it makes an island.
+/// What a cut gains counts less by this factor where it makes an island: artists prefer few.
 constexpr double island_penalty = 0.4;
 /// A cut is priced at its length and this fraction of the root of the area, what any cut costs: without it the gain for
 /// a length favours ever shorter cuts.
 constexpr double base_price = 0.25;
-/// Of larger pieces, which have fine edges, no cut shorter than this part of the root of the area is tried.
+/// Of larger pieces, which have fine edges, no cut shorter than this fraction of the root of the area is tried: it
+/// costs a solve and gains little.
 constexpr double min_length = 0.05;
-/// Cuts with this part of the best one's gain are made together with it.
+/// Cuts with this fraction of the best one's gain are made together with it; a trial of all of them confirms it.
 constexpr double nearly_as_good = 0.4;
 /// Of pieces up to this number of vertices every region is tried before giving up.
 constexpr int small_piece = 3000;

@@ -13,7 +13,7 @@ namespace {
 
 /// Edges of the mirror plane are where artists look for seams first.
 constexpr double axis_discount = 0.7;
-/// No island gets less than this part of the area of the chart that it is cut from.
+/// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
 constexpr double min_island = 0.02;
 
 }  // namespace
