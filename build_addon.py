@@ -58,7 +58,7 @@ def main() -> int:
             return environment.run_fuzzing(options.further_arguments, native=options.native)
         if options.command == "fuzz-scenes":
             environment.set_up("build", "bpy", "test")
-            return environment.run_python("tests/fuzz/scenes_run.py", *options.further_arguments)
+            return environment.run_python("-m", "tests.fuzz.scenes_run", *options.further_arguments)
         if options.wheels:
             environment.set_up("bpy", native=False)
             return packaging.run_with_wheels(options.wheels)

@@ -221,6 +221,8 @@ def blender_command() -> list[str]:
         "blender",
         "--background",
         "--factory-startup",
+        # For PYTHONPATH, which Debian's Blender reads anyway.
+        "--python-use-system-env",
         "--python-exit-code",
         "1",
         "--python",
@@ -281,7 +283,7 @@ def run_pytest(arguments: Sequence[str]) -> int:
 
 def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:
     """Call the module at random, or, native, run libFuzzer on the C++ code; return the exit code."""
-    return run_python(ROOT / "tests" / "fuzz" / ("run_native.py" if native else "run.py"), *arguments)
+    return run_python("-m", "tests.fuzz.run_native" if native else "tests.fuzz.run", *arguments)
 
 
 def run_python(*arguments: str | Path) -> int:

@@ -2,10 +2,11 @@
 
 import threading
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 ROUNDS = 6
 

@@ -5,10 +5,10 @@ import contextlib
 import importlib
 
 import bpy
-import digest
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import digest, scenes
 
 edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
 seam_suggestion = importlib.import_module("spectral_unwrap.seam_suggestion")

@@ -4,11 +4,10 @@
 import importlib
 
 import bpy
-import digest
-import hard_meshes
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import digest, hard_meshes, scenes
 
 edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
 

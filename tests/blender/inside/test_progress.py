@@ -8,7 +8,8 @@ import time
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
 progress = importlib.import_module("spectral_unwrap.progress")
