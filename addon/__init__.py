@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import drawing, extender_properties, extender_tracking, live_unwrap, menus, operators, panels
+from . import handlers, operators, properties
+from .overlay import extender_arrows
+from .ui import menus, panels
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
 # blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).
@@ -15,7 +17,8 @@ bl_info = {
     "category": "UV",
 }
 
-_PARTS = (extender_properties, extender_tracking, operators, live_unwrap, menus, panels, drawing)
+# Each may use those before it: they come in this order and go in the reverse one.
+_PARTS = (properties, handlers, operators, menus, panels, extender_arrows)
 
 
 def register() -> None:

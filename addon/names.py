@@ -1,33 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every identifier and label by which Blender, scripts and users know this add-on's parts."""
+"""Every identifier by which Blender and scripts know this add-on's parts; what artists read is in core/texts.py."""
 
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
-UNWRAP_LABEL = "Spectral Unwrap"
-UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
 
 SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"
-SELECT_FAILED_LABEL = "Select Failed Islands"
-SELECT_FAILED_DESCRIPTION = (
-    f"Select the faces of the islands that {UNWRAP_LABEL} cannot solve, among the selected faces, or among all visible "
-    "ones if none is selected"
-)
 
 SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
-SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
-SELECT_DEFECTS_DESCRIPTION = (
-    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map"
-)
 
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
-SUGGEST_SEAMS_LABEL = "Suggest Seams"
-SUGGEST_SEAMS_DESCRIPTION = (
-    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
-    "visible ones if none is selected; then unwrap again"
-)
 
 LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"
-LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
-LIVE_UNWRAP_DESCRIPTION = "Let islands follow while their pins are moved, and unwrap again when seams are changed"
 
 # Properties of meshes: the list of extenders, the index of the active one, and the name of the vertex layer that tells
 # which vertices are theirs. The layer's name is the prefix and a digest of the list; with the dot Blender hides it.
@@ -35,7 +17,6 @@ EXTENDERS_PROPERTY = "spectral_extenders"
 ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
 EXTENDER_LAYER_PROPERTY = "spectral_extenders_layer"
 EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
-EXTENDER_NAME = "Extender"
 EXTENDER_STRENGTH_LIMIT = 1e4
 # Arguments of the property, wherever it stands.
 EXTENDER_STRENGTH = {
@@ -52,22 +33,10 @@ EXTENDER_STRENGTH = {
 }
 
 ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
-ADD_EXTENDER_LABEL = "Add Extender"
-ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
 REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"
-REMOVE_EXTENDER_LABEL = "Remove Extender"
-REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
-REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
-REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders with a vertex that is gone"
 ADJUST_EXTENDER_OPERATOR = "mesh.spectral_extender_adjust"
-ADJUST_EXTENDER_LABEL = "Adjust Extender"
-ADJUST_EXTENDER_DESCRIPTION = "Change the strength of the active extender by dragging, while its island follows"
 SELECT_EXTENDER_OPERATOR = "mesh.spectral_extender_select"
-SELECT_EXTENDER_LABEL = "Select Extender Vertices"
-SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
 
-SIDEBAR_TAB = "Spectral"
-EXTENDERS_LABEL = "Extenders"
 EXTENDER_LIST = "MESH_UL_spectral_extenders"
 VIEWPORT_PANEL = "VIEW3D_PT_spectral_unwrap"
 VIEWPORT_EXTENDERS_PANEL = "VIEW3D_PT_spectral_extenders"
@@ -95,42 +64,3 @@ TEMPORARY_MESH = ".spectral_unwrap_temporary"
 TEMPORARY_OBJECT = TEMPORARY_MESH
 TEMPORARY_SCENE = TEMPORARY_MESH
 ORIGINAL_FACE_ATTRIBUTE = ".spectral_unwrap_original_face"
-
-# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
-# spectral_conformal.unwrap.
-METHOD_ITEMS = (
-    ("SPECTRAL", "Spectral", "Least angle distortion with the whole boundary free; no pins"),
-    ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
-    ("FIEDLER", "Fiedler Vector", "Smallest nontrivial eigenvector over all vertices, for comparison"),
-    ("AREA", "Area Normalized", "Least angle distortion relative to the area of the map, for comparison"),
-)
-WEIGHTS_ITEMS = (
-    ("UNIFORM", "Uniform", "Every triangle counts by its area"),
-    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same, for irregularly sampled meshes"),
-)
-BOUNDARY_ITEMS = (
-    ("LENGTH", "Length", "Weigh boundary vertices by the length of their boundary edges, whatever the sampling"),
-    ("VERTEX", "Vertex", "Weigh all boundary vertices equally, as in the original paper"),
-)
-MARGIN_METHOD_ITEMS = (
-    ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
-    ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
-    ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
-)
-PACK = "PACK"
-KEEP = "KEEP"
-PLACEMENT_ITEMS = (
-    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile"),
-    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before"),
-)
-PAIRS_IN_ORDER = "IN_ORDER"
-PAIRS_TO_ACTIVE = "TO_ACTIVE"
-EXTENDER_PAIRS_ITEMS = (
-    (
-        PAIRS_IN_ORDER,
-        "In Order",
-        "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
-        "on, in the order in which they were selected",
-    ),
-    (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
-)

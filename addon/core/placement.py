@@ -6,9 +6,13 @@ alone; chart numbers need not be consecutive. Charts are only translated, scaled
 so that angles are kept.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+
+from .mesh import PolygonMesh, next_corner
+from .solve import Solution
 
 # Gap between charts side by side, relative to the mean chart size: enough for single precision and for Blender's
 # packer, which joins faces whose coordinates agree along a common edge.
@@ -140,8 +144,7 @@ def to_former_area(
 def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
     """Return the area of each of `number` charts, whichever way its faces are wound, (number,)."""
     first, end = face_offsets[:-1], face_offsets[1:]
-    following = np.arange(1, len(uv) + 1)
-    following[end - 1] = first
+    following = next_corner(face_offsets)
     # Relative to the face's first corner, so that a small face far from the origin keeps its digits.
     local = uv - np.repeat(uv[first], end - first, axis=0)
     cross = local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0]
@@ -183,3 +186,56 @@ def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
 def _turned(points: np.ndarray, turn: np.ndarray) -> np.ndarray:
     """Turn those of the `points` (N, 2) by a quarter about the origin, anticlockwise, where `turn` (N,) says so."""
     return np.where(turn[:, None], points[:, ::-1] * (-1.0, 1.0), points)
+
+
+def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
+    """Return the solution's map, (C, 2) float64, with charts that have one pin scaled about it to their former area."""
+    single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
+    chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
+    if (chart < 0).all():
+        return np.array(solution.uv, dtype=np.float64)
+    return to_former_area(solution.uv, mesh.isotropic_uv(), chart, mesh.usable_pins(), mesh.face_offsets)
+
+
+@dataclass(frozen=True)
+class Placement:
+    """The maps of all meshes, placed together.
+
+    Attributes:
+        uv: one (C, 2) float64 array per mesh, meaningful at its solved corners.
+        without_bounds: number of charts that could not be kept in place because they had no extent before.
+    """
+
+    uv: list[np.ndarray]
+    without_bounds: int = 0
+
+
+def place(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], keep_in_place: bool) -> Placement:
+    """Place the solved charts of all meshes in one UV plane.
+
+    Charts with pins stay where the solver put them; one with a single pin is scaled about it to its former area. With
+    `keep_in_place` every other chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
+    charts without a former extent, the charts stand side by side in the unit square, to a common scale.
+    """
+    corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
+    chart_counts = [len(solution.charts) for solution in solutions]
+    first_chart = np.concatenate([[0], np.cumsum(chart_counts)])
+    uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
+    chart = np.concatenate(
+        [
+            np.where(solution.solved_corners, solution.chart_of_corner + first, -1)
+            for solution, first in zip(solutions, first_chart)
+        ]
+    )
+    former = np.concatenate(
+        [np.zeros((count, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, count in zip(meshes, corner_counts)]
+    )
+    chart = np.where(np.concatenate([solution.pinned_corners for solution in solutions]), -1, chart)
+    without_bounds = 0
+    if keep_in_place:
+        uv, kept = into_former_bounds(uv, former, chart)
+        without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
+        chart = np.where(kept, -1, chart)
+    uv = side_by_side(uv, chart)
+    placed = np.split(uv, np.cumsum(corner_counts)[:-1])
+    return Placement([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, placed)], without_bounds)

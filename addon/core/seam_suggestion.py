@@ -8,9 +8,9 @@ from itertools import zip_longest
 
 import numpy as np
 
-from . import native, unwrapping
-from .polygon_mesh import PolygonMesh
-from .unwrapping import Progress
+from . import native
+from .mesh import PolygonMesh
+from .progress import Progress, parts
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
     """
-    found = [_suggest(mesh, options, part) for mesh, part in zip(meshes, unwrapping.parts(meshes, progress))]
+    found = [_suggest(mesh, options, part) for mesh, part in zip(meshes, parts(meshes, progress))]
     cuts = [
         [Cut(index, edges, _length(meshes[index], edges)) for edges in cuts] for index, (cuts, _) in enumerate(found)
     ]

@@ -5,7 +5,7 @@ import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
-from .unwrapping import Progress
+from .progress import Progress
 
 Result = TypeVar("Result")
 

@@ -6,30 +6,28 @@ import time
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
-from .. import edit_mode_unwrap, names, progress
-from ..core import unwrapping
-from ..core.native import NativeModuleError
-from ..packing import Margin, PackingError
-from ..solving import UnwrapInThread
-
-# A solve shorter than this ends within the click that started it.
-_SECONDS_BEFORE_MODAL = 0.25
+from .. import names
+from ..core import texts
+from ..live import following
+from ..unwrapping import steps
+from ..unwrapping.last_settings import settings_of
+from .job_operator import Job, JobOperator
 
 
-class UV_OT_spectral_unwrap(bpy.types.Operator):
+class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
     """Unwrap the selected faces by Spectral Conformal Parameterization."""
 
     bl_idname = names.UNWRAP_OPERATOR
-    bl_label = names.UNWRAP_LABEL
-    bl_description = names.UNWRAP_DESCRIPTION
+    bl_label = texts.UNWRAP_LABEL
+    bl_description = texts.UNWRAP_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    method: EnumProperty(name="Method", description="Unwrapping method", items=names.METHOD_ITEMS)
-    weights: EnumProperty(name="Weights", description="How much each triangle counts", items=names.WEIGHTS_ITEMS)
+    method: EnumProperty(name="Method", description="Unwrapping method", items=texts.METHOD_ITEMS)
+    weights: EnumProperty(name="Weights", description="How much each triangle counts", items=texts.WEIGHTS_ITEMS)
     boundary: EnumProperty(
-        name="Boundary", description="How much each boundary vertex counts", items=names.BOUNDARY_ITEMS
+        name="Boundary", description="How much each boundary vertex counts", items=texts.BOUNDARY_ITEMS
     )
-    placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=names.PLACEMENT_ITEMS)
+    placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=texts.PLACEMENT_ITEMS)
     fill_holes: BoolProperty(
         name="Fill Holes",
         description="Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
@@ -85,22 +83,11 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         name="Correct Aspect", description="Map UVs taking image aspect ratio into account", default=True
     )
     margin_method: EnumProperty(
-        name="Margin Method", description="What the margin is measured by", items=names.MARGIN_METHOD_ITEMS
+        name="Margin Method", description="What the margin is measured by", items=texts.MARGIN_METHOD_ITEMS
     )
     margin: FloatProperty(
         name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
     )
-
-    # The UnwrapInThread that a window waits for. An annotation makes bpy 4.2 and 4.5 crash on leaving Python.
-    _running = None
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode, one solve at a time."""
-        if cls._running is not None and cls._running.worker.is_wanted:
-            cls.poll_message_set(f"{names.UNWRAP_LABEL} is running; Esc cancels it")
-            return False
-        return context.mode == "EDIT_MESH"
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
@@ -133,94 +120,26 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         layout.prop(self, "correct_aspect")
         layout.prop(self, "placement")
         column = layout.column()
-        column.active = self.placement == names.PACK
+        column.active = self.placement == texts.PACK
         column.prop(self, "margin_method")
         column.prop(self, "margin")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Unwrap with the operator's settings and report the result; Blender waits."""
+    def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
+        """Read, solve, place, write and pack; report the outcome."""
         start = time.perf_counter()
-        try:
-            with progress.blocking(context) as report_progress:
-                outcome = edit_mode_unwrap.unwrap(context, self.settings(), report_progress)
-        except (NativeModuleError, PackingError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._report(outcome, time.perf_counter() - start)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Unwrap as `execute` does, but solve in a thread, so that Blender's windows live and Esc cancels."""
-        if bpy.app.background:
-            return self.execute(context)
-        edit_meshes = edit_mode_unwrap.read(context, self.settings())
+        settings = settings_of(self)
+        edit_meshes = steps.read(context, settings)
         if not edit_meshes:
-            return self._report(None, 0.0)
-        running = UnwrapInThread(self.settings(), edit_meshes)
-        if running.worker.wait(_SECONDS_BEFORE_MODAL):
-            return self._write(context, running)
-        type(self)._running = running
-        self._progress = progress.WindowProgress(context)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for the solve; let nothing but view navigation through."""
-        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self.cancel(context)
-            self.report({"INFO"}, f"{names.UNWRAP_LABEL}: Cancelled")
+            self.report({"WARNING"}, texts.NOTHING_SELECTED)
             return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
-        running = self._running
-        if context.mode == "EDIT_MESH" and not running.worker.wait(0.0):
-            self._progress.update(context, running.worker.fraction, running.worker.phase)
-            return {"PASS_THROUGH"}
-        self.cancel(context)
-        if not running.is_current(context):
-            self.report({"WARNING"}, "The meshes changed while they were solved, so nothing was written; unwrap again")
-            return {"CANCELLED"}
-        return self._write(context, running)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Stop waiting: the solve ends without result, its progress disappears. Blender calls it on closing, too."""
-        self._running.worker.cancel()
-        type(self)._running = None
-        self._progress.end(context)
-
-    def _write(self, context: bpy.types.Context, solved: UnwrapInThread) -> set[str]:
-        """Write what was solved in a thread and report the result."""
-        try:
-            outcome = solved.write(context)
-        except (NativeModuleError, PackingError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._report(outcome, solved.seconds)
-
-    def settings(self) -> edit_mode_unwrap.Settings:
-        """Return the settings that the properties make."""
-        return edit_mode_unwrap.Settings(
-            unwrapping.Options(
-                self.method.lower(),
-                self.weights.lower(),
-                self.boundary.lower(),
-                fill_holes=self.fill_holes,
-                soft_pins=self.soft_pin_strength if self.soft_pins and self.method == "SPECTRAL" else 0.0,
-                hole_rigidity=self.hole_rigidity,
-                area_blend=self.area_blend,
-                fold_free=self.fold_free,
-                stretch=self.stretch,
-            ),
-            keep_in_place=self.placement == names.KEEP,
-            margin=Margin(self.margin, self.margin_method),
-            correct_aspect=self.correct_aspect,
-            use_subsurf=self.use_subsurf_data,
-        )
-
-    def _report(self, outcome: edit_mode_unwrap.Outcome | None, seconds: float) -> set[str]:
-        """Tell the user what was done in `seconds`; return the operator's status."""
-        if outcome is None:
-            self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
-            return {"CANCELLED"}
-        for level, text in edit_mode_unwrap.reports(outcome, seconds):
+        read = edit_meshes
+        done = yield lambda report_progress: steps.solve(read, settings, report_progress)
+        if done.is_late:
+            edit_meshes = steps.read_again(done.context, settings, edit_meshes)
+            if edit_meshes is None:
+                self.report({"WARNING"}, texts.MESHES_CHANGED)
+                return {"CANCELLED"}
+        outcome = steps.write(done.context, settings, edit_meshes, done.result, following.not_following)
+        for level, text in steps.reports(outcome, time.perf_counter() - start):
             self.report({level}, text)
         return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

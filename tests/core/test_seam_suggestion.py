@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from spectral_unwrap.core import native, seam_suggestion
-from spectral_unwrap.core.polygon_mesh import PolygonMesh
+from spectral_unwrap.core.mesh import PolygonMesh
 from spectral_unwrap.core.seam_suggestion import Options, Search, Suggestion
 
 

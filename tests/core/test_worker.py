@@ -6,8 +6,9 @@ import threading
 import numpy as np
 import pytest
 import spectral_conformal
-from spectral_unwrap.core.polygon_mesh import PolygonMesh
-from spectral_unwrap.core.unwrapping import Options, solve
+from spectral_unwrap.core.mesh import PolygonMesh
+from spectral_unwrap.core.options import Options
+from spectral_unwrap.core.solve import solve
 from spectral_unwrap.core.worker import Worker
 
 PATIENCE = 60.0  # seconds until a test that hangs fails

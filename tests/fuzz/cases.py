@@ -116,15 +116,16 @@ def check_parameterization(result, known):
     assert np.isfinite(result.eigenvalue)
     # A map that was unfolded is no eigenvector.
     assert 0 <= result.residual < 1e-3 or result.unfolded or result.is_embedding
-    method = known.get("method", "spectral")
     assert isinstance(result.message, str)
-    if method == "spectral" and not known.get("extenders") and not known.get("hole_rigidity"):
+    if result.method == "spectral":
         assert abs(result.turning_number) == 1
+    assert result.fallback is None or known.get("fallbacks", True) or result.is_embedding
+    assert (result.fallback == "tutte_embedding") == result.is_embedding
     pins = known.get("pins") or {}
     if known.get("fold_free") and len(pins) < 2:
         assert abs(result.turning_number) == 1
         check_unfolded(result)
-    if len(pins) > 1 and method == "lscm":
+    if len(pins) > 1 and result.method == "lscm":
         for vertex, position in pins.items():
             assert tuple(result.uv[vertex]) == tuple(map(float, position)), "a pin has moved"
 

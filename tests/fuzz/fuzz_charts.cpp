@@ -19,7 +19,8 @@ void check(const PolygonMesh& mesh, const ChartDecomposition& result) {
     const Chart& chart = result.charts[i];
     require(faces[i] == static_cast<int>(chart.faces.size() + chart.duplicates.size()));
     require(std::is_sorted(chart.vertices.begin(), chart.vertices.end()));
-    require(chart.triangles.size() == chart.coverage.size() && chart.triangles.size() == chart.triangle_face.size());
+    require(chart.triangles.size() == chart.triangle_weights.size() &&
+            chart.triangles.size() == chart.triangle_face.size());
     std::vector<int> used(chart.vertices.size(), 0);
     for (const auto& triangle : chart.triangles) {
       for (const int v : triangle) {

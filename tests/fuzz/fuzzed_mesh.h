@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "spectral_conformal/charts.h"
+#include "mesh/charts.h"
 
 namespace spectral_conformal::fuzz {
 

@@ -172,13 +172,13 @@ def _uv_editor(wanted):
 
 def _solved_corners(properties):
     """Return which corners the operator is to write: those of the faces that it takes, where the solver succeeds."""
-    unwrap = _addon("edit_mode_unwrap")
+    steps = _addon("unwrapping.steps")
     # Blender's properties have single precision, which decides whether a patch at the limit is solved.
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
-    settings = _addon("operators.unwrap").UV_OT_spectral_unwrap.settings(SimpleNamespace(**held))
-    edit_meshes = unwrap.read(bpy.context, settings)
+    settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held))
+    edit_meshes = steps.read(bpy.context, settings)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
-    for edit_mesh, solution in zip(edit_meshes, unwrap.solve(edit_meshes, settings)):
+    for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
         chosen = _chosen_corners(edit_mesh.mesh)
         assert not (solution.solved_corners & ~chosen).any(), "faces were solved that are not selected, or hidden"
         found[edit_mesh.mesh.name] = solution.solved_corners

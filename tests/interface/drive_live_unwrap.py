@@ -155,7 +155,7 @@ def steps():
         yield
     np.testing.assert_array_equal(uv(), followed)
     # Where everything rests, nothing is left to do.
-    look = sys.modules["spectral_unwrap.live_unwrap"]
+    look = sys.modules["spectral_unwrap.live.following"]
     last = look._state.last_look
     for _ in range(3):
         yield

@@ -89,7 +89,7 @@ def listed():
 
 
 def pairs():
-    extenders = sys.modules["spectral_unwrap.extenders"]
+    extenders = sys.modules["spectral_unwrap.extenders.storage"]
     mesh = bpy.context.edit_object.data
     return extenders.ends(bmesh.from_edit_mesh(mesh), mesh)
 

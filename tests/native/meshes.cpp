@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "spectral_conformal/boundary_loops.h"
-#include "spectral_conformal/disk_patch.h"
+#include "mesh/boundary_loops.h"
+#include "mesh/chart_checks.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -87,10 +87,10 @@ PolygonMesh Mesh::view() const {
 
 std::vector<DistortionElement> Patch::elements() const {
   const ConformalEnergy uniform = energy(Weights::uniform);
-  return distortion_elements(uniform.triangles(), uniform.shapes(), uniform.coverage(), 0);
+  return distortion_elements(uniform.triangles(), uniform.shapes(), uniform.triangle_weights(), 0);
 }
 
-Patch::Patch(const Mesh& mesh) : chart(single_patch(mesh.view())), positions(chart.positions(mesh.view())) {}
+Patch::Patch(const Mesh& mesh) : chart(single_chart(mesh.view())), positions(chart.positions(mesh.view())) {}
 
 const BoundaryLoop& Patch::outer() const { return chart.boundary_loops[outer_loop(chart.boundary_loops, positions)]; }
 

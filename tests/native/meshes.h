@@ -4,10 +4,10 @@
 #include <initializer_list>
 #include <vector>
 
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/conformal_energy.h"
-#include "spectral_conformal/distortion_energy.h"
-#include "spectral_conformal/factorization.h"
+#include "conformal/conformal_energy.h"
+#include "injective/distortion_energy.h"
+#include "linear_algebra/factorization.h"
+#include "mesh/charts.h"
 
 namespace spectral_conformal::test {
 
@@ -33,7 +33,9 @@ struct Patch {
   Chart chart;
   Positions positions;
   explicit Patch(const Mesh& mesh);
-  ConformalEnergy energy(Weights weights) const { return {positions, chart.triangles, chart.coverage, weights}; }
+  ConformalEnergy energy(Weights weights) const {
+    return {positions, chart.triangles, chart.triangle_weights, weights};
+  }
   std::vector<DistortionElement> elements() const;
   /// The longest loop.
   const BoundaryLoop& outer() const;

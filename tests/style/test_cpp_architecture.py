@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each third-party library has its one place; headers, sources and tests share their names."""
+"""The floors of the C++ library, the one place of each third-party library, and names that belong together."""
 
 import re
 from pathlib import Path
@@ -8,17 +8,34 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native"
-HEADERS = sorted((NATIVE / "include").rglob("*.h"))
-SOURCES = sorted((NATIVE / "src").glob("*.cpp"))
-BINDINGS = sorted((NATIVE / "bindings").glob("*.cpp"))
+PUBLIC_HEADERS = sorted((NATIVE / "include").rglob("*.h"))
+HEADERS = [*PUBLIC_HEADERS, *sorted((NATIVE / "src").rglob("*.h"))]
+SOURCES = sorted((NATIVE / "src").rglob("*.cpp"))
+BINDINGS = sorted(path for path in (NATIVE / "bindings").iterdir() if path.suffix in {".cpp", ".h"})
+TESTS = ROOT / "tests" / "native"
+# From the ground: a file includes from its own floor and from those below.
+FLOORS = (
+    "base",  # header-only: what every floor may use
+    "graph",
+    "geometry",
+    "mesh",
+    "linear_algebra",
+    "quality",
+    "conformal",
+    "injective",
+    "parameterization",
+    "seams",
+    "bindings",
+)
 HEADER_ONLY = {"errors", "progress", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
-    "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"factorization.cpp"}),
+    "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
-    "CGAL": (r"CGAL/|boost/", {"polygon_triangulation.cpp"}),
-    "Python": (r"pybind11|Python\.h|numpy/", {"module.cpp"}),
-    "the dynamic linker": (r"dlfcn\.h", {"factorization.cpp"}),
+    "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
+    "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
+    "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),
+    "the dynamic linker": (r"dlfcn\.h|windows\.h", {"blas_threads.cpp"}),
 }
 
 
@@ -30,12 +47,51 @@ def includes(path):
     return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE)
 
 
+def floor_of(path):
+    """Return the floor of a file of ours: its folder below src/; of a public header, that of the source of its name."""
+    if path.parent.parent == NATIVE / "src":
+        return path.parent.name
+    if path.parent == NATIVE / "bindings":
+        return "bindings"
+    return "base" if path.stem in HEADER_ONLY else next(s.parent.name for s in SOURCES if s.stem == path.stem)
+
+
+def floor_of_header(header):
+    """Return the floor of an included header of ours, None for any other."""
+    return next((floor_of(path) for path in [*HEADERS, *BINDINGS] if header == f"{path.parent.name}/{path.name}"), None)
+
+
+def upward_includes(floor, headers):
+    """Return what a file of this floor must not include: headers of ours that stand on a floor above."""
+    floors = {header: floor_of_header(header) for header in headers}
+    return [h for h, other in floors.items() if other and FLOORS.index(other) > FLOORS.index(floor)]
+
+
+@pytest.mark.parametrize("path", [*HEADERS, *SOURCES, *BINDINGS], ids=relative)
+def test_includes_run_downwards(path):
+    upward = upward_includes(floor_of(path), includes(path))
+    assert not upward, f"{relative(path)}, on the floor {floor_of(path)}, includes from above: {', '.join(upward)}"
+
+
+def test_the_scan_sees_an_upward_include():
+    assert upward_includes("mesh", ["vector", "conformal/lscm.h", "geometry/triangle_shape.h"]) == ["conformal/lscm.h"]
+    assert upward_includes("quality", ["spectral_conformal/unwrap.h", "spectral_conformal/types.h"]) == [
+        "spectral_conformal/unwrap.h"
+    ]
+
+
+def test_every_floor_is_known_and_used():
+    folders = {path.name for path in (NATIVE / "src").iterdir() if path.is_dir()}
+    assert folders <= set(FLOORS)
+    assert not list((NATIVE / "src").glob("*.*"))
+
+
 def place_of(header):
     """Return (library, files that may include it) of a third-party header, or None for std, Eigen and our own."""
     for library, (prefix, files) in PLACES.items():
         if re.match(prefix, header):
             return library, files
-    if re.fullmatch(r"[a-z_]+", header) or header.startswith(("Eigen/", "spectral_conformal/")):
+    if re.fullmatch(r"[a-z_]+", header) or header.startswith("Eigen/") or floor_of_header(header):
         return None
     return f"unknown header {header}", set()
 
@@ -62,18 +118,20 @@ def test_no_library_is_listed_in_vain():
             assert any(re.match(prefix, header) for header in includes(path))
 
 
-def test_header_source_and_test_share_their_name():
-    names = {path.stem for path in SOURCES}
-    assert {path.stem for path in HEADERS} == names | HEADER_ONLY
-    assert {path.stem for path in (ROOT / "tests" / "native").glob("test_*.cpp")} == {f"test_{name}" for name in names}
+def test_header_source_and_test_share_their_name_and_floor():
+    sources = {(path.parent.name, path.stem) for path in SOURCES}
+    assert {(floor_of(path), path.stem) for path in HEADERS} == sources | {("base", name) for name in HEADER_ONLY}
+    tests = {(path.parent.name, path.stem) for path in TESTS.rglob("test_*.cpp")}
+    assert tests == {(floor, f"test_{name}") for floor, name in sources}
+    assert len({name for _, name in sources}) == len(sources)
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=relative)
 def test_a_source_includes_its_own_header_first(path):
-    assert includes(path)[0] == f"spectral_conformal/{path.stem}.h"
+    assert includes(path)[0] in {f"spectral_conformal/{path.stem}.h", f"{path.parent.name}/{path.stem}.h"}
 
 
-@pytest.mark.parametrize("path", HEADERS, ids=relative)
+@pytest.mark.parametrize("path", [path for path in [*HEADERS, *BINDINGS] if path.suffix == ".h"], ids=relative)
 def test_headers_are_guarded_and_leave_namespaces_closed(path):
     text = path.read_text(encoding="utf-8")
     assert text.startswith("#pragma once\n")

@@ -14,7 +14,7 @@ from tests.native import flavours
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
 FILES = sorted(path for folder in FOLDERS for suffix in ("*.h", "*.cpp") for path in folder.rglob(suffix))
-SOURCES = sorted((ROOT / "native" / "src").glob("*.cpp"))
+SOURCES = sorted((ROOT / "native" / "src").rglob("*.cpp"))
 
 
 def tool(name):

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "spectral_conformal/boundary_form.h"
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/conformal_energy.h"
-#include "spectral_conformal/extended_eigenproblem.h"
-#include "spectral_conformal/factorization.h"
-#include "spectral_conformal/lscm.h"
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "conformal/extended_eigenproblem.h"
+#include "conformal/lscm.h"
+#include "linear_algebra/factorization.h"
+#include "mesh/charts.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -22,6 +22,21 @@ enum class Method {
   area       ///< B = A (section 3.3)
 };
 
+/// What was changed about a problem whose own attempts had failed (see SolveOptions::fallbacks).
+enum class Fallback {
+  none,
+  clamped_triangles,  ///< thin triangles were given a minimal height in the energy
+  other_boundary,     ///< the form B with the other BoundaryMeasure
+  other_weights,      ///< the energy L with the other Weights
+  tutte_embedding     ///< PatchOptions::fold_free replaced the map by a relaxed Tutte embedding
+};
+
+/// What an eigenvalue belongs to.
+enum class EigenvalueOf {
+  eigenvector,  ///< of the problem that was solved
+  map           ///< the quotient of Eq. 5 of a map that is no eigenvector: pinned, unfolded or replaced
+};
+
 /// What is fixed when a Solver is made.
 struct PatchOptions {
   Weights weights = Weights::uniform;
@@ -29,7 +44,7 @@ struct PatchOptions {
   FactorizationBackend backend = FactorizationBackend::automatic;
   bool fill_holes = false;  ///< see hole_filling.h
   /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
-  /// (isometric_map.h), and its metric, blended with the identity, is that of all solves (section 4.3).
+  /// (isometric_relaxation.h), and its metric, blended with the identity, is that of all solves (section 4.3).
   double area_blend = 0;
   /// All solves end with no flipped triangle and a turning number of 1 or -1, at some cost in distortion: see
   /// fold_free_map.h.
@@ -43,7 +58,11 @@ struct SolveOptions {
   double soft_pins = 0;                  ///< strength of pins as a soft force (see pin_attraction.h); 0: held exactly
   std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
   double hole_rigidity = 0;  ///< beta of ExtendedForm::add_spread for every loop but the outer one; likewise
-  bool has_forces() const;   ///< whether extenders or hole rigidity change the form B
+  /// Whether Method::spectral may solve another problem where its own fails. When false, that failure is the answer;
+  /// the second attempt at the same problem, with a larger shift and another start, is made either way, and so is the
+  /// embedding that PatchOptions::fold_free asks for.
+  bool fallbacks = true;
+  bool has_forces() const;  ///< whether extenders or hole rigidity change the form B
 };
 
 struct Parameterization {
@@ -58,16 +77,29 @@ struct Parameterization {
   bool is_embedding = false;  ///< whether it had to replace the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
   double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
-  std::string message;                                  ///< remedies and repairs that were needed; empty when none was
+  // What was really solved.
+  Method method = Method::spectral;    ///< Method::lscm for two or more hard pins, whichever was asked for
+  Weights weights = Weights::uniform;  ///< of the energy L
+  BoundaryMeasure boundary = BoundaryMeasure::length;  ///< of the form B
+  Fallback fallback = Fallback::none;
+  int clamped_triangles = 0;  ///< those that Fallback::clamped_triangles gave a minimal height
+  EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
+  int attempts = 1;     ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
+  std::string message;  ///< fallbacks and repairs that were needed; empty when none was
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
+
+/// The method that solves with this many pins: hard pins, from two on, are held by pinned LSCM where Method::spectral
+/// was asked for. Throws InvalidMesh for methods that hold none.
+Method method_with_pins(const SolveOptions& options, std::size_t n_pins);
 
 /// One patch with its energy and boundary form; keeps the factor of L + s M between solves.
 class Solver {
  public:
   /// chart: one disk-like patch; positions (V, 3) of its vertices. With `fill_holes` every loop but the outer one is
   /// closed by virtual triangles. metric: one per triangle of the chart, in the frame of its first side, or empty for
-  /// the metric of space. Throws InvalidMesh when why_not_a_disk says so, or a metric is not positive definite.
+  /// the metric of space. Throws InvalidMesh when why_not_parameterizable says so, or a metric is not positive
+  /// definite.
   Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
          const std::vector<TriangleMetric>& metric = {});
 
@@ -84,10 +116,10 @@ class Solver {
   /// with the other weights; `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its
   /// equations; where its boundary winds round more than once, `message` says so. Throws SolveFailure when nothing
   /// passes. Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them
-  /// starts from the maps of earlier solves. Their map may wind round more than once; `message` says so. With
-  /// `fold_free` flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced by an
-  /// embedding; `message` says what was done, what that cost, and where it could not be done. The eigenvalue is then
-  /// the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
+  /// starts from the maps of earlier solves, and fails where they are so strong that the map winds round more than
+  /// once, or hard pins hold it. With `fold_free` flipped triangles are unfolded, and a map that winds round more than
+  /// once, or none, is replaced by an embedding; `message` says what was done, what that cost, and where it could not
+  /// be done. The eigenvalue is then the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }
@@ -118,12 +150,14 @@ class Solver {
   Eigenvector attempt(const SolveOptions& options, const Pins& attractors, const BoundaryForm& form,
                       ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
   void correct(const BoundaryForm& form, Factorization& factorization, Eigenvector& eigenvector) const;
-  Parameterization solve_with_remedies(const SolveOptions& options, const Pins& attractors, const Progress& progress);
+  Parameterization solve_with_remedies(const SolveOptions& options, const Pins& attractors, const Progress& progress,
+                                       int& attempts);
   /// `with_virtual` gets the map of all vertices, virtual ones included, at no particular place and scale.
   Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress,
-                                     ComplexVector* with_virtual = nullptr);
+                                     int& attempts, ComplexVector* with_virtual = nullptr);
   Parameterization solve_pinned(const Pins& pins, const Progress& progress);
-  Parameterization solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress);
+  Parameterization solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress,
+                                    int& attempts);
   Parameterization solve_fold_free(const SolveOptions& options, const Pins& pins, const Progress& progress);
   void unfold(const SolveOptions& options, const Pins& pins, const std::string& failure, const Progress& progress,
               Parameterization& result);

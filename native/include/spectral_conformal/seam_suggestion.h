@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/piece_cutter.h"
+#include "mesh/charts.h"
+#include "seams/piece_cutter.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {

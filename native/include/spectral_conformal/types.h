@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <complex>
+#include <map>
 #include <vector>
 
 namespace spectral_conformal {
@@ -16,5 +17,7 @@ using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using HermitianMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
 /// Vertices in the order of the walk; the surface lies to the left, the last vertex is joined to the first.
 using BoundaryLoop = std::vector<int>;
+/// Position in the plane, u + i v, per pinned vertex.
+using Pins = std::map<int, Complex>;
 
 }  // namespace spectral_conformal

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "spectral_conformal/charts.h"
-#include "spectral_conformal/corner_pins.h"
+#include "mesh/charts.h"
+#include "mesh/corner_pins.h"
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal {
@@ -43,15 +43,22 @@ struct UnwrappedChart {
   double residual = unknown;
   int iterations = 0;
   int turning_number = 0;
-  double mean_qc = unknown;  ///< of one triangulation: of a quad's two splits the less distorted one
+  double mean_qc = unknown;  ///< this and the next two: as measure_distortion finds them
   double max_qc = unknown;
   int flipped = 0;   ///< faces with a flipped triangle
   int unfolded = 0;  ///< this and the next two: see Parameterization
   bool is_embedding = false;
   double mean_qc_before = unknown;
-  int overlapping = 0;               ///< faces that cover part of another face; duplicates are not looked at
-  Method method = Method::spectral;  ///< the one used: Method::lscm for a chart with several pins
-  int n_pins = 0;                    ///< pinned vertices
+  int overlapping = 0;  ///< faces that cover part of another face; duplicates are not looked at
+  // What was really solved, see Parameterization; of a failed chart, what was to be solved.
+  Method method = Method::spectral;
+  Weights weights = Weights::uniform;
+  BoundaryMeasure boundary = BoundaryMeasure::length;
+  Fallback fallback = Fallback::none;
+  int clamped_triangles = 0;
+  EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
+  int attempts = 0;
+  int n_pins = 0;  ///< pinned vertices
   int n_vertices = 0;
   double area = 0;  ///< in 3D
 };

@@ -10,15 +10,14 @@ import pytest
 
 from tests.blender.inside import digest, scenes
 
-edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
-seam_suggestion = importlib.import_module("spectral_unwrap.seam_suggestion")
+core_options = importlib.import_module("spectral_unwrap.core.options")
+seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
-adjusted_map = importlib.import_module("spectral_unwrap.adjusted_map")
+adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
-packing = importlib.import_module("spectral_unwrap.packing")
-progress = importlib.import_module("spectral_unwrap.progress")
-solving = importlib.import_module("spectral_unwrap.solving")
-unwrapping = importlib.import_module("spectral_unwrap.core.unwrapping")
+packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
+progress = importlib.import_module("spectral_unwrap.ui.progress")
+steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 worker = importlib.import_module("spectral_unwrap.core.worker")
 
 
@@ -65,14 +64,22 @@ def cancelling_at(monkeypatch, at):
     return reports
 
 
-def started(settings):
-    return solving.UnwrapInThread(settings, edit_mode_unwrap.read(bpy.context, settings))
+class Started:
+    """An unwrap that solves in a thread, as the operator's job does."""
+
+    def __init__(self, settings):
+        self.settings = settings
+        self.edit_meshes = steps.read(bpy.context, settings)
+        self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
+
+    def write(self):
+        return steps.write(bpy.context, self.settings, self.edit_meshes, self.worker.result())
 
 
 SETTINGS = {
-    "plain": edit_mode_unwrap.Settings(),
-    "area blend, in place": edit_mode_unwrap.Settings(unwrapping.Options(area_blend=0.5), keep_in_place=True),
-    "subdivided": edit_mode_unwrap.Settings(unwrapping.Options(hole_rigidity=1.0), use_subsurf=True),
+    "plain": core_options.Settings(),
+    "area blend, in place": core_options.Settings(core_options.Options(area_blend=0.5), keep_in_place=True),
+    "subdivided": core_options.Settings(core_options.Options(hole_rigidity=1.0), use_subsurf=True),
 }
 
 
@@ -84,17 +91,17 @@ def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
         grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
     with monkeypatch.context() as patch:
         reports = cancelling_at(patch, -1)
-        assert started(SETTINGS[name]).worker.wait(60.0)
+        assert Started(SETTINGS[name]).worker.wait(60.0)
     before = everything()
     for at in range(len(reports)):
         with monkeypatch.context() as patch:
             seen = cancelling_at(patch, at)
-            running = started(SETTINGS[name])
+            running = Started(SETTINGS[name])
             with pytest.raises(native.spectral_conformal().Cancelled):
-                running.write(bpy.context)
+                running.write()
         assert len(seen) == at + 1
         assert digest.changes(before, everything()) == []
-    assert started(SETTINGS[name]).write(bpy.context).summary.solved == 3
+    assert Started(SETTINGS[name]).write().summary.solved == 3
 
 
 def interrupting_at(at):
@@ -173,7 +180,7 @@ def test_interrupted_while_packing(operator, packed, uv_map, monkeypatch):
 @pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
 def test_interrupted_while_writing(uv_map, monkeypatch):
     prepare(uv_map)
-    write_uv, calls = edit_mode_unwrap.mesh_io.write_uv, []
+    write_uv, calls = steps.write_uv, []
 
     def interrupted(*arguments):
         calls.append(arguments)
@@ -182,7 +189,7 @@ def test_interrupted_while_writing(uv_map, monkeypatch):
         write_uv(*arguments)
 
     before = everything()
-    monkeypatch.setattr(edit_mode_unwrap.mesh_io, "write_uv", interrupted)
+    monkeypatch.setattr(steps, "write_uv", interrupted)
     with pytest.raises((KeyboardInterrupt, RuntimeError)):
         bpy.ops.uv.spectral_unwrap()
     assert digest.changes(before, everything()) == []
@@ -191,13 +198,13 @@ def test_interrupted_while_writing(uv_map, monkeypatch):
 def searched(target, options, report):
     """Search for seams, then solve the meshes that are cut open, as the operator does."""
     cuts = core_suggestion.suggest(target.polygons, options, report)
-    edit_meshes = seam_suggestion.read_cut_open(bpy.context, target, cuts)
-    edit_mode_unwrap.solve(edit_meshes, target.settings, report)
+    edit_meshes = seams.read_cut_open(bpy.context, target, cuts)
+    steps.solve(edit_meshes, target.settings, report)
 
 
 def test_cancelling_at_every_report_of_a_search_and_its_unwrap():
     prepare_closed()
-    target = seam_suggestion.read(bpy.context, edit_mode_unwrap.Settings())
+    target = seams.read(bpy.context, core_options.Settings())
     options, calls = core_suggestion.Options(), []
     searched(target, options, lambda *report: calls.append(report))
     before = everything()
@@ -211,7 +218,7 @@ def test_cancelling_at_every_report_of_a_search_and_its_unwrap():
 
 def test_a_cancelled_search_is_not_remembered():
     prepare_closed()
-    target = seam_suggestion.read(bpy.context, edit_mode_unwrap.Settings())
+    target = seams.read(bpy.context, core_options.Settings())
     search, options = core_suggestion.Search(), core_suggestion.Options()
     expected = core_suggestion.suggest(target.polygons, options)
     for at in (0, 3, 20):

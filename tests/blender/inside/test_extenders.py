@@ -46,7 +46,7 @@ def refused(capture, **options):
 
 def pairs(edited):
     mesh = edited.data
-    return module("extenders").ends(scenes.edit_mesh(edited), mesh)
+    return module("extenders.storage").ends(scenes.edit_mesh(edited), mesh)
 
 
 def listed(edited):
@@ -54,7 +54,7 @@ def listed(edited):
 
 
 def resolved(edited):
-    forces, broken, without_strength = module("extenders").resolve(scenes.edit_mesh(edited), edited.data)
+    forces, broken, without_strength = module("extenders.storage").resolve(scenes.edit_mesh(edited), edited.data)
     assert without_strength == []
     return forces, broken
 
@@ -85,7 +85,7 @@ def test_two_selected_vertices_make_an_extender():
     assert pairs(grid) == [(7, 2)]
     assert listed(grid) == [("Extender", -2.5, True)]
     assert resolved(grid) == ([(7, 2, -2.5)], [])
-    assert module("extenders").active(grid.data).name == "Extender"
+    assert module("extenders.storage").active(grid.data).name == "Extender"
 
 
 def test_two_vertices_need_no_order():
@@ -100,7 +100,7 @@ def test_several_vertices_pair_up_in_the_order_of_selection():
     add(grid, [7, 2, 19, 0])
     assert pairs(grid) == [(7, 2), (19, 0)]
     assert [name for name, _, _ in listed(grid)] == ["Extender", "Extender.001"]
-    assert module("extenders").active_index(grid.data) == 1
+    assert module("extenders.storage").active_index(grid.data) == 1
 
 
 def test_to_active_connects_all_with_the_last():
@@ -171,7 +171,7 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     forces, broken = resolved(grid)
     assert broken == ["Extender"]
     assert len(forces) == 1
-    assert module("extender_tracking").broken(grid.data) == [True, False]
+    assert module("extenders.tracking").broken(grid.data) == [True, False]
     reports()
     assert bpy.ops.mesh.spectral_extender_select(index=0) == {"FINISHED"}
     assert reports() == [("Warning", "Extender is broken: 1 of its vertices gone; remove it")]
@@ -192,7 +192,7 @@ def test_only_extenders_that_are_on_and_not_zero_act():
     grid = edit_grid()
     add(grid, [6, 8, 11, 13, 0, 4])
     grid.data.spectral_extenders[0].use = False
-    module("extenders").set_strength(grid.data, 1, 0.0)
+    module("extenders.storage").set_strength(grid.data, 1, 0.0)
     assert resolved(grid) == ([(0, 4, 1.0)], [])
 
 
@@ -229,7 +229,7 @@ def test_broken_extender_never_finds_another_vertex():
 def test_removing_keeps_the_active_one():
     grid = edit_grid()
     add(grid, [0, 1, 2, 3, 4, 5, 6, 7])
-    extenders = module("extenders")
+    extenders = module("extenders.storage")
     extenders.set_active(grid.data, 2)
     bpy.ops.mesh.spectral_extender_remove(index=0)
     assert extenders.active(grid.data).name == "Extender.002"
@@ -381,7 +381,7 @@ def test_ids_can_be_read_from_scripts_in_object_mode():
 def test_list_is_restored_by_the_name_of_the_layer():
     # What undo in edit mode does: it puts the layer back with its name, and leaves the properties.
     grid = edit_grid()
-    extenders, mesh = module("extenders"), grid.data
+    extenders, mesh = module("extenders.storage"), grid.data
     add(grid, [6, 8])
     first = layer(grid)
     add(grid, [2, 3], strength=-4.0)
@@ -412,7 +412,7 @@ def test_lost_layer_breaks_the_extenders_and_keeps_the_list():
 
 
 def test_selection_in_the_uv_editor_counts_without_sync_selection():
-    selection = module("mesh_selection")
+    selection = module("edit_mesh.selection")
     grid = edit_grid()
     select(grid, range(20))
     bpy.context.scene.tool_settings.use_uv_select_sync = False
@@ -432,7 +432,7 @@ def test_selection_in_the_uv_editor_counts_without_sync_selection():
 
 
 def test_track_follows_the_mesh_without_new_wrappers():
-    tracking = module("extender_tracking")
+    tracking = module("extenders.tracking")
     grid = edit_grid()
     add(grid, [6, 8])
     bpy.context.view_layer.update()
@@ -458,7 +458,7 @@ def test_values_come_back_with_the_add_on():
 
 
 def test_arrows_of_meshes_in_edit_mode():
-    drawing = module("drawing")
+    drawing = module("overlay.extender_arrows")
     one, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other")
     scenes.edit(one, other, select=False)
     add(one, [6, 8], strength=-1.0)
@@ -468,7 +468,7 @@ def test_arrows_of_meshes_in_edit_mode():
     add(one, [2, 3, 4, 9])
     one.data.spectral_extenders[1].use = False
     delete_vertices(one, [9])
-    module("extenders").set_active(one.data, 0)
+    module("extenders.storage").set_active(one.data, 0)
     arrows = list(drawing._arrows(bpy.context, drawing_in_plane))
     assert [arrow[2] for arrow in arrows] == [True, True, False]
     # The active one is last.
@@ -482,7 +482,7 @@ def drawing_in_plane(_context, edit_object, _track):
 
 
 def test_uv_editor_connects_the_nearest_copies():
-    drawing = module("drawing")
+    drawing = module("overlay.extender_arrows")
     cube = scenes.cube(all_seams=True)
     scenes.edit(cube, select=False)
     add(cube, [0, 7])
@@ -496,7 +496,7 @@ def test_uv_editor_connects_the_nearest_copies():
         view_to_region = staticmethod(lambda u, v, clip: (u, v))
 
     context = type("Context", (), {"region": type("Region", (), {"view2d": View})})
-    track = module("extender_tracking").track(cube.data)
+    track = module("extenders.tracking").track(cube.data)
     a, b = drawing._places_in_uv_editor(context, cube, track)(*track.ends[0])
     nearest = np.linalg.norm(first[:, None] - second[None], axis=2).min()
     assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)

@@ -9,7 +9,8 @@ import pytest
 
 from tests.blender.inside import digest, hard_meshes, scenes
 
-edit_mode_unwrap = importlib.import_module("spectral_unwrap.edit_mode_unwrap")
+options = importlib.import_module("spectral_unwrap.core.options")
+steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 
 REJECTED = [name for name, case in hard_meshes.CASES.items() if case.expect == "reject" and not case.may_be_either]
 SOLVED = [name for name, case in hard_meshes.CASES.items() if case.expect != "reject" and not case.may_be_either]
@@ -24,8 +25,8 @@ def edited(vertices, faces, name="Hard"):
 
 def solved_charts():
     """Return what the operator will write: the solution of the only mesh in edit mode."""
-    settings = edit_mode_unwrap.Settings()
-    (solution,) = edit_mode_unwrap.solve(edit_mode_unwrap.read(bpy.context, settings), settings)
+    settings = options.Settings()
+    (solution,) = steps.solve(steps.read(bpy.context, settings), settings)
     return solution
 
 

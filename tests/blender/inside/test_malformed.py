@@ -225,5 +225,5 @@ def test_last_settings_of_another_version(name, value):
             assert digest.changes(before, digest.digest()) == []
         for edited in (box, grid):
             assert np.isfinite(scenes.read_uv(edited)).all()
-    sys.modules["spectral_unwrap.live_unwrap"].look()
+    sys.modules["spectral_unwrap.live.following"].look()
     assert np.isfinite(scenes.read_uv(grid)).all()

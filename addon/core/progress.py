@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Progress of several pieces of work as that of one."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from .mesh import PolygonMesh
+
+# Takes the fraction done and the name of the phase; where it returns False, the work stops.
+Progress = Callable[[float, str], "bool | None"]
+
+
+def parts(meshes: Sequence[PolygonMesh], progress: Progress | None) -> list[Progress | None]:
+    """Return the progress function of each mesh, all together making `progress`; None for each where that is None."""
+    if progress is None:
+        return [None] * len(meshes)
+    sizes = np.array([max(1, np.count_nonzero(mesh.selected_faces)) for mesh in meshes], dtype=np.float64)
+    ends = np.cumsum(sizes) / sizes.sum()
+    return [_part(progress, end - size, size) for end, size in zip(ends.tolist(), (sizes / sizes.sum()).tolist())]
+
+
+def _part(progress: Progress, start: float, length: float) -> Progress:
+    """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
+    return lambda fraction, phase: progress(start + length * fraction, phase)

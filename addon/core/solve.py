@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solve the charts of polygon meshes: what runs in the thread of a job."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import native
+from .mesh import PolygonMesh
+from .options import Options
+from .progress import Progress, parts
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What the solver made of one mesh with F faces and C corners.
+
+    Attributes:
+        uv: (C, 2) float64, meaningful where `chart_of_corner` is not -1.
+        chart_of_corner: (C,) intp, index into `charts` of the solved chart; -1 where the map must not change.
+        charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them.
+        failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart where all are refused.
+        error: why the whole mesh was refused; empty if it was not.
+        unused_extenders: number of the mesh's extenders that no solved chart could use.
+    """
+
+    uv: np.ndarray
+    chart_of_corner: np.ndarray
+    charts: Sequence[Any]
+    failed_islands: np.ndarray
+    error: str = ""
+    unused_extenders: int = 0
+
+    @property
+    def failed_faces(self) -> np.ndarray:
+        """(F,) bool, the faces of failed charts."""
+        return self.failed_islands >= 0
+
+    @property
+    def solved_corners(self) -> np.ndarray:
+        """(C,) bool, the corners that get new coordinates."""
+        return self.chart_of_corner >= 0
+
+    def too_small_faces(self, mesh: PolygonMesh) -> int:
+        """Return how many solved faces shrink so far in their chart that Blender's single precision merges them.
+
+        A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not
+        count.
+        """
+        starts = mesh.face_offsets[:-1]
+        solved = np.flatnonzero(self.solved_corners[starts])
+        if not len(solved):
+            return 0
+        chart = self.chart_of_corner[starts[solved]]
+        image = _part_of_chart(self.uv, starts, solved, chart)
+        original = _part_of_chart(mesh.vertices[mesh.corner_vertices], starts, solved, chart)
+        return int(np.count_nonzero((image < 2.0**-21) & (image < original / 16)))
+
+    @property
+    def pinned_corners(self) -> np.ndarray:
+        """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
+        pinned = np.array([chart.n_pins > 0 for chart in self.charts] + [False])
+        return pinned[self.chart_of_corner]
+
+
+def _part_of_chart(positions: np.ndarray, starts: np.ndarray, faces: np.ndarray, chart: np.ndarray) -> np.ndarray:
+    """Return the extent of `faces` as parts of their chart's; `positions` (C, n) of the corners, `starts` (F,)."""
+    low, high = (extreme.reduceat(positions, starts)[faces] for extreme in (np.minimum, np.maximum))
+    chart_low = np.full((chart.max() + 1, positions.shape[1]), np.inf)
+    chart_high = -chart_low
+    np.minimum.at(chart_low, chart, low)
+    np.maximum.at(chart_high, chart, high)
+    return (high - low).max(axis=1) / (chart_high - chart_low).max(axis=1)[chart]
+
+
+def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None) -> Solution:
+    """Unwrap the selected faces of `mesh`, chart by chart.
+
+    A mesh that the solver refuses as a whole comes back as a `Solution` with an `error` and no charts, so that the
+    other meshes of the same call can still be unwrapped.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
+    """
+    module = native.spectral_conformal()
+    try:
+        result = module.unwrap(
+            mesh.vertices,
+            mesh.face_offsets,
+            mesh.corner_vertices,
+            **forces(mesh, options),
+            **arguments(mesh, options),
+            progress=progress,
+        )
+    except ValueError as error:
+        corners = len(mesh.corner_vertices)
+        refused = np.where(mesh.selected_faces, 0, -1)
+        return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), refused, str(error))
+    chart_of_corner = result.chart_of_face[mesh.face_of_corner()]
+    failed = np.array([chart.status != "solved" for chart in result.charts] + [False])
+    return Solution(
+        result.uv,
+        np.where(result.solved_corners, chart_of_corner, -1),
+        result.charts,
+        np.where(failed[result.chart_of_face], result.chart_of_face, -1),
+        unused_extenders=_count_unused(mesh, result.unused_extenders),
+    )
+
+
+def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the keyword arguments that `spectral_conformal.unwrap` and `Unwrapper` share."""
+    stretched = mesh.stretch_direction is not None and options.stretch != 1.0
+    return {
+        "seam_edges": mesh.seam_edges,
+        "selected_faces": mesh.selected_faces,
+        "method": options.method,
+        "weights": options.weights,
+        "boundary": options.boundary,
+        "fill_holes": options.fill_holes,
+        "area_blend": options.area_blend,
+        "fold_free": options.fold_free,
+        "metric": _stretched_space(mesh, options.stretch) if stretched else None,
+        **_pins(mesh, options),
+    }
+
+
+def forces(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the keyword arguments that `spectral_conformal.unwrap` shares with `Unwrapper.solve`."""
+    # Only the spectral method has a form that forces could change.
+    if options.method != "spectral":
+        return {}
+    return {"extenders": mesh.extenders, "hole_rigidity": options.hole_rigidity}
+
+
+def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
+    """Count the unused extenders of which a vertex is being unwrapped: the others were not meant."""
+    if not unused.any():
+        return 0
+    unwrapped = np.zeros(len(mesh.vertices), dtype=bool)
+    unwrapped[mesh.corner_vertices[mesh.selected_faces[mesh.face_of_corner()]]] = True
+    ends = np.array([(i, j) for i, j, _ in mesh.extenders])
+    return int(np.count_nonzero(unused & unwrapped[ends].any(axis=1)))
+
+
+def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
+    """Return the metric of the mesh as it would be, stretched in space along its direction, (F, 3, 3) float64.
+
+    Unlike a direction projected to every face, it fades where faces lean away from the direction.
+    """
+    metric = np.eye(3) + (stretch**2 - 1.0) * np.outer(mesh.stretch_direction, mesh.stretch_direction)
+    return np.broadcast_to(metric, (len(mesh.selected_faces), 3, 3))
+
+
+def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
+    pinned = mesh.usable_pins()
+    if not pinned.any():
+        return {}
+    return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": pinned, "soft_pins": options.soft_pins}
+
+
+def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
+    """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
+    return [solve(mesh, options, part) for mesh, part in zip(meshes, parts(meshes, progress))]

@@ -1,0 +1,380 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every sentence, label and description that an artist reads, apart from those that the solver itself returns.
+
+Without bpy, so that both the Blender layer and the rest of core can import it. Blender calls a chart an island; so do
+these sentences. A function that returns an empty text has nothing to say.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .defects import Defects
+    from .quality import MapQuality
+    from .summary import Summary
+
+UNWRAP_LABEL = "Spectral Unwrap"
+UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
+SELECT_FAILED_LABEL = "Select Failed Islands"
+SELECT_FAILED_DESCRIPTION = (
+    f"Select the visible faces of the islands that {UNWRAP_LABEL} could not solve when they were unwrapped last"
+)
+SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
+SELECT_DEFECTS_DESCRIPTION = (
+    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map"
+)
+SUGGEST_SEAMS_LABEL = "Suggest Seams"
+SUGGEST_SEAMS_DESCRIPTION = (
+    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
+    "visible ones if none is selected; then unwrap again"
+)
+LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
+LIVE_UNWRAP_DESCRIPTION = "Let islands follow while their pins are moved, and unwrap again when seams are changed"
+EXTENDER_NAME = "Extender"
+ADD_EXTENDER_LABEL = "Add Extender"
+ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
+REMOVE_EXTENDER_LABEL = "Remove Extender"
+REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
+REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
+REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders with a vertex that is gone"
+ADJUST_EXTENDER_LABEL = "Adjust Extender"
+ADJUST_EXTENDER_DESCRIPTION = "Change the strength of the active extender by dragging, while its island follows"
+SELECT_EXTENDER_LABEL = "Select Extender Vertices"
+SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
+SIDEBAR_TAB = "Spectral"
+EXTENDERS_LABEL = "Extenders"
+
+# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
+# spectral_conformal.unwrap.
+METHOD_ITEMS = (
+    ("SPECTRAL", "Spectral", "Least angle distortion with the whole boundary free; no pins"),
+    ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
+    ("FIEDLER", "Fiedler Vector", "Smallest nontrivial eigenvector over all vertices, for comparison"),
+    ("AREA", "Area Normalized", "Least angle distortion relative to the area of the map, for comparison"),
+)
+WEIGHTS_ITEMS = (
+    ("UNIFORM", "Uniform", "Every triangle counts by its area"),
+    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same, for irregularly sampled meshes"),
+)
+BOUNDARY_ITEMS = (
+    ("LENGTH", "Length", "Weigh boundary vertices by the length of their boundary edges, whatever the sampling"),
+    ("VERTEX", "Vertex", "Weigh all boundary vertices equally, as in the original paper"),
+)
+MARGIN_METHOD_ITEMS = (
+    ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
+    ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
+    ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
+)
+PACK = "PACK"
+KEEP = "KEEP"
+PLACEMENT_ITEMS = (
+    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile"),
+    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before"),
+)
+PAIRS_IN_ORDER = "IN_ORDER"
+PAIRS_TO_ACTIVE = "TO_ACTIVE"
+EXTENDER_PAIRS_ITEMS = (
+    (
+        PAIRS_IN_ORDER,
+        "In Order",
+        "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
+        "on, in the order in which they were selected",
+    ),
+    (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
+)
+
+# Blender's own sentence where use_subsurf_data has no effect.
+NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
+NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
+ADJUSTED_WITHOUT_SUBSURF = (
+    "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
+)
+EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap with it"
+NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
+STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
+OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
+NO_SUCH_EXTENDER = "No such extender; choose one in the list"
+ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
+NOTHING_SELECTED = "Nothing selected; select the faces to unwrap, in the UV editor their UVs"
+MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
+NO_VISIBLE_FACES = "No visible faces to cut"
+MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
+OUT_OF_MEMORY = (
+    "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
+    "levels"
+)
+PACKED_BESIDE_FAILED = (
+    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it"
+)
+NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
+NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
+NO_UV_MAP = "There is no UV map to look at; unwrap first"
+# Differences of scale that Blender's own Unwrap passes over.
+_EVEN_SCALE = 1e-4
+_PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+
+
+def is_running(label: str) -> str:
+    """Return why an operator is not available while the one with this label runs."""
+    return f"{label} is running; Esc cancels it"
+
+
+def cancelled(label: str) -> str:
+    """Return what the operator with this label says when it is cancelled."""
+    return f"{label}: Cancelled"
+
+
+def progress(label: str, percent: int, phase: str) -> str:
+    """Return what the status bar shows while the operator with this label runs."""
+    return " ".join(part for part in (f"{label}: {percent} %", phase, "  Esc: Cancel") if part)
+
+
+def printed_progress(label: str, percent: int, phase: str) -> str:
+    """Return the line that tells on a terminal how far the operator with this label is."""
+    return f"{label}: {percent} % ({phase})"
+
+
+def could_not_follow(problem: str) -> str:
+    """Return the line that tells on a terminal that live unwrapping could not follow."""
+    return f"{LIVE_UNWRAP_LABEL} could not follow: {problem}"
+
+
+def not_drawn(label: str, problem: str) -> str:
+    """Return the line that tells on a terminal that something could not be drawn."""
+    return f"{label} could not be drawn: {problem}"
+
+
+def information(summary: Summary, seconds: float, where_to_see: str) -> str:
+    """Return the sentence for a call that solved at least one chart.
+
+    `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
+    """
+    defects = _count(summary.flipped, "flipped face")
+    if summary.overlapping:
+        defects += f", {_count(summary.overlapping, 'overlapping face')}"
+    if summary.flipped or summary.overlapping:
+        defects += f" (see {where_to_see})"
+    return (
+        f"Unwrapped {_count(summary.solved, 'island')}: mean QC {_qc(summary.mean_qc)}, "
+        f"maximum QC {_qc(summary.max_qc)}, {defects}, {seconds:.2f} s"
+    )
+
+
+def unfolded(summary: Summary) -> str:
+    """Return what was unfolded on request and what it cost; empty if nothing was."""
+    parts = []
+    if summary.unfolded:
+        parts.append(f"{_count(summary.unfolded, 'folded triangle')} unfolded")
+    if summary.embedded:
+        parts.append(f"{_count(summary.embedded, 'island')} replaced by an embedding, relaxed without folding it")
+    if not parts:
+        return ""
+    cost = ""
+    if summary.mean_qc_change is not None:
+        before, after = summary.mean_qc_change
+        cost = f"; mean QC of these islands {_qc(before)} before, {_qc(after)} after"
+    return f"Fold-free: {', '.join(parts)}{cost}"
+
+
+def too_small(faces: int) -> str:
+    """Return the warning for faces that Blender's single precision cannot hold; empty for none."""
+    if not faces:
+        return ""
+    return (
+        f"{_count(faces, 'face')} {'shrinks' if faces == 1 else 'shrink'} below what Blender's UV coordinates resolve; "
+        "add seams that make the island flatter, or raise Angle to Area"
+    )
+
+
+def failures(summary: Summary) -> str:
+    """Return why charts or whole meshes were left as they were; empty if none was."""
+    parts = []
+    if summary.failed:
+        total = summary.solved + summary.failed
+        parts.append(
+            f"{summary.failed} of {_count(total, 'island')} failed, UVs unchanged: {_grouped(summary.failures)}"
+        )
+    if summary.refused:
+        parts.append(f"Not unwrapped: {'; '.join(summary.refused)}")
+    return ". ".join(parts)
+
+
+def remedies(summary: Summary) -> str:
+    """Return what was repaired or done differently to solve some charts; empty if nothing was."""
+    if not summary.remedies:
+        return ""
+    return f"{_count(sum(summary.remedies.values()), 'island')} needed a remedy: {_grouped(summary.remedies)}"
+
+
+def pinned(summary: Summary) -> str:
+    """Return how charts with two or more pins were solved; empty if there were none."""
+    ways = Counter({_PINNED_METHODS.get(method, method): count for method, count in summary.pinned.items()})
+    return f"{_count(sum(summary.pinned.values()), 'island')} with pins: solved by {_grouped(ways)}" if ways else ""
+
+
+def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequence[bool]) -> str:
+    """Return Blender's own sentence about the first object whose scale along its axes is uneven or negative."""
+    for (x, y, z), is_negative in zip(scales, negative):
+        if abs(x - y) >= _EVEN_SCALE or abs(y - z) >= _EVEN_SCALE:
+            return "Object has non-uniform scale, unwrap will operate on a non-scaled version of the mesh"
+        if is_negative:
+            return "Object has negative scale, unwrap will operate on a non-flipped version of the mesh"
+    return ""
+
+
+def broken_extenders(names: Sequence[str]) -> str:
+    """Return the sentence for extenders that lack a vertex; empty for none."""
+    if not names:
+        return ""
+    return f"Skipped {_count(len(names), 'extender')} whose vertex is gone: {', '.join(names)}"
+
+
+def extenders_without_strength(names: Sequence[str]) -> str:
+    """Return the sentence for extenders whose strength is no number within its limit; empty for none."""
+    if not names:
+        return ""
+    return f"Skipped {_count(len(names), 'extender')} whose strength is no number that it can have: {', '.join(names)}"
+
+
+def broken_extender(name: str) -> str:
+    """Return why an extender that lacks a vertex cannot be adjusted."""
+    return f"{name} is broken: a vertex of it is gone; remove it and add another"
+
+
+def adjusting(strength: str, note: str) -> str:
+    """Return what the status bar shows while a strength is dragged."""
+    return f"{ADJUST_EXTENDER_LABEL}: strength {strength}   {note}"
+
+
+def removed_broken(count: int) -> str:
+    """Return what Remove Broken says."""
+    return f"Removed broken extenders: {count}"
+
+
+def broken_extender_selected(name: str, gone: int) -> str:
+    """Return the warning that an extender lacks vertices that were to be selected."""
+    return f"{name} is broken: {gone} of its vertices gone; remove it"
+
+
+def hidden_vertices(name: str, hidden: int) -> str:
+    """Return the warning that vertices of an extender are hidden, which are not selected."""
+    return f"{name} has hidden vertices: {hidden}; reveal them to select them"
+
+
+def added_extenders(count: int, existing: int, follows: bool) -> str:
+    """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
+    parts = []
+    if count:
+        acts = "" if follows else f", which will act on the next unwrap; {ADJUST_EXTENDER_LABEL} acts at once"
+        parts.append(f"Added {_count(count, 'extender')}{acts}")
+    if existing:
+        parts.append(f"Pairs that have an extender already: {existing}")
+    return ". ".join(parts)
+
+
+def unused_extenders(count: int) -> str:
+    """Return the sentence for extenders that no island could use; empty for none."""
+    if count == 0:
+        return ""
+    return (
+        f"{_count(count, 'extender')} had no effect: both vertices must lie in one unwrapped island, "
+        "which pins must not hold"
+    )
+
+
+def selected_failed(islands: int, faces: int) -> str:
+    """Return what Select Failed Islands says."""
+    if faces == 0:
+        return "No islands failed, selection unchanged"
+    return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
+
+
+def changed_since_unwrapped(names: Sequence[str]) -> str:
+    """Return the warning for meshes that have other faces than when they were unwrapped."""
+    return f"Faces were added, removed or reordered since the last unwrap of {', '.join(names)}; unwrap again"
+
+
+def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
+    """Return what Select Flipped and Overlapping says of the defects of each mesh, given which kinds were chosen."""
+    kinds = [
+        ("flipped", sum(int(found.flipped.sum()) for found in defects) if flipped else 0),
+        ("overlapping", sum(int(found.overlapping.sum()) for found in defects) if overlapping else 0),
+        ("with UVs that are not finite", sum(int(found.not_finite.sum()) for found in defects)),
+    ]
+    total = sum(int(found.chosen(flipped, overlapping).sum()) for found in defects)
+    if total == 0:
+        wanted = " or ".join(
+            name for name, is_wanted in (("flipped", flipped), ("overlapping", overlapping)) if is_wanted
+        )
+        return f"No {wanted} faces, selection unchanged"
+    counts = ", ".join(f"{count} {name}" for name, count in kinds if count)
+    return f"Selected {_count(total, 'face')}: {counts}"
+
+
+def marked(count: int, length: str) -> str:
+    """Return what Suggest Seams says once `count` cuts are marked, of a length that is given with its unit."""
+    return f"Marked {_count(count, 'cut')} of length {length}"
+
+
+def nothing_to_suggest(is_limited: bool) -> str:
+    """Return the sentence for no suggested seams; `is_limited` where the user gave a greatest length."""
+    reasons = "the islands are even enough already, or no cut makes them better"
+    return f"No seams to suggest: {reasons}{', or none within the length' if is_limited else ''}"
+
+
+def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
+    """Return why meshes got no suggestion, given one text for each, empty where there is nothing to tell."""
+    refused = [f"{name}: {error.rstrip('.')}" for name, error in zip(names, errors) if error]
+    return f"No seams suggested for {'; '.join(refused)}" if refused else ""
+
+
+def preview(count: int, total: int, length: str, total_length: str) -> str:
+    """Return which of the suggested cuts are shown, with lengths that are given with their unit."""
+    if count == total:
+        return f"{_count(total, 'cut')}, length {length}"
+    return f"{count} of {_count(total, 'cut')}, length {length} of {total_length}"
+
+
+def preview_status(known: str) -> str:
+    """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
+    keys = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
+    return f"{SUGGEST_SEAMS_LABEL}: {known}   {keys}"
+
+
+def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
+    """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
+    even = f"{_percent(after.even)} of the surface within {factor:.3g} times the median scale"
+    qc = f", mean QC {_qc(after.mean_qc)}" if after.mean_qc == after.mean_qc else ""
+    now = _percent(before.even) + (f", QC {_qc(before.mean_qc)}" if before.mean_qc == before.mean_qc else "")
+    return f"{even}{qc} (now {now})"
+
+
+def _percent(part: float) -> str:
+    # Rounded down, so that only the whole is 100 %.
+    return f"{int(100.0 * part + 1e-9)} %"
+
+
+def without_bounds(count: int) -> str:
+    """Return the sentence for `count` charts that could not be kept in place; empty for none."""
+    if count == 0:
+        return ""
+    return f"{_count(count, 'island')} had no UV bounds to keep and were laid out side by side in the unit square"
+
+
+def _grouped(messages: Counter[str]) -> str:
+    """Join the messages, each with its number if there are several."""
+    return "; ".join(
+        message.rstrip(".") if len(messages) == 1 else f"{count}: {message.rstrip('.')}"
+        for message, count in messages.most_common()
+    )
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _qc(value: float) -> str:
+    return f"{value:.4f}" if value < 100.0 else f"{value:.3g}"

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The selection of the meshes in edit mode."""
+
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import compress
+
+import bmesh
+import bpy
+import numpy as np
+from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
+
+from .. import compatibility
+
+
+def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:
+    """Make these faces, one (F,) bool per mesh, the whole selection of all meshes in edit mode, and of their UVs.
+
+    With `extend` they are added to the selection. Switches to face selection: neighbours on two sides of a seam share
+    vertices and edges.
+    """
+    context.tool_settings.mesh_select_mode = (False, False, True)
+    for edit_object in context.objects_in_mode_unique_data:
+        mesh = edit_object.data
+        bm = bmesh.from_edit_mesh(mesh)
+        flags = faces[mesh].tolist() if mesh in faces else [False] * len(bm.faces)
+        if not extend:
+            for face in bm.faces:
+                face.select_set(False)
+        for face, flag in zip(bm.faces, flags):
+            if flag:
+                face.select_set(True)
+        bm.select_history.clear()
+        layer = bm.loops.layers.uv.active
+        if context.scene.tool_settings.use_uv_select_sync:
+            compatibility.derive_uv_selection(bm)
+        elif layer is not None:
+            compatibility.select_uv_of_faces(bm, layer, flags, extend)
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:
+    """Select these faces as `select_only` does, but in the UV editor without sync selection their UVs only.
+
+    There the selected faces of the mesh are those that the editor shows; they stay. UVs of their neighbours at the same
+    place are selected too where the editor's sticky selection asks for that, so that moving them tears nothing.
+    """
+    if not selects_uvs(context):
+        select_only(context, faces, extend)
+        return
+    context.scene.tool_settings.uv_select_mode = "FACE"
+    sticky = compatibility.sticky_selection(context)
+    for edit_object in context.objects_in_mode_unique_data:
+        bm = bmesh.from_edit_mesh(edit_object.data)
+        layer = bm.loops.layers.uv.active
+        if layer is None:
+            continue
+        flags = faces[edit_object.data].tolist() if edit_object.data in faces else [False] * len(bm.faces)
+        corners = _stuck_corners(bm, layer, flags, sticky)
+        if extend:
+            corners = (np.array(corners) | compatibility.selected_uv_corners(bm, layer)).tolist()
+        compatibility.select_uv_corners(bm, layer, corners, only_shown=True)
+        bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
+
+
+def _stuck_corners(bm: BMesh, layer: BMLayerItem, faces: Sequence[bool], sticky: str) -> list[bool]:
+    """Return a flag per corner: whether it is one of the `faces`, or sticks to one of theirs."""
+
+    def key(loop: BMLoop) -> Hashable:
+        return (loop.vert, *loop[layer].uv) if sticky == "SHARED_LOCATION" else loop.vert
+
+    keys = set()
+    if sticky != "DISABLED":
+        keys.update(key(loop) for face, flag in zip(bm.faces, faces) if flag for loop in face.loops)
+    return [flag or key(loop) in keys for face, flag in zip(bm.faces, faces) for loop in face.loops]
+
+
+@contextmanager
+def visible_faces_selected(bm: BMesh) -> Iterator[None]:
+    """Within, all visible faces are selected, because Blender packs no others."""
+    kinds = (bm.verts, bm.edges, bm.faces)
+    selected = [[element for element in elements if element.select] for elements in kinds]
+    for face in bm.faces:
+        if not face.hide:
+            face.select = True
+    try:
+        yield
+    finally:
+        for elements in reversed(kinds):
+            for element in elements:
+                element.select = False
+        for elements in selected:
+            for element in elements:
+                element.select = True
+
+
+@dataclass(frozen=True)
+class SelectedVertices:
+    """Indices of the selected vertices of a mesh, those of a known order in that order, and the active one."""
+
+    vertices: list[int]
+    in_order: list[int]
+    active: int | None
+
+
+def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> SelectedVertices:
+    """Return the selected vertices of a mesh in edit mode.
+
+    In the UV editor without sync selection these are the vertices with a selected UV, of which no order is known.
+    """
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.index_update()
+    layer = bm.loops.layers.uv.active
+    if selects_uvs(context) and layer is not None:
+        corners = compatibility.selected_uv_corners(bm, layer)
+        loops = compress((loop for face in bm.faces for loop in face.loops), corners.tolist())
+        return SelectedVertices(sorted({loop.vert.index for loop in loops if loop.face.select}), [], None)
+    history = [element for element in bm.select_history if isinstance(element, BMVert)]
+    active = bm.select_history.active
+    return SelectedVertices(
+        [vertex.index for vertex in bm.verts if vertex.select],
+        [vertex.index for vertex in history],
+        active.index if isinstance(active, BMVert) else None,
+    )
+
+
+def select_only_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh, vertices: Sequence[int]) -> None:
+    """Make visible ones of these vertices of one mesh, in their order, the whole selection of all meshes in edit mode.
+
+    Turns vertex selection on. In the UV editor without sync selection, the UVs of the vertices become the whole UV
+    selection instead, so that the editor goes on to show the same faces.
+    """
+    uv_only = selects_uvs(context)
+    if not uv_only:
+        _, *others = context.tool_settings.mesh_select_mode
+        context.tool_settings.mesh_select_mode = (True, *others)
+    for edit_object in context.objects_in_mode_unique_data:
+        bm = bmesh.from_edit_mesh(edit_object.data)
+        bm.verts.ensure_lookup_table()
+        chosen = [bm.verts[index] for index in vertices] if edit_object.data == mesh else []
+        if uv_only:
+            _select_uvs_of(bm, chosen)
+        else:
+            _select_vertices(bm, [vertex for vertex in chosen if not vertex.hide])
+        bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
+
+
+def _select_vertices(bm: BMesh, vertices: Sequence[BMVert]) -> None:
+    for elements in (bm.faces, bm.edges, bm.verts):
+        for element in elements:
+            element.select = False
+    bm.select_history.clear()
+    for vertex in vertices:
+        vertex.select = True
+        bm.select_history.add(vertex)
+    bm.select_flush_mode()
+
+
+def _select_uvs_of(bm: BMesh, vertices: Sequence[BMVert]) -> None:
+    layer = bm.loops.layers.uv.active
+    if layer is not None:
+        chosen = set(vertices)
+        flags = [loop.vert in chosen for face in bm.faces for loop in face.loops]
+        compatibility.select_uv_corners(bm, layer, flags)
+
+
+def selects_uvs(context: bpy.types.Context) -> bool:
+    """Return whether the UV editor is the context and has a selection of its own."""
+    return (
+        context.area is not None
+        and context.area.type == "IMAGE_EDITOR"
+        and not context.scene.tool_settings.use_uv_select_sync
+    )

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""UV coordinates into edit-mode meshes."""
+
+from collections.abc import Iterable
+from itertools import compress
+
+import bmesh
+import bpy
+import numpy as np
+from bmesh.types import BMLayerItem, BMLoop
+
+from .. import names
+from .read import EditMesh, active_uv_layer
+
+
+def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
+    """Give a mesh in edit mode a UV map if it has none; return whether it was added."""
+    if mesh.uv_layers:
+        return False
+    mesh.uv_layers.new(name=names.DEFAULT_UV_MAP)
+    return True
+
+
+def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: Iterable[tuple[float, float]]) -> None:
+    """Write one UV to each of the `loops`; `bmesh.update_edit_mesh` is left to the caller."""
+    for loop, point in zip(loops, uv):
+        loop[layer].uv = point
+
+
+def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
+    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, into the active UV map; touch nothing else."""
+    bm, layer = active_uv_layer(edit_mesh.mesh)
+    affected = np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
+    faces = bm.faces if affected.all() else compress(bm.faces, affected.tolist())
+    u, v = uv[corners].T
+    write_loops(layer, (loop for face in faces for loop in face.loops), zip(u.tolist(), v.tolist()))
+    bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)

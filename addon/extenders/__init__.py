@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The extenders of a mesh: how they are stored, followed through edits, and adjusted by dragging."""

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Suggested seams as lines in the 3D viewports, before they are marked."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
+
+from .. import compatibility
+from ..core import seam_suggestion, texts
+from ..core.errors import PrintOnce
+from ..core.seam_suggestion import Suggestion
+from ..edit_mesh.read import EditMesh
+
+_COLOR = (0.1, 1.0, 0.55)
+# Width in pixels and opacity of the cuts shown, and of those left out.
+_SHOWN = (4.0, 1.0)
+_LEFT_OUT = (1.5, 0.5)
+# What is behind the mesh shines through faintly.
+_THROUGH_MESH = 0.25
+# Lines are drawn this fraction of the distance nearer than they are, or they would sink into the faces.
+_NEARER = 0.003
+
+
+class SeamLines:
+    """The cuts of a suggestion as lines in all 3D viewports."""
+
+    def __init__(self, edit_meshes: Sequence[EditMesh], suggestion: Suggestion) -> None:
+        """Show nothing before `show`."""
+        self._edit_meshes = edit_meshes
+        self._suggestion = suggestion
+        self._batches: list[tuple[gpu.types.GPUBatch, float, float]] | None = None
+        self._count = 0
+        self._print = PrintOnce(lambda problem: texts.not_drawn(texts.SUGGEST_SEAMS_LABEL, problem))
+        self._handle = None
+
+    def show(self, context: bpy.types.Context, count: int) -> None:
+        """Draw the first `count` cuts in full, the others fainter."""
+        self._count, self._batches = count, None
+        # In background mode nothing is drawn.
+        if self._handle is None and not bpy.app.background:
+            self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
+        _redraw(context)
+
+    def remove(self, context: bpy.types.Context) -> None:
+        """Draw nothing any more."""
+        if self._handle is not None:
+            bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+            self._handle = None
+        _redraw(context)
+
+    def points(self, start: int, end: int) -> np.ndarray:
+        """Return the ends of the edges of cuts `start` to `end` - 1 in world space, (2 n, 3), edge after edge."""
+        cuts = self._suggestion.part(start, end)
+        parts = [np.empty((0, 3))]
+        for index, edit_mesh in enumerate(self._edit_meshes):
+            world = np.array(edit_mesh.edit_object.matrix_world)
+            ends = seam_suggestion.segments(edit_mesh.polygons, cuts.edges(index))
+            parts.append(ends @ world[:3, :3].T + world[:3, 3])
+        return np.concatenate(parts)
+
+    def _draw(self) -> None:
+        try:
+            self._fill()
+        except Exception as error:  # noqa: BLE001 - an error while drawing would come again with every redraw
+            self._print(error)
+
+    def _fill(self) -> None:
+        shader = gpu.shader.from_builtin(compatibility.LINE_SHADER)
+        if self._batches is None:
+            total = len(self._suggestion.cuts)
+            parts = ((self._count, total, *_LEFT_OUT), (0, self._count, *_SHOWN))
+            self._batches = [
+                (batch_for_shader(shader, "LINES", {"pos": points.astype(np.float32).tolist()}), width, opacity)
+                for start, end, width, opacity in parts
+                if len(points := self.points(start, end))
+            ]
+        scale = bpy.context.preferences.system.ui_scale
+        shader.bind()
+        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        with _in_front_of_faces(bpy.context.region_data):
+            for depth_test, visibility in (("NONE", _THROUGH_MESH), ("LESS_EQUAL", 1.0)):
+                gpu.state.depth_test_set(depth_test)
+                for batch, width, opacity in self._batches:
+                    shader.uniform_float("lineWidth", width * scale)
+                    shader.uniform_float("color", (*_COLOR, opacity * visibility))
+                    batch.draw(shader)
+
+
+def _redraw(context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+@contextmanager
+def _in_front_of_faces(view: bpy.types.RegionView3D) -> Iterator[None]:
+    """Within, what is drawn blends, hides nothing, and wins over faces that it lies on."""
+    if view.is_perspective:
+        nearer = Matrix.Scale(1.0 - _NEARER, 4)
+        nearer[3][3] = 1.0
+    else:
+        nearer = Matrix.Translation((0.0, 0.0, _NEARER * view.view_distance))
+    writes_depth = gpu.state.depth_mask_get()
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_mask_set(False)
+    try:
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(nearer @ gpu.matrix.get_model_view_matrix())
+            yield
+    finally:
+        gpu.state.depth_test_set("NONE")
+        gpu.state.depth_mask_set(writes_depth)
+        gpu.state.blend_set("NONE")

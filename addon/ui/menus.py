@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Entries in Blender's unwrap menus."""
+
+from collections.abc import Callable
+
+import bpy
+
+from .. import names
+
+
+def _draw_unwrap(layout: bpy.types.UILayout) -> None:
+    # Blender's menu leaves its layout set to execute operators, which would freeze the window during a long solve.
+    layout.operator_context = "INVOKE_REGION_WIN"
+    layout.operator(names.UNWRAP_OPERATOR)
+
+
+def _draw_in_viewport(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
+    _draw_unwrap(self.layout)
+    self.layout.operator(names.SELECT_FAILED_OPERATOR)
+    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
+    self.layout.operator(names.SUGGEST_SEAMS_OPERATOR)
+
+
+def _draw_in_uv_editor(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    # Newer versions draw the UV editor's Unwrap menu inside the viewport's menu, which has its own entry.
+    if context.area.type == "IMAGE_EDITOR":
+        self.layout.separator()
+        self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
+        _draw_unwrap(self.layout)
+        self.layout.operator(names.SUGGEST_SEAMS_OPERATOR)
+
+
+def _draw_in_select_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator(names.SELECT_FAILED_OPERATOR)
+    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
+
+
+def _entries() -> list[tuple[type, Callable]]:
+    """Return the menus of this Blender version that get entries, each with its draw function."""
+    uv_editor = getattr(bpy.types, names.UV_EDITOR_UNWRAP_MENU, None) or getattr(bpy.types, names.UV_EDITOR_MENU)
+    return [
+        (getattr(bpy.types, names.VIEWPORT_UNWRAP_MENU), _draw_in_viewport),
+        (uv_editor, _draw_in_uv_editor),
+        (getattr(bpy.types, names.UV_EDITOR_SELECT_MENU), _draw_in_select_menu),
+    ]
+
+
+def register() -> None:
+    """Add the menu entries."""
+    for menu, draw in _entries():
+        menu.append(draw)
+
+
+def unregister() -> None:
+    """Remove the menu entries."""
+    for menu, draw in _entries():
+        menu.remove(draw)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shows how far a solve is: at the mouse cursor and in the status bar, or as printed lines in background mode."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ..core import texts
+from ..core.progress import Progress
+
+# Events that a solve in the background lets through: they move the view, or concern nobody.
+_VIEW_EVENTS = frozenset(
+    {
+        *("MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE", "NONE"),
+        *("MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "WHEELINMOUSE", "WHEELOUTMOUSE"),
+        *("TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "MOUSESMARTZOOM"),
+    }
+)
+# A solve in background mode prints nothing before this time, nor more often.
+_PRINT_SECONDS = 1.0
+
+
+def moves_view(event: bpy.types.Event) -> bool:
+    """Return whether an event may reach the editors during a solve."""
+    return event.type in _VIEW_EVENTS or event.type.startswith(("NDOF_", "TIMER"))
+
+
+class WindowProgress:
+    """Progress at the mouse cursor and in the status bar."""
+
+    def __init__(self, context: bpy.types.Context, label: str) -> None:
+        """Show 0 % of what the operator with this label does."""
+        self._label = label
+        self._window_manager = context.window_manager
+        self._window_manager.progress_begin(0, 100)
+        self.update(context, 0.0, "")
+
+    def update(self, context: bpy.types.Context, fraction: float, phase: str) -> None:
+        """Show the fraction done and the phase."""
+        percent = _percent(fraction)
+        self._window_manager.progress_update(percent)
+        context.workspace.status_text_set(texts.progress(self._label, percent, phase))
+
+    def end(self, context: bpy.types.Context) -> None:
+        """Remove everything shown."""
+        self._window_manager.progress_end()
+        clear_status(context)
+
+
+def clear_status(context: bpy.types.Context) -> None:
+    """Give the status bar back to Blender, in all windows where the context has none, as in handlers and timers."""
+    if context.workspace is not None:
+        context.workspace.status_text_set(None)
+        return
+    for window in context.window_manager.windows:
+        with context.temp_override(window=window):
+            window.workspace.status_text_set(None)
+
+
+@contextmanager
+def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Iterator[Progress]:
+    """Yield the progress function of a solve that Blender waits for; `label` is the operator's."""
+    if bpy.app.background:
+        yield _printer(label)
+        return
+    window_manager = context.window_manager
+    window_manager.progress_begin(0, 100)
+    try:
+        yield lambda fraction, _phase: window_manager.progress_update(_percent(fraction))
+    finally:
+        window_manager.progress_end()
+
+
+def _printer(label: str) -> Progress:
+    """Return a progress function that prints a line when the time for one has come and there is news."""
+    printed_at, printed = time.monotonic(), 0
+
+    def progress(fraction: float, phase: str) -> None:
+        nonlocal printed_at, printed
+        now, percent = time.monotonic(), _percent(fraction)
+        if now - printed_at >= _PRINT_SECONDS and percent > printed:
+            print(texts.printed_progress(label, percent, phase), flush=True)
+            printed_at, printed = now, percent
+
+    return progress
+
+
+def _percent(fraction: float) -> int:
+    return int(100.0 * fraction)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of the Unwrap operator, from its properties."""
+
+from typing import Any
+
+import bpy
+
+from .. import names
+from ..core.options import Margin, Options, Settings
+from ..core.texts import KEEP
+
+
+def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or Blender's record of its properties
+    """Return the settings that the operator's properties make."""
+    return Settings(
+        Options(
+            properties.method.lower(),
+            properties.weights.lower(),
+            properties.boundary.lower(),
+            fill_holes=properties.fill_holes,
+            soft_pins=properties.soft_pin_strength if properties.soft_pins and properties.method == "SPECTRAL" else 0.0,
+            hole_rigidity=properties.hole_rigidity,
+            area_blend=properties.area_blend,
+            fold_free=properties.fold_free,
+            stretch=properties.stretch,
+        ),
+        keep_in_place=properties.placement == KEEP,
+        margin=Margin(properties.margin, properties.margin_method),
+        correct_aspect=properties.correct_aspect,
+        use_subsurf=properties.use_subsurf_data,
+    )
+
+
+def last_settings() -> Settings:
+    """Return the settings with which the operator was used last; its defaults where it was not."""
+    properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
+    return settings_of(properties) if properties else Settings()

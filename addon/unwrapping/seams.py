@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Suggested seams in the meshes in edit mode: what to cut, marking the cuts, and the unwrap after them."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, nullcontext
+from dataclasses import dataclass, replace
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.mesh import PolygonMesh
+from ..core.options import Settings
+from ..core.seam_suggestion import Suggestion
+from ..core.solve import Solution
+from ..edit_mesh import selection
+from ..edit_mesh.read import EditMesh
+from . import steps
+from .steps import Outcome, WhileWriting
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is to be cut and unwrapped.
+
+    Attributes:
+        edit_meshes: the meshes, never subdivided: seams belong to the edges that there are.
+        settings: with which to unwrap afterwards.
+        all_visible: whether all visible faces are meant, because none is selected.
+    """
+
+    edit_meshes: Sequence[EditMesh]
+    settings: Settings
+    all_visible: bool
+
+    @property
+    def polygons(self) -> list[PolygonMesh]:
+        """The meshes as arrays."""
+        return [edit_mesh.polygons for edit_mesh in self.edit_meshes]
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the objects."""
+        return [edit_mesh.edit_object.name for edit_mesh in self.edit_meshes]
+
+
+def read(context: bpy.types.Context, settings: Settings) -> Target | None:
+    """Read the meshes in edit mode; None if they have no visible faces."""
+    for all_visible in (False, True):
+        edit_meshes = steps.read(context, _unsubdivided(settings), all_visible)
+        if edit_meshes:
+            return Target(edit_meshes, settings, all_visible)
+    return None
+
+
+def read_again(context: bpy.types.Context, target: Target) -> Target | None:
+    """Read the same once more; None if anything in it has changed or gone since."""
+    settings = _unsubdivided(target.settings)
+    edit_meshes = steps.read_again(context, settings, target.edit_meshes, target.all_visible)
+    return None if edit_meshes is None else replace(target, edit_meshes=edit_meshes)
+
+
+def _unsubdivided(settings: Settings) -> Settings:
+    return replace(settings, use_subsurf=False)
+
+
+def read_cut_open(context: bpy.types.Context, target: Target, cuts: Suggestion) -> list[EditMesh]:
+    """Read the meshes as they will be with the cuts, to unwrap them; nothing changes."""
+    with ExitStack() as stack:
+        for index, edit_mesh in enumerate(target.edit_meshes):
+            stack.enter_context(_seams(edit_mesh.mesh, cuts.edges(index)))
+        return steps.read(context, target.settings, target.all_visible)
+
+
+def mark(target: Target, cuts: Suggestion, seam: bool = True) -> None:
+    """Make the edges of the cuts seams, or no seams again; touch nothing else."""
+    for index, edit_mesh in enumerate(target.edit_meshes):
+        _set_seams(edit_mesh.mesh, cuts.edges(index), seam)
+        bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
+
+
+def write(
+    context: bpy.types.Context,
+    target: Target,
+    cuts: Suggestion,
+    solutions: Sequence[Solution],
+    while_writing: WhileWriting = nullcontext,
+) -> Outcome:
+    """Mark the cuts and write the solutions of what `read_cut_open` returned for them.
+
+    Raises:
+        PackingError: Blender's packer did not run; nothing changed.
+    """
+    mark(target, cuts)
+    try:
+        edit_meshes = steps.read(context, target.settings, target.all_visible)
+        with ExitStack() as stack:
+            # Blender packs no other faces than selected ones.
+            for edit_mesh in edit_meshes if target.all_visible else ():
+                bm = bmesh.from_edit_mesh(edit_mesh.mesh)
+                stack.enter_context(selection.visible_faces_selected(bm))
+            return steps.write(context, target.settings, edit_meshes, solutions, while_writing)
+    except BaseException:
+        # Also where a script is interrupted from the keyboard.
+        mark(target, cuts, seam=False)
+        raise
+
+
+def _set_seams(mesh: bpy.types.Mesh, pairs: np.ndarray, seam: bool) -> None:
+    """Make the edges between pairs of vertices, (n, 2), of an edit mesh seams or not, without telling Blender."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    for i, j in pairs.tolist():
+        bm.edges.get((bm.verts[i], bm.verts[j])).seam = seam
+
+
+@contextmanager
+def _seams(mesh: bpy.types.Mesh, pairs: np.ndarray) -> Iterator[None]:
+    """Within, these edges, which are no seams, are seams; nobody is told, so that nobody sees it."""
+    _set_seams(mesh, pairs, seam=True)
+    try:
+        yield
+    finally:
+        _set_seams(mesh, pairs, seam=False)

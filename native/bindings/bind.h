@@ -1,0 +1,17 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace spectral_conformal::python {
+
+// One function per area of the module; bind_<area>.cpp defines it. They convert arguments and results and nothing else:
+// validation and its messages are in the Python facade (native/python), the rest in the library.
+void bind_errors(pybind11::module_& module);
+void bind_build(pybind11::module_& module);
+void bind_parameterize(pybind11::module_& module);
+void bind_unwrap(pybind11::module_& module);
+void bind_quality(pybind11::module_& module);
+void bind_metric(pybind11::module_& module);
+void bind_seams(pybind11::module_& module);
+
+}  // namespace spectral_conformal::python

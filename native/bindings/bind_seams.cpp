@@ -1,0 +1,42 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "bindings/arrays.h"
+#include "bindings/bind.h"
+#include "bindings/options.h"
+#include "bindings/progress_function.h"
+#include "spectral_conformal/seam_suggestion.h"
+
+namespace spectral_conformal::python {
+
+namespace {
+
+/// Returns the edges and where each cut begins in them.
+py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
+                  std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
+                  const py::object& given_options, const py::object& progress) {
+  const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
+  const PolygonMesh mesh = arrays.view();
+  const SeamSuggestionOptions options = seam_options_of(given_options);
+  const Progress callback = progress_of(progress);
+  SeamSuggestion suggestion;
+  {
+    const py::gil_scoped_release unlocked;
+    suggestion = suggest_seams(mesh, options, callback);
+  }
+  py::array_t<int> edges({static_cast<py::ssize_t>(suggestion.edges.size()), static_cast<py::ssize_t>(2)});
+  if (!suggestion.edges.empty()) {
+    std::copy_n(suggestion.edges.front().data(), 2 * suggestion.edges.size(), edges.mutable_data());
+  }
+  return py::make_tuple(edges, copy(suggestion.cut_offsets));
+}
+
+}  // namespace
+
+void bind_seams(py::module_& module) { module.def("suggest_seams", &suggest); }
+
+}  // namespace spectral_conformal::python

@@ -1,0 +1,127 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bindings/arrays.h"
+#include "bindings/bind.h"
+#include "bindings/options.h"
+#include "bindings/progress_function.h"
+#include "bindings/solve_record.h"
+#include "bindings/space_metric.h"
+#include "bindings/turns.h"
+#include "spectral_conformal/unwrap.h"
+
+namespace spectral_conformal::python {
+
+namespace {
+
+py::dict result_of(const Unwrap& unwrapped) {
+  py::array_t<double> uv({static_cast<py::ssize_t>(unwrapped.uv.rows()), static_cast<py::ssize_t>(2)});
+  std::copy_n(unwrapped.uv.data(), unwrapped.uv.size(), uv.mutable_data());
+  py::list charts;
+  for (const UnwrappedChart& chart : unwrapped.charts) {
+    py::dict record = solve_record(chart);
+    record["faces"] = copy(chart.faces);
+    record["status"] = chart.solved ? "solved" : "failed";
+    record["mean_qc"] = chart.mean_qc;
+    record["max_qc"] = chart.max_qc;
+    record["flipped"] = chart.flipped;
+    record["overlapping"] = chart.overlapping;
+    record["n_pins"] = chart.n_pins;
+    record["n_vertices"] = chart.n_vertices;
+    record["area"] = chart.area;
+    charts.append(record);
+  }
+  return py::dict(py::arg("uv") = uv, py::arg("solved_corners") = copy(unwrapped.solved_corners),
+                  py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts,
+                  py::arg("unused_extenders") = copy(unwrapped.unused_extenders));
+}
+
+/// A mesh to unwrap, its pins, metric and options, and the arrays that they refer to.
+struct UnwrapArguments {
+  MeshArrays arrays;
+  std::optional<Array<bool>> pinned_corners;
+  std::optional<Array<double>> corner_uv;
+  std::vector<SpaceMetric> metric;
+  UnwrapOptions options;
+
+  UnwrapArguments(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
+                  std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces, const PinList& pins,
+                  std::optional<Array<bool>> pinned, std::optional<Array<double>> uv,
+                  const std::optional<Array<double>>& face_metric, const py::object& given_options)
+      : arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)},
+        pinned_corners(std::move(pinned)),
+        corner_uv(std::move(uv)) {
+    if (face_metric) {
+      // A metric (F, 2, 2) comes with triangles only.
+      const bool in_space = face_metric->shape(1) == 3;
+      metric = space_metric(
+          vertices, in_space ? corner_vertices : Array<int>(Array<int>(corner_vertices).reshape({-1, 3})), face_metric);
+      options.metric = metric.data();
+    }
+    options.patch = patch_options_of(given_options);
+    options.solve = solve_options_of(given_options);
+    options.vertex_pins = pins_of(pins);
+    if (pinned_corners && corner_uv) options.corner_pins = {pinned_corners->data(), corner_uv->data()};
+  }
+  // `options` points into the rest.
+  UnwrapArguments(const UnwrapArguments&) = delete;
+  UnwrapArguments& operator=(const UnwrapArguments&) = delete;
+};
+
+py::dict unwrap_mesh(UnwrapArguments& arguments, const ExtenderList& extenders, const py::object& progress) {
+  arguments.options.extenders = extenders_of(extenders);
+  const PolygonMesh mesh = arguments.arrays.view();
+  const Progress callback = progress_of(progress);
+  Unwrap unwrapped;
+  {
+    const py::gil_scoped_release unlocked;
+    unwrapped = unwrap(mesh, arguments.options, callback);
+  }
+  return result_of(unwrapped);
+}
+
+/// An Unwrapper; the arguments must outlive it.
+class MeshUnwrapper {
+ public:
+  explicit MeshUnwrapper(const UnwrapArguments& arguments) {
+    const PolygonMesh mesh = arguments.arrays.view();
+    const py::gil_scoped_release unlocked;
+    unwrapper_ = std::make_unique<Unwrapper>(mesh, arguments.options);
+  }
+
+  py::dict solve(const py::object& given_options, const ExtenderList& extenders, const py::object& progress) {
+    const Progress callback = progress_of(progress);
+    const SolveOptions options = solve_options_of(given_options);
+    Unwrap unwrapped;
+    {
+      const Turns::Turn turn(turns_);
+      const py::gil_scoped_release unlocked;
+      unwrapped = unwrapper_->solve(extenders_of(extenders), options.hole_rigidity, options.tolerance, callback);
+    }
+    return result_of(unwrapped);
+  }
+
+ private:
+  Turns turns_;
+  std::unique_ptr<Unwrapper> unwrapper_;
+};
+
+}  // namespace
+
+void bind_unwrap(py::module_& module) {
+  py::class_<UnwrapArguments>(module, "UnwrapArguments", py::module_local())
+      .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, std::optional<Array<int>>,
+                    std::optional<Array<bool>>, const PinList&, std::optional<Array<bool>>,
+                    std::optional<Array<double>>, const std::optional<Array<double>>&, const py::object&>());
+  py::class_<MeshUnwrapper>(module, "Unwrapper", py::module_local())
+      .def(py::init<const UnwrapArguments&>(), py::keep_alive<1, 2>())
+      .def("solve", &MeshUnwrapper::solve);
+  module.def("unwrap", &unwrap_mesh);
+}
+
+}  // namespace spectral_conformal::python

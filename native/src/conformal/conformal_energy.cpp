@@ -1,0 +1,208 @@
+#include "conformal/conformal_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The inverse-area weights of triangles that are tiny or thin beyond this, or both, are held back, so that no entry of
+/// L grows beyond it, relative to the mean triangle's. Beyond about 1e13 rounding breaks the factorisation.
+constexpr double greatest_entry = 1e12;
+
+}  // namespace
+
+ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
+                                 std::vector<std::array<int, 3>> triangles, std::vector<double> triangle_weights,
+                                 Weights weights, std::size_t n_virtual)
+    : triangles_(std::move(triangles)),
+      triangle_weights_(std::move(triangle_weights)),
+      weights_(weights),
+      n_virtual_(n_virtual) {
+  shapes_.resize(triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    shapes_[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
+    if (t + n_virtual_ >= triangles_.size()) continue;
+    if (shapes_[t].clamped) ++clamped_triangles_;
+    area_ +=
+        triangle_weights_[t] *
+        (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes_[t].area());
+    weight_sum_ += triangle_weights_[t];
+  }
+  weigh();
+  assemble(static_cast<int>(positions.rows()));
+}
+
+ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
+    : triangles_(like.triangles_),
+      triangle_weights_(like.triangle_weights_),
+      shapes_(like.shapes_),
+      stretched_(like.stretched_),
+      weights_(weights),
+      n_virtual_(like.n_virtual_),
+      area_(like.area_),
+      weight_sum_(like.weight_sum_),
+      clamped_triangles_(like.clamped_triangles_) {
+  weigh();
+  assemble(like.n_vertices());
+}
+
+void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
+  if (stretched_.empty()) stretched_ = shapes_;
+  for (std::size_t t = 0; t < metric.size(); ++t) {
+    if (!shapes_[t].clamped) stretched_[t] = stretched(stretched_[t], metric[t]);
+  }
+  assemble(n_vertices());
+}
+
+int ConformalEnergy::lift(double least_height) {
+  if (stretched_.empty()) stretched_ = shapes_;
+  int lifted = 0;
+  for (TriangleShape& shape : stretched_) {
+    // A raised shape must not count again because of rounding.
+    if (!(shape.relative_height() < least_height * (1 - 1e-9))) continue;
+    shape = shape.clamped_to(least_height);
+    ++lifted;
+  }
+  if (lifted > 0) assemble(n_vertices());
+  return lifted;
+}
+
+void ConformalEnergy::weigh() {
+  weight_unit_ = weights_ == Weights::inverse_area && weight_sum_ > 0 ? area_ / weight_sum_ : 1;
+}
+
+double ConformalEnergy::weight(std::size_t triangle) const {
+  const double share = triangle_weights_[triangle];
+  if (weights_ == Weights::uniform) return share;
+  const TriangleShape& shape = shapes_[triangle];
+  return share / std::max(shape.area() / weight_unit_, 1 / (greatest_entry * shape.relative_height()));
+}
+
+void ConformalEnergy::assemble(int n_vertices) {
+  struct Entry {
+    int row;
+    Complex value;
+  };
+  std::vector<int> start(static_cast<std::size_t>(n_vertices) + 1, 0);
+  for (const auto& triangle : triangles_) {
+    // A polygon that passes a vertex twice may leave a triangle with a side from that vertex to itself.
+    for (int k = 0; k < 3; ++k) {
+      if (triangle[k] != triangle[(k + 1) % 3]) ++start[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
+    }
+  }
+  for (int v = 0; v < n_vertices; ++v) start[v + 1] += start[v];
+  std::vector<Entry> entries(static_cast<std::size_t>(start[n_vertices]));
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& triangle = triangles_[t];
+    const TriangleShape& s = energy_shapes()[t];
+    const double half_weight = 0.5 * weight(t);
+    const double double_area = s.x1 * s.y2;
+    // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
+    const std::array<double, 3> scaled_cotangents = s.scaled_cotangents();
+    for (int k = 0; k < 3; ++k) {
+      const int i = triangle[(k + 1) % 3];
+      const int j = triangle[(k + 2) % 3];
+      if (i == j) continue;
+      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);
+      diagonal[i] += dirichlet;
+      diagonal[j] += dirichlet;
+      // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2, L_ji its conjugate.
+      const Complex upper(-dirichlet, half_weight);
+      if (i > j) {
+        entries[fill[j]++] = {i, upper};
+      } else {
+        entries[fill[i]++] = {j, std::conj(upper)};
+      }
+    }
+  }
+  // Merge the two halves of every edge. The order of summation is that of the triangles: insertion sort is stable.
+  std::vector<int> column_size(static_cast<std::size_t>(n_vertices), 0);
+  std::vector<Entry> long_column;
+  for (int column = 0; column < n_vertices; ++column) {
+    Entry* const first = entries.data() + start[column];
+    const int size = start[column + 1] - start[column];
+    if (size <= 32) {
+      for (int k = 1; k < size; ++k) {
+        const Entry entry = first[k];
+        int position = k;
+        for (; position > 0 && first[position - 1].row > entry.row; --position) first[position] = first[position - 1];
+        first[position] = entry;
+      }
+    } else {
+      std::stable_sort(first, first + size, [](const Entry& a, const Entry& b) { return a.row < b.row; });
+    }
+    int merged = 0;
+    for (int k = 0; k < size; ++k) {
+      if (merged > 0 && first[merged - 1].row == first[k].row) {
+        first[merged - 1].value += first[k].value;
+      } else {
+        first[merged++] = first[k];
+      }
+    }
+    column_size[column] = merged;
+  }
+  matrix_.resize(n_vertices, n_vertices);
+  int* const outer = matrix_.outerIndexPtr();
+  outer[0] = 0;
+  for (int column = 0; column < n_vertices; ++column) outer[column + 1] = outer[column] + column_size[column] + 1;
+  matrix_.resizeNonZeros(outer[n_vertices]);
+  for (int column = 0; column < n_vertices; ++column) {
+    int position = outer[column];
+    matrix_.innerIndexPtr()[position] = column;
+    matrix_.valuePtr()[position++] = diagonal[column];
+    for (int k = 0; k < column_size[column]; ++k, ++position) {
+      const Entry& entry = entries[start[column] + k];
+      matrix_.innerIndexPtr()[position] = entry.row;
+      matrix_.valuePtr()[position] = entry.value;
+    }
+  }
+}
+
+double ConformalEnergy::value(const ComplexVector& z) const {
+  double sum = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    // z^H L z = 2 w E_C = 4 w |T| |f_zbar|^2 = w |4 |T| f_zbar|^2 / (4 |T|)
+    const TriangleShape& s = energy_shapes()[t];
+    sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
+  }
+  return sum;
+}
+
+double ConformalEnergy::area_form(const ComplexVector& z) const {
+  double sum = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
+  }
+  return sum;
+}
+
+double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) const {
+  result.setZero(z.size());
+  double sum = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    const TriangleShape& s = energy_shapes()[t];
+    const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
+    const double scale = weight(t) / (4 * s.area());
+    sum += scale * std::norm(part);
+    // The gradient of w |part|^2 / (4 |T|) towards the conjugates of z_b - z_a and z_c - z_a:
+    // part times the conjugates of -i (x2 + i y2) and i x1.
+    const Complex g = scale * part;
+    const Complex towards_b(g.real() * s.y2 - g.imag() * s.x2, g.real() * s.x2 + g.imag() * s.y2);
+    const Complex towards_c(g.imag() * s.x1, -g.real() * s.x1);
+    result[b] += towards_b;
+    result[c] += towards_c;
+    result[a] -= towards_b + towards_c;
+  }
+  return sum;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+
+#include "geometry/triangle_shape.h"
+#include "spectral_conformal/metric.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+enum class Weights {
+  uniform,      ///< every triangle counts with weight 1
+  inverse_area  ///< energy and area of a triangle are divided by its area in 3D (section 4.1)
+};
+
+/// The discrete conformal energy of a patch, E_C = E_D - A (section 2.2), with z = u + i v and one complex unknown per
+/// vertex: z^H L z / 2 = E_C(z). L is Hermitian positive semidefinite with L 1 = 0. For a triangle of weight w and each
+/// of its half-edges i->j with opposite angle t
+///   L_ii += w cot t / 2,  L_jj += w cot t / 2,  L_ij -= w cot t / 2,  L_ji -= w cot t / 2    (Dirichlet, Eq. 3)
+///   L_ij += i w / 2,      L_ji -= i w / 2                                                    (minus the area form)
+/// The inverse-area weights are relative to the mean area (w = mean / |T|), so that L keeps the same magnitude.
+/// A metric (section 4.3) makes it the quasi-conformal energy: the cotangents are those of the stretched triangles, the
+/// area form does not change.
+class ConformalEnergy {
+ public:
+  /// positions (V, 3) near unit scale; triangles counter-clockwise; triangle_weights per triangle. The last `n_virtual`
+  /// triangles (filled holes) are in the energy and in no measure of the surface.
+  /// Nearly degenerate triangles are clamped as local_isometric_frame does and counted in clamped_triangles().
+  ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
+                  std::vector<double> triangle_weights, Weights weights, std::size_t n_virtual = 0);
+  /// The same patch and metric with other weights.
+  ConformalEnergy(const ConformalEnergy& like, Weights weights);
+
+  /// Stretches the triangles by a metric per triangle, on top of the metric they have: its frame is that of
+  /// energy_shapes. Clamped triangles are left alone. Precondition: positive definite.
+  void stretch(const std::vector<TriangleMetric>& metric);
+
+  /// Raises thin triangles, in the energy only, to a relative_height of at least this. Returns how many.
+  int lift(double least_height);
+
+  const HermitianMatrix& matrix() const { return matrix_; }
+  int n_vertices() const { return static_cast<int>(matrix_.rows()); }
+  Weights weights() const { return weights_; }
+  int clamped_triangles() const { return clamped_triangles_; }
+  /// True area of the surface, weighted by the triangle weights, in squared units of the positions.
+  double area() const { return area_; }
+  /// The factor by which inverse-area weights were multiplied (the mean triangle area); 1 for uniform weights.
+  double weight_unit() const { return weight_unit_; }
+
+  /// z^H L z = 2 E_C, as a sum of one square per triangle: accurate relative to itself even where it nearly vanishes.
+  double value(const ComplexVector& z) const;
+  /// z^H A z = 2 A(z), twice the weighted signed area of the map.
+  double area_form(const ComplexVector& z) const;
+  /// L z, accumulated from the differences along the edges of each triangle, so that constants vanish exactly.
+  /// Returns value(z), which costs nothing beside it.
+  double apply(const ComplexVector& z, ComplexVector& result) const;
+
+  /// Virtual ones included, at the end.
+  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  std::size_t n_virtual() const { return n_virtual_; }
+  /// In 3D, without the metric.
+  const std::vector<TriangleShape>& shapes() const { return shapes_; }
+  /// Stretched by the metric, and lifted.
+  const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
+  const std::vector<double>& triangle_weights() const { return triangle_weights_; }
+
+ private:
+  void weigh();
+  double weight(std::size_t triangle) const;
+  void assemble(int n_vertices);
+
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<double> triangle_weights_;
+  std::vector<TriangleShape> shapes_;
+  std::vector<TriangleShape> stretched_;  ///< empty without a metric or lifted triangles
+  Weights weights_;
+  std::size_t n_virtual_;
+  double weight_unit_ = 1;
+  double area_ = 0;
+  double weight_sum_ = 0;  ///< sum of the triangle weights, without virtual triangles
+  int clamped_triangles_ = 0;
+  HermitianMatrix matrix_;
+};
+
+}  // namespace spectral_conformal

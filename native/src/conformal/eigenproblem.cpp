@@ -1,0 +1,266 @@
+#include "conformal/eigenproblem.h"
+
+#include <Spectra/SymEigsSolver.h>
+#include <Spectra/SymGEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "conformal/start_vector.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr int dense_limit = 24;
+
+/// The operator T of solve_eigenproblem on the vertices that carry mass.
+class ReducedOperator {
+ public:
+  using Scalar = double;  // for Spectra, which sees the real view
+
+  ReducedOperator(Factorization& factorization, const BoundaryForm& form, const Progress& progress)
+      : factorization_(factorization), form_(form), progress_(progress) {
+    root_mass_ = form.mass.cwiseSqrt().cast<Complex>();
+    constant_ = root_mass_ / root_mass_.norm();
+    factorization_.select(form.vertices);
+  }
+
+  Eigen::Index complex_size() const { return form_.mass.size(); }
+  Eigen::Index rows() const { return 2 * complex_size(); }
+  Eigen::Index cols() const { return rows(); }
+  int solves() const { return solves_; }
+
+  void project(Eigen::Ref<ComplexVector> y) const {
+    const Complex along = constant_.dot(y);
+    y -= along * constant_;
+  }
+
+  /// z = (L + s M)^-1 S M^1/2 y.
+  void extend(const ComplexVector& y, ComplexVector& z) const {
+    weighted_ = root_mass_.cwiseProduct(y);
+    factorization_.solve_from_selected(weighted_, z);
+    ++solves_;
+  }
+
+  /// T y.
+  void apply(const Eigen::Ref<const ComplexVector>& y, Eigen::Ref<ComplexVector> result) const {
+    report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
+    weighted_ = y;
+    project(weighted_);
+    weighted_ = root_mass_.cwiseProduct(weighted_).eval();
+    factorization_.solve_selected(weighted_, solved_);
+    ++solves_;
+    result = root_mass_.cwiseProduct(solved_);
+    project(result);
+  }
+
+  /// M^1/2 S^T z, projected.
+  void restrict_to_mass(const ComplexVector& z, Eigen::Ref<ComplexVector> y) const {
+    for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = root_mass_[i] * z[form_.vertices[i]];
+    project(y);
+  }
+
+  void perform_op(const double* x, double* y) const {
+    const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), complex_size());
+    Eigen::Map<ComplexVector> out(reinterpret_cast<Complex*>(y), complex_size());
+    apply(in, out);
+  }
+
+ private:
+  Factorization& factorization_;
+  const BoundaryForm& form_;
+  const Progress& progress_;
+  ComplexVector root_mass_;
+  ComplexVector constant_;
+  // Work space; Spectra takes the operator by const reference.
+  mutable ComplexVector weighted_;
+  mutable ComplexVector solved_;
+  mutable int solves_ = 0;
+};
+
+/// All of T, column by column.
+ComplexVector dense_eigenvector(const ReducedOperator& op) {
+  const Eigen::Index n = op.complex_size();
+  Eigen::MatrixXcd dense(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const ComplexVector unit = ComplexVector::Unit(n, j);
+    ComplexVector column(n);
+    op.apply(unit, column);
+    dense.col(j) = column;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (dense + dense.adjoint()));
+  return solver.eigenvectors().col(n - 1);
+}
+
+// The operators of Spectra's regular inverse mode, B z = mu (L + s M) z, on the real view.
+
+/// B = A.
+class AreaOperator {
+ public:
+  using Scalar = double;
+  explicit AreaOperator(const ConformalEnergy& energy) : energy_(energy), matrix_(energy.matrix()) {}
+  Eigen::Index rows() const { return 2 * matrix_.rows(); }
+  Eigen::Index cols() const { return rows(); }
+  /// A z, A being minus the imaginary part of L: A_ij = -i Im L_ij.
+  void apply(const ComplexVector& z, ComplexVector& result) const {
+    result.setZero(z.size());
+    for (int column = 0; column < matrix_.outerSize(); ++column) {
+      for (HermitianMatrix::InnerIterator it(matrix_, column); it; ++it) {
+        const Complex entry(0, -it.value().imag());
+        if (it.row() == column || entry == 0.0) continue;
+        result[it.row()] += entry * z[column];
+        result[column] += std::conj(entry) * z[it.row()];
+      }
+    }
+  }
+  double value(const ComplexVector& z) const { return energy_.area_form(z); }
+  void perform_op(const double* x, double* y) const {
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out;
+    apply(in, out);
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+  }
+
+ private:
+  const ConformalEnergy& energy_;
+  const HermitianMatrix& matrix_;
+};
+
+class ShiftedOperator {
+ public:
+  using Scalar = double;
+  ShiftedOperator(Factorization& factorization, const HermitianMatrix& matrix, const BoundaryForm& form, double shift,
+                  const Progress& progress)
+      : factorization_(factorization), matrix_(matrix), form_(form), shift_(shift), progress_(progress) {}
+  Eigen::Index rows() const { return 2 * matrix_.rows(); }
+  Eigen::Index cols() const { return rows(); }
+  int solves() const { return solves_; }
+  void solve(const double* x, double* y) const {
+    report(progress_, 1.0 - 1.0 / (1.0 + 0.05 * solves_), "eigenproblem");
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out;
+    factorization_.solve(in, out);
+    // The constant carries no area; the solve amplifies what rounding puts into it.
+    out.array() -= out.mean();
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+    ++solves_;
+  }
+  void perform_op(const double* x, double* y) const {
+    const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out = matrix_.selfadjointView<Eigen::Lower>() * in;
+    for (std::size_t i = 0; i < form_.vertices.size(); ++i) {
+      out[form_.vertices[i]] += shift_ * form_.mass[i] * in[form_.vertices[i]];
+    }
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+  }
+
+ private:
+  Factorization& factorization_;
+  const HermitianMatrix& matrix_;
+  const BoundaryForm& form_;
+  double shift_;
+  const Progress& progress_;
+  mutable int solves_ = 0;  // Spectra takes the operator by const reference
+};
+
+/// Runs Lanczos. Spectra throws std::runtime_error where its small projected matrix is not finite or does not converge.
+template <class Solver>
+bool converges(Solver& solver, const EigenproblemOptions& options) {
+  try {
+    solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  return solver.info() == Spectra::CompInfo::Successful;
+}
+
+}  // namespace
+
+Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
+                             const Progress& progress) {
+  ReducedOperator op(factorization, form, progress);
+  const Eigen::Index n = op.complex_size();
+  Eigenpair result;
+  ComplexVector y;
+  if (n <= dense_limit) {
+    y = dense_eigenvector(op);
+  } else {
+    ComplexVector start = start_vector(form, options.start);
+    op.project(start);
+    const int dimension = std::min<int>(options.krylov_dimension, static_cast<int>(2 * n));
+    Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, dimension);
+    solver.init(reinterpret_cast<const double*>(start.data()));
+    if (!converges(solver, options)) {
+      result.solves = op.solves();
+      return result;
+    }
+    const Eigen::VectorXd real = solver.eigenvectors(1);
+    y = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  }
+  // One more application gives the values at the other vertices, and with them the residual.
+  op.project(y);
+  y.normalize();
+  op.extend(y, result.vector);
+  ComplexVector image(n);
+  op.restrict_to_mass(result.vector, image);
+  result.mu = y.dot(image).real();
+  result.residual = (image - result.mu * y).norm() / result.mu;
+  result.vector /= result.mu;
+  result.solves = op.solves();
+  result.converged = result.mu > 0 && std::isfinite(result.residual);
+  return result;
+}
+
+Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
+                                  double shift, const EigenproblemOptions& options, const Progress& progress) {
+  const Eigen::Index n = energy.n_vertices();
+  AreaOperator area(energy);  // Spectra wants it mutable
+  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
+  const ComplexVector on_boundary = start_vector(form, options.start);
+  ComplexVector start = ComplexVector::Zero(n);
+  for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
+  Eigenpair result;
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
+  Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
+                                                                                                    dimension);
+  ComplexVector smooth(n);
+  shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
+  solver.init(reinterpret_cast<const double*>(smooth.data()));
+  const bool converged = converges(solver, options);
+  result.solves = shifted.solves();
+  if (!converged) return result;
+  const Eigen::VectorXd real = solver.eigenvectors(1);
+  result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
+  result.mu = solver.eigenvalues()[0];
+  // z' = z - (L + s M)^-1 (L z - lambda B z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
+  // with the residual. Negative eigenvalues larger than mu make it grow instead.
+  constexpr int max_corrections = 30;
+  constexpr double resolved = 1e-7;
+  ComplexVector residual;
+  ComplexVector form_part;
+  ComplexVector change;
+  result.residual = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < max_corrections; ++k) {
+    const double lambda = energy.apply(result.vector, residual) / area.value(result.vector);
+    area.apply(result.vector, form_part);
+    residual -= lambda * form_part;
+    factorization.solve(residual, change);
+    change.array() -= change.mean();
+    ++result.solves;
+    const double relative = change.norm() / result.vector.norm();
+    if (!(relative < result.residual)) break;
+    result.residual = relative;
+    result.vector -= change;
+    if (relative < 0.01 * options.tolerance) break;
+  }
+  result.converged = result.residual < resolved && result.vector.allFinite() && area.value(result.vector) > 0;
+  return result;
+}
+
+}  // namespace spectral_conformal

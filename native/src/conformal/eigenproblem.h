@@ -1,0 +1,44 @@
+#pragma once
+
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "linear_algebra/factorization.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+struct EigenproblemOptions {
+  double tolerance = 1e-8;  ///< bound of |T y - mu y| / (mu |y|) for the operator T described below
+  int max_restarts = 200;
+  int krylov_dimension = 6;  ///< measured best: most patches then need no restart
+  unsigned start = 0;        ///< 0: a circle along the boundary; otherwise the seed of a pseudo-random start
+};
+
+struct Eigenpair {
+  ComplexVector vector;  ///< (V,)
+  double mu = 0;         ///< largest eigenvalue of the switched problem
+  double residual = 0;   ///< |T y - mu y| / (mu |y|) of the returned pair
+  int solves = 0;        ///< solves with the factor
+  bool converged = false;
+};
+
+/// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z (Eq. 5), as the largest of
+///   B^ z = mu (L + s M) z,   mu = 1 / (lambda + s)          (Eq. 7, shifted by the form itself instead of epsilon I:
+/// the shift leaves the eigenvectors as they are). With Q = I - q q^T, q = M^1/2 1 / |M^1/2 1| it is reduced to the
+/// vertices that carry mass,
+///   T y = Q M^1/2 S^T (L + s M)^-1 S M^1/2 Q y = mu y,    z = (L + s M)^-1 S M^1/2 y,
+/// S being the embedding of those vertices, and solved by implicitly restarted Lanczos (Spectra) on the real view of
+/// the complex vectors: the start fixes one real dimension of every complex eigenline, so the double real eigenvalue is
+/// met once. Problems of at most 24 vertices are solved densely.
+/// `factorization` holds L + s M.
+Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
+                             const Progress& progress);
+
+/// The same for B = A, the area form of section 3.3, which is indefinite:
+///   A z = nu (L + s M) z, largest nu,
+/// by Lanczos in the inner product of L + s M on whole vectors, then inverse iterations that take the shift out.
+Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
+                                  double shift, const EigenproblemOptions& options, const Progress& progress);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,82 @@
+#include "conformal/extended_form.h"
+
+namespace spectral_conformal {
+namespace {
+
+Complex barycentre(const std::vector<int>& places, const ComplexVector& x) {
+  Complex sum = 0;
+  for (const int place : places) sum += x[place];
+  return sum / static_cast<double>(places.size());
+}
+
+void add_to_each(const std::vector<int>& places, Complex force, ComplexVector& result) {
+  for (const int place : places) result[place] += force / static_cast<double>(places.size());
+}
+
+}  // namespace
+
+ExtendedForm::ExtendedForm(const BoundaryForm& boundary) : total_(boundary.total()) { add_spread(boundary, 1); }
+
+std::vector<int> ExtendedForm::local(const std::vector<int>& vertices) {
+  std::vector<int> places;
+  places.reserve(vertices.size());
+  for (const int v : vertices) {
+    if (v >= static_cast<int>(place_.size())) place_.resize(static_cast<std::size_t>(v) + 1, -1);
+    if (place_[v] < 0) {
+      place_[v] = static_cast<int>(support_.size());
+      support_.push_back(v);
+    }
+    places.push_back(place_[v]);
+  }
+  return places;
+}
+
+void ExtendedForm::add_extender(const Extender& extender) {
+  differences_.push_back({local(extender.from), local(extender.to), extender.strength * total_});
+}
+
+void ExtendedForm::add_spread(const BoundaryForm& loop, double beta) {
+  spreads_.push_back({{local(loop.vertices), loop.mass}, beta});
+}
+
+void ExtendedForm::add_attraction(const PinAttraction& attraction) {
+  attractions_.push_back(attraction);
+  attractions_.back().vertices = local(attraction.vertices);
+}
+
+ComplexVector ExtendedForm::restrict(const ComplexVector& z) const {
+  ComplexVector x(static_cast<Eigen::Index>(support_.size()));
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = z[support_[static_cast<std::size_t>(i)]];
+  return x;
+}
+
+Complex ExtendedForm::Difference::value(const ComplexVector& x) const {
+  return barycentre(from, x) - barycentre(to, x);
+}
+
+void ExtendedForm::apply(const ComplexVector& x, ComplexVector& result) const {
+  result.setZero(x.size());
+  for (const Spread& spread : spreads_) spread.form.add_applied(x, spread.factor, result);
+  for (const Difference& difference : differences_) {
+    const Complex force = difference.factor * difference.value(x);
+    add_to_each(difference.from, force, result);
+    add_to_each(difference.to, -force, result);
+  }
+  for (const PinAttraction& attraction : attractions_) attraction.subtract(x, result);
+}
+
+double ExtendedForm::value(const ComplexVector& x) const {
+  double sum = 0;
+  for (const Spread& spread : spreads_) sum += spread.factor * spread.form.value(x);
+  for (const Difference& difference : differences_) sum += difference.factor * std::norm(difference.value(x));
+  for (const PinAttraction& attraction : attractions_) sum -= attraction.value(x);
+  return sum;
+}
+
+void ExtendedForm::add_applied(const ComplexVector& z, double factor, ComplexVector& result) const {
+  ComplexVector image;
+  apply(restrict(z), image);
+  for (Eigen::Index i = 0; i < image.size(); ++i) result[support_[static_cast<std::size_t>(i)]] += factor * image[i];
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include "conformal/boundary_form.h"
+#include "conformal/pin_attraction.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// A soft force of section 4.2 that pushes two vertices apart (strength > 0) or pulls them together (strength < 0).
+struct Extender {
+  std::vector<int> from;  ///< one vertex; or its copies along a seam, which count as their barycentre
+  std::vector<int> to;
+  double strength = 0;  ///< fraction of 1^T M 1: the same number means the same at any resolution and scale
+};
+
+/// The form B of Eq. 5 with the soft forces of section 4.2,
+///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,
+/// of which extenders with alpha < 0 and attracting pins make an indefinite one. It acts on a few vertices only, its
+/// support, and does not see a constant. B^_l is the spread of a boundary loop about its own barycentre: what remains
+/// of the paper's rigid hole when the fake vertex, which has no conformal energy of its own, is eliminated.
+class ExtendedForm {
+ public:
+  explicit ExtendedForm(const BoundaryForm& boundary);
+
+  /// Extenders that join a group with itself, or of strength 0, have no effect, but are part of the support.
+  void add_extender(const Extender& extender);
+  /// Adds beta times the spread of `loop` about its own barycentre.
+  void add_spread(const BoundaryForm& loop, double beta);
+  void add_attraction(const PinAttraction& attraction);
+
+  /// Distinct vertices, in the order of their first appearance: those of `boundary` come first.
+  const std::vector<int>& support() const { return support_; }
+  /// x on the support, from z (V,).
+  ComplexVector restrict(const ComplexVector& z) const;
+  /// B x, both on the support.
+  void apply(const ComplexVector& x, ComplexVector& result) const;
+  /// x^H B x, x on the support.
+  double value(const ComplexVector& x) const;
+  /// result += factor B z; both (V,).
+  void add_applied(const ComplexVector& z, double factor, ComplexVector& result) const;
+
+ private:
+  struct Spread {
+    BoundaryForm form;
+    double factor;
+  };
+  struct Difference {
+    std::vector<int> from;
+    std::vector<int> to;
+    double factor;
+    Complex value(const ComplexVector& x) const;
+  };
+  /// Their places in the support, to which vertices that are not in it yet are added.
+  std::vector<int> local(const std::vector<int>& vertices);
+
+  std::vector<int> support_;
+  std::vector<int> place_;  ///< of each vertex up to the largest so far, or -1
+  double total_;
+  // All in places of the support instead of vertices.
+  std::vector<Spread> spreads_;
+  std::vector<Difference> differences_;
+  std::vector<PinAttraction> attractions_;
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "conformal/conformal_energy.h"
+#include "linear_algebra/factorization.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+struct PinnedSolution {
+  ComplexVector vector;  ///< (V,), pinned entries exactly as given
+  double residual = 0;   ///< |L z| over the free vertices / (largest diagonal entry x extent of the map)
+};
+
+/// Pinned LSCM, which is DCP (section 2.2): minimises E_C with the pinned vertices held, L_ff z_f = -L_fp z_p, followed
+/// by iterative refinement. Precondition: at least two pins. Throws SolveFailure when the free part of L is singular.
+PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
+                          const Progress& progress);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "conformal/conformal_energy.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// Signed area of the map, weighted by the triangle weights, without the weights of section 4.1 and without virtual
+/// triangles.
+double signed_area(const ConformalEnergy& energy, const ComplexVector& z);
+
+/// Fixes what the conformal energy leaves free: the mean of the vertices goes to 0, the signed area becomes `area`, and
+/// the smallest rectangle around the outer loop gets horizontal and vertical sides, the longer one horizontal. Of the
+/// two ways that remain, the one in which v rises with the third coordinate of the positions (on a tie: u with the
+/// first). Orientation-preserving. Returns false when the signed area is not positive; z is then unchanged.
+bool place(ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,
+           const Eigen::Ref<const Positions>& positions, double area);
+
+}  // namespace spectral_conformal

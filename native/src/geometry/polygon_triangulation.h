@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// Triangles of one polygon, as corner numbers, and the weight with which each counts (quad_splits.h).
+struct PolygonTriangulation {
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<double> triangle_weights;
+  bool simple = true;  ///< false: the projected polygon crosses or touches itself, and a fan stands in
+};
+
+/// Triangulates a polygon by its geometry, whatever corner comes first.
+///  - Triangle: itself.
+///  - Quad: both diagonal splits at half weight when it is convex as seen along the cross product of its diagonals, so
+///    that a symmetric quad mesh has a symmetric energy (the four triangles of quad_splits); otherwise the one split
+///    that stays inside.
+///  - More corners: the constrained Delaunay triangulation of its projection along Newell's normal (CGAL).
+/// corners (n, 3), n >= 3, in order. Degenerate polygons get a fan around the corner nearest to their centroid.
+void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result);
+
+}  // namespace spectral_conformal

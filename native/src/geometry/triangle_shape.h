@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// A triangle in its local isometric frame: corners 0, x1 > 0 and x2 + i y2 with y2 > 0, counter-clockwise.
+struct TriangleShape {
+  double x1 = 1;
+  double x2 = 0;
+  double y2 = 1;
+  double area() const { return 0.5 * x1 * y2; }
+  /// Height over the longest side, relative to that side.
+  double relative_height() const;
+  /// The same shape, its relative height clamped from below.
+  TriangleShape clamped_to(double height) const;
+  /// Whether the shape was clamped, see local_isometric_frame.
+  bool clamped = false;
+
+  /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2:
+  /// i (d1 (x2 - i y2) - d2 x1). Written out, because complex multiplication by the standard checks for infinities.
+  Complex holomorphic_part(Complex d1, Complex d2) const {
+    return {d1.real() * y2 - d1.imag() * x2 + d2.imag() * x1, d1.real() * x2 + d1.imag() * y2 - d2.real() * x1};
+  }
+  /// 4 |T| times the derivative f_zbar of the same map: -i (d1 (x2 + i y2) - d2 x1). Its conformal energy is
+  /// E_C = 2 |T| |f_zbar|^2.
+  Complex antiholomorphic_part(Complex d1, Complex d2) const {
+    return {d1.real() * y2 + d1.imag() * x2 - d2.imag() * x1, d1.imag() * y2 - d1.real() * x2 + d2.real() * x1};
+  }
+
+  /// Cotangents of the angles at the corners, times 2 |T|: the dot products of the two sides at each corner.
+  std::array<double, 3> scaled_cotangents() const { return {x1 * x2, x1 * (x1 - x2), x2 * (x2 - x1) + y2 * y2}; }
+
+  /// Quasi-conformal distortion of the same map: larger over smaller singular value, (|f_z| + |f_zbar|) over
+  /// ||f_z| - |f_zbar||; infinite where the image has no area.
+  double quasi_conformal_distortion(Complex d1, Complex d2) const;
+
+  /// The relative height below which a triangle counts as degenerate: cotangents reach its inverse, and 1e10 leaves six
+  /// of the sixteen digits of a sum that has terms of order 1.
+  static constexpr double min_height = 1e-10;
+};
+
+/// The local isometric frame of a triangle in space. A triangle with a relative height below min_height gets that
+/// height, so that its cotangents stay finite; one without extent becomes equilateral, of side 1. Either is marked
+/// clamped.
+TriangleShape local_isometric_frame(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
+
+/// Area of a triangle in 3D.
+double triangle_area(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
+
+}  // namespace spectral_conformal

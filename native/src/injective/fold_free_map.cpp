@@ -1,0 +1,194 @@
+#include "injective/fold_free_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include "geometry/quad_splits.h"
+#include "injective/descent.h"
+#include "injective/local_unfolding.h"
+#include "injective/tutte_embedding.h"
+#include "quality/turning_number.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+class FoldFree {
+ public:
+  FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {
+    const ConformalEnergy& energy = patch.energy;
+    const std::size_t n = energy.triangles().size() - energy.n_virtual();
+    const auto end = static_cast<std::ptrdiff_t>(n);
+    triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
+    const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
+    const std::vector<double> triangle_weights(energy.triangle_weights().begin(),
+                                               energy.triangle_weights().begin() + end);
+    elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
+    choose_splits(energy.triangle_weights());
+  }
+
+  FoldFreeMap run(ComplexVector given) {
+    FoldFreeMap result;
+    result.z = std::move(given);
+    if (result.z.size() > 0) {
+      result.folded_before = result.folded = count_flipped(elements_, result.z, unplaced);
+      if (result.folded > 0) {
+        const Progress first = part(progress_, 0, 0.3);
+        result.folded = unfold_locally(elements_, patch_.held, patch_.backend, result.z, first);
+      }
+      result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
+      if (result.is_locally_injective || !patch_.held.empty()) return result;
+    }
+    FoldFreeMap embedded = embed();
+    embedded.folded_before = result.folded_before;
+    if (result.z.size() > 0 && !embedded.is_locally_injective) return result;
+    return embedded;
+  }
+
+ private:
+  static std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+  /// Of a quad's two splits only one can be required to have no fold: the first, unless its diagonal is an edge
+  /// already, which no straight lines can draw twice. Chosen before there is a map; mapped_triangulation then finds a
+  /// split without a fold.
+  void choose_splits(const std::vector<double>& triangle_weights) {
+    const auto n = static_cast<std::ptrdiff_t>(triangles_.size());
+    if (std::all_of(triangle_weights.begin(), triangle_weights.begin() + n,
+                    [](double share) { return share == 1.0; })) {
+      single_ = triangles_;
+      return;
+    }
+    std::set<std::pair<int, int>> edges;
+    const auto is_first_of_quad = [&](std::size_t t) { return begins_quad(triangle_weights[t]); };
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      edges.insert({edge(a, b), edge(b, c)});
+      if (!is_first_of_quad(t)) {
+        edges.insert(edge(c, a));
+        continue;
+      }
+      // The four triangles in a row: quad_splits.
+      const int d = triangles_[t + 1][2];
+      edges.insert({edge(c, d), edge(d, a)});
+      t += 3;
+    }
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!is_first_of_quad(t)) {
+        single_.push_back(triangles_[t]);
+        continue;
+      }
+      const auto first_diagonal = edge(triangles_[t][0], triangles_[t][2]);
+      const auto second_diagonal = edge(triangles_[t][1], triangles_[t + 1][2]);
+      const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;
+      const std::size_t chosen = second ? t + 2 : t;
+      edges.insert(second ? second_diagonal : first_diagonal);
+      single_.insert(single_.end(), {triangles_[chosen], triangles_[chosen + 1]});
+      const std::size_t other = second ? t : t + 2;
+      elements_[other].measured = elements_[other + 1].measured = false;
+      t += 3;
+    }
+  }
+
+  /// Whether the triangles go round every inner vertex once, and the outer loop round the map.
+  bool goes_round_once(const ComplexVector& z) const {
+    const std::vector<double> whole(single_.size(), 1.0);
+    if (std::abs(turning_number(patch_.loops.front(), single_, whole, z)) != 1) return false;
+    std::vector<double> angle(static_cast<std::size_t>(z.size()), 0);
+    for (const auto& triangle : single_) {
+      for (int k = 0; k < 3; ++k) {
+        const Complex next = z[triangle[(k + 1) % 3]] - z[triangle[k]];
+        const Complex previous = z[triangle[(k + 2) % 3]] - z[triangle[k]];
+        angle[triangle[k]] += std::arg(std::conj(next) * previous);
+      }
+    }
+    for (const BoundaryLoop& loop : patch_.loops) {
+      for (const int v : loop) angle[v] = 0;
+    }
+    return std::none_of(angle.begin(), angle.end(), [](double sum) { return sum > 3 * pi; });
+  }
+
+  FoldFreeMap embed() {
+    FoldFreeMap result;
+    result.is_embedding = true;
+    result.z = tutte_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress_, 0.3, 0.5));
+    const std::vector<DistortionElement> clamped = clamped_elements();
+    if (count_flipped(clamped, result.z, unplaced) > 0) {
+      unfold_locally(clamped, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
+    }
+    relax(clamped, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
+    result.relaxation = relax(clamped, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
+    result.folded = count_flipped(elements_, result.z, unplaced);
+    result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
+    return result;
+  }
+
+  /// The elements with a barrier each. Degenerate triangles otherwise keep their vertices together and have no
+  /// orientation; here their height and size are clamped so that they have one: the embedding must not flip anywhere.
+  std::vector<DistortionElement> clamped_elements() const {
+    // Relative to the longest side, and to the side of a mean triangle: thin enough not to show, QC of the order 1e3.
+    constexpr double min_height = 1e-3;
+    std::vector<DistortionElement> clamped = elements_;
+    double area = 0;
+    for (const DistortionElement& element : elements_) {
+      if (element.barrier()) area += element.shape.area();
+    }
+    const double min_side = min_height * std::sqrt(area / static_cast<double>(elements_.size()));
+    for (DistortionElement& element : clamped) {
+      TriangleShape& shape = element.shape;
+      if (element.barrier()) {
+        // A metric may have made it thinner than its image can be in double precision.
+        constexpr double min_height_of_image = 1e-9;
+        shape = shape.clamped_to(min_height_of_image);
+        continue;
+      }
+      element.regularization = 0;
+      element.measured = true;
+      const double height = shape.relative_height();
+      shape = shape.clamped_to(min_height);
+      const double side = std::sqrt(shape.area());
+      // Without extent, local_isometric_frame made it equilateral, of side 1.
+      const bool is_point = shape.clamped && height > 0.5;
+      const double scale = is_point || side < min_side ? min_side / side : 1;
+      shape.x1 *= scale;
+      shape.x2 *= scale;
+      shape.y2 *= scale;
+      element.weight = shape.area() / area;
+    }
+    return clamped;
+  }
+
+  /// Lowers the distortion without a new fold. None where that failed and z stays as it was.
+  std::optional<Descent> relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
+                               const Progress& progress, ComplexVector& z) const {
+    // Three times the default of a descent: an embedding begins far from its minimum.
+    constexpr int max_factorizations = 60;
+    const int flipped = count_flipped(elements, z, unplaced);
+    const double factor = mean_scale_factor(elements, z);
+    if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
+    ComplexVector relaxed = factor * z;
+    const Descent descent =
+        descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
+    if (!relaxed.allFinite() || count_flipped(elements, relaxed, unplaced) > flipped) return std::nullopt;
+    z = std::move(relaxed);
+    return descent;
+  }
+
+  const FoldFreePatch& patch_;
+  const Progress& progress_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<std::array<int, 3>> single_;   ///< of a quad one split only
+  std::vector<DistortionElement> elements_;  ///< of triangles_
+};
+
+}  // namespace
+
+FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress) {
+  return FoldFree(patch, progress).run(std::move(z));
+}
+
+}  // namespace spectral_conformal

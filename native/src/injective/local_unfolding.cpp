@@ -1,0 +1,233 @@
+#include "injective/local_unfolding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "injective/descent.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The elements at each vertex.
+class Star {
+ public:
+  Star(const std::vector<DistortionElement>& elements, Eigen::Index n) : start_(static_cast<std::size_t>(n) + 1, 0) {
+    for (const DistortionElement& element : elements) {
+      for (const int v : element.corners) ++start_[static_cast<std::size_t>(v) + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    elements_.resize(static_cast<std::size_t>(start_.back()));
+    std::vector<int> next(start_.begin(), start_.end() - 1);
+    for (std::size_t t = 0; t < elements.size(); ++t) {
+      for (const int v : elements[t].corners) elements_[next[v]++] = static_cast<int>(t);
+    }
+  }
+  const int* begin(int v) const { return elements_.data() + start_[v]; }
+  const int* end(int v) const { return elements_.data() + start_[static_cast<std::size_t>(v) + 1]; }
+
+ private:
+  std::vector<int> start_;
+  std::vector<int> elements_;
+};
+
+/// The vertices that are free to move, and all elements that have one of them.
+struct Region {
+  std::vector<int> free;
+  std::vector<int> elements;
+};
+
+class Unfolding {
+ public:
+  Unfolding(const std::vector<DistortionElement>& elements, const std::vector<char>& held, FactorizationBackend backend,
+            ComplexVector& z, const Progress& progress)
+      : elements_(elements),
+        held_(held),
+        backend_(backend),
+        z_(z),
+        progress_(progress),
+        star_(elements, z.size()),
+        log_scale_(vertex_log_scale()) {}
+
+  int run() {
+    constexpr int max_rings = 64;  // seven doublings; beyond, the whole map is free on all but large charts
+    for (int rings = 1; rings <= max_rings; rings *= 2) {
+      done_ = std::log2(rings) / 7;
+      report(progress_, done_, "unfold");
+      const std::vector<Region> regions = regions_around_flips(rings);
+      if (regions.empty()) break;  // nothing is flipped, or nothing of it may move
+      for (const Region& region : regions) unfold(region);
+    }
+    return count_flipped(elements_, z_, unplaced);
+  }
+
+ private:
+  bool is_held(int vertex) const { return !held_.empty() && held_[vertex]; }
+
+  /// The mean of the logarithms of the scale of the unfolded elements around each vertex, passed on to the vertices
+  /// that have none.
+  std::vector<double> vertex_log_scale() const {
+    std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
+    std::vector<double> weight(sum.size(), 0);
+    for (const DistortionElement& element : elements_) {
+      if (!element.measured || is_flipped(element, z_, unplaced)) continue;
+      const double logarithm = 0.5 * std::log(jacobian(element, z_).determinant);
+      for (const int v : element.corners) {
+        sum[v] += logarithm;
+        weight[v] += 1;
+      }
+    }
+    constexpr int max_passes = 100;  // each reaches one ring further
+    for (int pass = 0; pass < max_passes; ++pass) {
+      std::vector<int> without;
+      std::vector<double> value;
+      for (const DistortionElement& element : elements_) {
+        for (int k = 0; k < 3; ++k) {
+          const int v = element.corners[k];
+          if (weight[v] > 0) continue;
+          for (const int other : {element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]}) {
+            if (!(weight[other] > 0)) continue;
+            without.push_back(v);
+            value.push_back(sum[other] / weight[other]);
+          }
+        }
+      }
+      if (without.empty()) break;
+      for (std::size_t i = 0; i < without.size(); ++i) {
+        sum[without[i]] += value[i];
+        weight[without[i]] += 1;
+      }
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : 0;
+    return sum;
+  }
+
+  /// The vertices within `rings` edges of a flipped element, by connected components.
+  std::vector<Region> regions_around_flips(int rings) const {
+    std::vector<char> near(static_cast<std::size_t>(z_.size()), 0);
+    std::vector<int> reached;
+    const auto reach = [&](int v) {
+      if (near[v]) return;
+      near[v] = 1;
+      reached.push_back(v);
+    };
+    for (const DistortionElement& element : elements_) {
+      if (!is_flipped(element, z_, unplaced)) continue;
+      for (const int v : element.corners) reach(v);
+    }
+    std::size_t ring_begin = 0;
+    for (int ring = 1; ring < rings; ++ring) {
+      const std::size_t ring_end = reached.size();
+      for (; ring_begin < ring_end; ++ring_begin) {
+        for (const int* t = star_.begin(reached[ring_begin]); t != star_.end(reached[ring_begin]); ++t) {
+          for (const int v : elements_[*t].corners) reach(v);
+        }
+      }
+    }
+    return connected_components(near, reached);
+  }
+
+  std::vector<Region> connected_components(std::vector<char>& near, const std::vector<int>& reached) const {
+    std::vector<Region> regions;
+    std::vector<char> taken(elements_.size(), 0);
+    for (const int seed : reached) {
+      if (!near[seed]) continue;
+      Region region;
+      std::vector<int> open{seed};
+      near[seed] = 0;
+      while (!open.empty()) {
+        const int v = open.back();
+        open.pop_back();
+        if (!is_held(v)) region.free.push_back(v);
+        for (const int* t = star_.begin(v); t != star_.end(v); ++t) {
+          if (!taken[*t]) region.elements.push_back(*t);
+          taken[*t] = 1;
+          for (const int other : elements_[*t].corners) {
+            if (!near[other]) continue;
+            near[other] = 0;
+            open.push_back(other);
+          }
+        }
+      }
+      std::sort(region.elements.begin(), region.elements.end());
+      if (!region.free.empty()) regions.push_back(std::move(region));
+    }
+    return regions;
+  }
+
+  void unfold(const Region& region) {
+    // A problem of its own, with its own indices of vertices.
+    std::vector<int> vertices;
+    for (const int t : region.elements)
+      vertices.insert(vertices.end(), elements_[t].corners.begin(), elements_[t].corners.end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const auto index = [&](int v) {
+      return static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
+    };
+    std::vector<char> fixed(vertices.size(), 1);
+    for (const int v : region.free) fixed[index(v)] = 0;
+    if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) fixed.clear();
+    std::vector<DistortionElement> local;
+    double log_scale = 0;
+    for (const int v : region.free) log_scale += log_scale_[v] / static_cast<double>(region.free.size());
+    for (const int t : region.elements) {
+      DistortionElement element = elements_[t];
+      const auto& [a, b, c] = element.corners;
+      // Its side in the map where angles are kept, in the unit of the region's mean scale.
+      const double scale = std::exp((log_scale_[a] + log_scale_[b] + log_scale_[c]) / 3 - log_scale);
+      element.shape.x1 *= scale;
+      element.shape.x2 *= scale;
+      element.shape.y2 *= scale;
+      element.weight = 1 / static_cast<double>(region.elements.size());
+      element.corners = {index(a), index(b), index(c)};
+      local.push_back(element);
+    }
+    ComplexVector z(static_cast<Eigen::Index>(vertices.size()));
+    const Complex origin = z_[vertices.front()];
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      z[static_cast<Eigen::Index>(i)] = (z_[vertices[i]] - origin) * std::exp(-log_scale);
+    }
+    if (!descend_to_unfold(local, fixed, z)) return;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (fixed.empty() || !fixed[i]) z_[vertices[i]] = origin + std::exp(log_scale) * z[static_cast<Eigen::Index>(i)];
+    }
+  }
+
+  /// Whether fewer elements are flipped than before.
+  bool descend_to_unfold(std::vector<DistortionElement>& local, const std::vector<char>& fixed,
+                         ComplexVector& z) const {
+    const int before = count_flipped(local, z, unplaced);
+    const Progress still_there = [this](double, const char* phase) { return !progress_ || progress_(done_, phase); };
+    descend(local, fixed, z, backend_, {DistortionMeasure::symmetric_dirichlet, 1e-2, 30}, still_there);
+    if (!z.allFinite()) return false;
+    const int after = count_flipped(local, z, unplaced);
+    if (after > 0) return after < before;
+    // Some elements have too little area for the descent to have raised their barrier, but are not flipped.
+    for (DistortionElement& element : local) {
+      if (element.without_area()) element.regularization = 0;
+    }
+    ComplexVector relaxed = z;
+    descend(local, fixed, relaxed, backend_, {DistortionMeasure::conformal, 1e-3, 20}, still_there);
+    if (relaxed.allFinite() && count_flipped(local, relaxed, unplaced) == 0) z = std::move(relaxed);
+    return true;
+  }
+
+  const std::vector<DistortionElement>& elements_;
+  const std::vector<char>& held_;
+  FactorizationBackend backend_;
+  ComplexVector& z_;
+  const Progress& progress_;
+  Star star_;
+  double done_ = 0;
+  std::vector<double> log_scale_;
+};
+
+}  // namespace
+
+int unfold_locally(const std::vector<DistortionElement>& elements, const std::vector<char>& held,
+                   FactorizationBackend backend, ComplexVector& z, const Progress& progress) {
+  return Unfolding(elements, held, backend, z, progress).run();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,33 @@
+#include "linear_algebra/factorization.h"
+
+#include <limits>
+
+#include "linear_algebra/cholmod_factorization.h"
+#include "linear_algebra/eigen_factorization.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+
+void check_factor_size(double nonzeros) {
+  // Both libraries number the entries of a factor with ints here.
+  constexpr int limit = std::numeric_limits<int>::max();
+  if (nonzeros <= limit) return;
+  throw SolveFailure("The patch is too large: its factor would have more than " + std::to_string(limit) + " entries",
+                     "cut it into smaller islands with seams.");
+}
+
+std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n) {
+  // Setting CHOLMOD up takes longer than Eigen takes for a smaller matrix.
+  constexpr Eigen::Index cholmod_from = 300;
+  const bool is_better = has_cholmod() && n >= cholmod_from;
+  if (backend == FactorizationBackend::cholmod || (backend == FactorizationBackend::automatic && is_better)) {
+    return make_cholmod_factorization();
+  }
+  return make_eigen_factorization();
+}
+
+std::string factorization_library() {
+  return has_cholmod() ? "CHOLMOD " + cholmod_version_name() : "Eigen " + eigen_version();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+enum class FactorizationBackend {
+  automatic,  ///< CHOLMOD where the module was built with it and the matrix is not tiny, otherwise Eigen
+  cholmod,    ///< SuiteSparse CHOLMOD, supernodal L L^H
+  eigen       ///< Eigen's SimplicialLDLT
+};
+
+/// The factorisation of one Hermitian positive definite matrix and the solves with it. Owns all its memory: different
+/// objects can be used in different threads at once, one object by one thread at a time (solves share its workspace).
+/// Results do not depend on the number of BLAS threads that the process has set (blas_threads.h).
+class Factorization {
+ public:
+  virtual ~Factorization() = default;
+
+  /// Chooses the fill-reducing order and the structure of the factor. Throws std::bad_alloc, and SolveFailure when the
+  /// factor is too large for the index type.
+  virtual void analyze(const HermitianMatrix& matrix) = 0;
+  /// Factorises a matrix of the analysed structure. Returns false when it is not positive definite in double precision.
+  virtual bool factorize(const HermitianMatrix& matrix) = 0;
+  /// Solves with the last factor: x = A^-1 b. b and x may be the same vector.
+  virtual void solve(const ComplexVector& b, ComplexVector& x) = 0;
+  /// Chooses the vertices of the two solves below: distinct, of the analysed matrix.
+  virtual void select(std::vector<int> vertices) = 0;
+  /// x = S^T A^-1 S b for the selected vertices, S embedding them: both (n selected,). Passes only through the part of
+  /// the factor that they reach.
+  virtual void solve_selected(const ComplexVector& b, ComplexVector& x) = 0;
+  /// x = A^-1 S b, (n,), from b on the selected vertices.
+  virtual void solve_from_selected(const ComplexVector& b, ComplexVector& x) = 0;
+  /// Entries of the factor, as stored: supernodes hold some zeros.
+  virtual double factor_nonzeros() const = 0;
+};
+
+/// Throws SolveFailure when a factor of this many nonzeros is too large for the index type, an int.
+void check_factor_size(double nonzeros);
+
+/// For matrices of n rows. Throws std::invalid_argument for CHOLMOD when the module was built without it.
+std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n);
+
+/// The library behind `automatic` and its version, such as "CHOLMOD 3.0.14".
+std::string factorization_library();
+
+}  // namespace spectral_conformal

@@ -1,0 +1,80 @@
+#include "mesh/boundary_loops.h"
+
+#include <algorithm>
+#include <array>
+
+#include "graph/adjacency.h"
+#include "graph/shortest_paths.h"
+
+namespace spectral_conformal {
+
+double loop_length(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions) {
+  double length = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    length += (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
+  }
+  return length;
+}
+
+int outer_loop(const std::vector<BoundaryLoop>& loops, const Eigen::Ref<const Positions>& positions) {
+  int longest = 0;
+  double longest_length = -1;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const double length = loop_length(loops[i], positions);
+    if (length > longest_length) {
+      longest = static_cast<int>(i);
+      longest_length = length;
+    }
+  }
+  return longest;
+}
+
+namespace {
+
+/// The graph of the matrix's pattern; its arcs have no numbers.
+Adjacency graph_of(const HermitianMatrix& matrix) {
+  return Adjacency::from_arcs(static_cast<int>(matrix.cols()), [&](auto&& visit) {
+    for (int column = 0; column < matrix.outerSize(); ++column) {
+      for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
+        if (it.row() == column) continue;
+        visit(column, -1, static_cast<int>(it.row()));
+        visit(static_cast<int>(it.row()), -1, column);
+      }
+    }
+  });
+}
+
+std::vector<double> distances_from(int source, const Adjacency& graph, const Eigen::Ref<const Positions>& positions) {
+  ShortestPathSearch search(graph.n_nodes());
+  search.offer(source, 0);
+  for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
+    for (const auto& arc : graph.arcs(vertex)) {
+      search.offer(arc.to, search.distance(vertex) + (positions.row(arc.to) - positions.row(vertex)).norm());
+    }
+  }
+  return search.distances();
+}
+
+}  // namespace
+
+std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
+                                              const HermitianMatrix& neighbours) {
+  const Adjacency graph = graph_of(neighbours);
+  std::array<int, 2> pair{loop.front(), loop.front()};
+  double farthest = -1;
+  constexpr int max_sweeps = 6;     // two are exact on a tree; further ones only lengthen the path
+  constexpr double growth = 1e-12;  // above the rounding of a sum of edge lengths, some 1e-13
+  int source = loop.front();
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    const std::vector<double> distance = distances_from(source, graph, positions);
+    const int target =
+        *std::max_element(loop.begin(), loop.end(), [&](int a, int b) { return distance[a] < distance[b]; });
+    if (distance[target] <= farthest * (1 + growth)) break;
+    farthest = distance[target];
+    pair = {source, target};
+    source = target;
+  }
+  return pair;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,78 @@
+#include "mesh/chart_checks.h"
+
+#include <utility>
+
+#include "geometry/triangle_shape.h"
+#include "mesh/boundary_loops.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+namespace {
+
+std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
+
+}  // namespace
+
+std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    if (!positions.row(v).allFinite()) {
+      return "Vertex " + std::to_string(chart.vertices[v]) +
+             " has a coordinate that is not finite; give it a valid position or delete it.";
+    }
+  }
+  if (!chart.orientable) return "The island is non-orientable, like a Moebius strip; cut it with a seam.";
+  if (chart.boundary_loops.empty()) {
+    return "The island is closed" + (chart.genus() > 0 ? ", with " + handles(chart.genus()) : std::string()) +
+           ": it has no boundary to unfold from; mark seams that cut it open.";
+  }
+  if (chart.genus() > 0) {
+    return "The island has " + handles(chart.genus()) +
+           " and cannot lie flat without overlap; mark seams that cut the handles open.";
+  }
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = positions.colwise().maxCoeff();
+  const double extent = (high - low).maxCoeff();
+  // Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal
+  // numbers too.
+  if (!(extent > 1e-100 && extent < 1e100)) {
+    return "The island has no extent that double precision can hold: all of its vertices coincide or lie too far "
+           "apart; "
+           "delete or rescale it.";
+  }
+  if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
+    return "The island's boundary has two vertices only, between which no map can open; mark more seams.";
+  }
+  double area = 0;
+  for (const auto& [a, b, c] : chart.triangles) {
+    const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
+    area += triangle_area(corner(a), corner(b), corner(c));
+  }
+  // Rounding alone gives collinear points an area of this size relative to the extent.
+  constexpr double min_area = 1e-14;
+  if (!(area > min_area)) return "The island has no area: its vertices lie on one line; delete it or move them apart.";
+  return "";
+}
+
+Chart single_chart(const PolygonMesh& mesh) {
+  ChartDecomposition decomposition = build_charts(mesh);
+  if (!decomposition.degenerate_faces.empty()) {
+    throw InvalidMesh("Face " + std::to_string(decomposition.degenerate_faces.front()) +
+                      " has fewer than three different vertices; remove it.");
+  }
+  if (decomposition.charts.empty()) throw InvalidMesh("The mesh has no faces; there is nothing to parameterise.");
+  if (decomposition.non_manifold_edges > 0) {
+    throw InvalidMesh("Edges with three or more faces: " + std::to_string(decomposition.non_manifold_edges) +
+                      "; split the mesh there, or use unwrap, which does.");
+  }
+  if (decomposition.charts.size() > 1) {
+    throw InvalidMesh("The mesh has " + std::to_string(decomposition.charts.size()) +
+                      " components that no edge connects; give one at a time, or use unwrap, which takes them all.");
+  }
+  if (decomposition.split_vertices > 0) {
+    throw InvalidMesh("Vertices where parts of the boundary touch (bow ties): " +
+                      std::to_string(decomposition.split_vertices) + "; split them, or use unwrap, which does.");
+  }
+  return std::move(decomposition.charts.front());
+}
+
+}  // namespace spectral_conformal

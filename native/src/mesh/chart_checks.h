@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "mesh/charts.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// Why a chart cannot be parameterised (closed, non-orientable, handles, a boundary of two vertices, non-finite
+/// coordinate, no area), naming the condition and what to do, or "" when it can. Holes are allowed. positions (V, 3) of
+/// its vertices.
+std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions);
+
+/// The chart of a mesh that has to be connected and manifold. Throws InvalidMesh that says what it is instead: no
+/// faces, degenerate faces, several components, edges with three or more faces, bow-tie vertices. Vertices that no face
+/// uses are allowed; they are not in the chart.
+Chart single_chart(const PolygonMesh& mesh);
+
+}  // namespace spectral_conformal

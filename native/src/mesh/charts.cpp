@@ -1,0 +1,234 @@
+#include "mesh/charts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "geometry/polygon_triangulation.h"
+#include "graph/disjoint_sets.h"
+#include "mesh/half_edges.h"
+
+namespace spectral_conformal {
+namespace {
+
+struct Components {
+  std::vector<int> chart_of_face;
+  std::vector<char> reversed;    ///< per face: wound against its chart's majority
+  std::vector<char> orientable;  ///< per chart
+  std::vector<std::vector<int>> faces;
+};
+
+/// Connected components over twins, with a consistent orientation where there is one.
+Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
+  Components result;
+  result.chart_of_face.assign(static_cast<std::size_t>(mesh.n_faces), -1);
+  result.reversed.assign(static_cast<std::size_t>(mesh.n_faces), 0);
+  std::vector<int> queue;
+  for (int seed = 0; seed < mesh.n_faces; ++seed) {
+    if (!half_edges.is_used(seed) || result.chart_of_face[seed] >= 0) continue;
+    const int chart = static_cast<int>(result.faces.size());
+    bool orientable = true;
+    queue.assign(1, seed);
+    result.chart_of_face[seed] = chart;
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const int face = queue[head];
+      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+        if (half_edges.twin(c) < 0) continue;
+        const int other = half_edges.face(half_edges.twin(c));
+        const char reversed =
+            half_edges.is_opposed(c) ? result.reversed[face] : static_cast<char>(1 - result.reversed[face]);
+        if (result.chart_of_face[other] < 0) {
+          result.chart_of_face[other] = chart;
+          result.reversed[other] = reversed;
+          queue.push_back(other);
+        } else if (result.reversed[other] != reversed) {
+          orientable = false;
+        }
+      }
+    }
+    const auto against = std::count_if(queue.begin(), queue.end(), [&](int face) { return result.reversed[face]; });
+    if (2 * against > static_cast<std::ptrdiff_t>(queue.size())) {
+      for (const int face : queue) result.reversed[face] = static_cast<char>(1 - result.reversed[face]);
+    }
+    result.faces.emplace_back();
+    result.faces.back().reserve(queue.size());
+    result.orientable.push_back(orientable ? 1 : 0);
+  }
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (result.chart_of_face[face] >= 0) result.faces[result.chart_of_face[face]].push_back(face);
+  }
+  return result;
+}
+
+/// Chains the boundary half-edges, each of which starts at a vertex of its own. `next_vertex` maps a chart vertex to
+/// the next one along the boundary, or -1.
+std::vector<BoundaryLoop> chain_loops(std::vector<int>& next_vertex) {
+  std::vector<BoundaryLoop> loops;
+  for (std::size_t seed = 0; seed < next_vertex.size(); ++seed) {
+    if (next_vertex[seed] < 0) continue;
+    BoundaryLoop loop;
+    int vertex = static_cast<int>(seed);
+    while (vertex >= 0 && next_vertex[vertex] >= 0) {
+      loop.push_back(vertex);
+      vertex = std::exchange(next_vertex[vertex], -1);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+class ChartBuilder {
+ public:
+  ChartBuilder(const PolygonMesh& mesh, const HalfEdges& half_edges, const std::vector<char>& reversed,
+               const std::vector<int>& vertex_of_corner)
+      : mesh_(mesh), half_edges_(half_edges), reversed_(reversed), vertex_of_corner_(vertex_of_corner) {}
+
+  /// Fills in triangles, loops and the Euler characteristic of a chart that has its faces and vertices.
+  void complete(Chart& chart) {
+    chart.triangles.reserve(2 * chart.faces.size());
+    next_vertex_.assign(chart.vertices.size(), -1);
+    long long n_half_edges = 0;
+    long long n_boundary = 0;
+    for (std::size_t i = 0; i < chart.faces.size(); ++i) {
+      const int face = chart.faces[i];
+      const bool reversed = reversed_[face] != 0;
+      chart.reversed_faces += reversed ? 1 : 0;
+      for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
+        ++n_half_edges;
+        if (half_edges_.twin(c) >= 0) continue;
+        ++n_boundary;
+        const int a = vertex_of_corner_[c];
+        const int b = vertex_of_corner_[half_edges_.next(c)];
+        next_vertex_[reversed ? b : a] = reversed ? a : b;
+      }
+      triangulate(face, static_cast<int>(i), reversed, chart);
+    }
+    chart.boundary_loops = chain_loops(next_vertex_);
+    const long long n_edges = (n_half_edges + n_boundary) / 2;
+    chart.euler_characteristic = static_cast<int>(static_cast<long long>(chart.vertices.size()) - n_edges +
+                                                  static_cast<long long>(chart.faces.size()));
+  }
+
+ private:
+  void triangulate(int face, int index, bool reversed, Chart& chart) {
+    const int first = mesh_.face_offsets[face];
+    const int size = mesh_.n_corners(face);
+    const auto corner = [&](int i) { return reversed ? first + size - 1 - i : first + i; };
+    if (size == 3) {
+      chart.triangles.push_back(
+          {vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
+      chart.triangle_weights.push_back(1.0);
+      chart.triangle_face.push_back(index);
+      return;
+    }
+    // Not resize: Eigen 3.4 frees the old memory twice where there is no new one.
+    if (corners_.rows() != size) corners_ = Positions(size, 3);
+    for (int i = 0; i < size; ++i) {
+      const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner(i)]);
+      corners_.row(i) << p[0], p[1], p[2];
+    }
+    triangulate_polygon(corners_, polygon_);
+    if (!polygon_.simple) ++chart.self_intersecting_polygons;
+    for (std::size_t t = 0; t < polygon_.triangles.size(); ++t) {
+      const auto& local = polygon_.triangles[t];
+      chart.triangles.push_back({vertex_of_corner_[corner(local[0])], vertex_of_corner_[corner(local[1])],
+                                 vertex_of_corner_[corner(local[2])]});
+      chart.triangle_weights.push_back(polygon_.triangle_weights[t]);
+      chart.triangle_face.push_back(index);
+    }
+  }
+
+  const PolygonMesh& mesh_;
+  const HalfEdges& half_edges_;
+  const std::vector<char>& reversed_;
+  const std::vector<int>& vertex_of_corner_;
+  std::vector<int> next_vertex_;
+  Positions corners_;
+  PolygonTriangulation polygon_;
+};
+
+}  // namespace
+
+Positions Chart::positions(const PolygonMesh& mesh) const {
+  Positions result(n_vertices(), 3);
+  for (int i = 0; i < n_vertices(); ++i) {
+    const double* p = mesh.positions + 3 * static_cast<std::size_t>(vertices[i]);
+    result.row(i) << p[0], p[1], p[2];
+  }
+  return result;
+}
+
+ChartDecomposition build_charts(const PolygonMesh& mesh) {
+  validate(mesh);
+  ChartDecomposition result;
+  const HalfEdges half_edges(mesh);
+  result.non_manifold_edges = half_edges.non_manifold_edges();
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (half_edges.state(face) == FaceState::degenerate) result.degenerate_faces.push_back(face);
+  }
+  Components components = connect(mesh, half_edges);
+  result.chart_of_face = std::move(components.chart_of_face);
+
+  DisjointSets fans(half_edges.n_corners());
+  for (int c = 0; c < half_edges.n_corners(); ++c) {
+    const int other = half_edges.twin(c);
+    if (other < c) continue;
+    const bool opposed = half_edges.is_opposed(c);
+    fans.unite(c, opposed ? half_edges.next(other) : other);
+    fans.unite(half_edges.next(c), opposed ? other : half_edges.next(other));
+  }
+
+  // Number the fans chart by chart in the order of the mesh's vertices: first sort the fans' roots by vertex.
+  std::vector<int> roots_start(static_cast<std::size_t>(mesh.n_vertices) + 1, 0);
+  const auto is_root = [&](int c) { return half_edges.is_used(half_edges.face(c)) && fans.find(c) == c; };
+  for (int c = 0; c < half_edges.n_corners(); ++c) {
+    if (is_root(c)) ++roots_start[mesh.corner_vertices[c] + 1];
+  }
+  std::partial_sum(roots_start.begin(), roots_start.end(), roots_start.begin());
+  std::vector<int> roots(static_cast<std::size_t>(roots_start.back()));
+  {
+    std::vector<int> fill(roots_start.begin(), roots_start.end() - 1);
+    for (int c = 0; c < half_edges.n_corners(); ++c) {
+      if (is_root(c)) roots[fill[mesh.corner_vertices[c]]++] = c;
+    }
+  }
+  result.charts.resize(components.faces.size());
+  for (std::size_t i = 0; i < result.charts.size(); ++i) {
+    result.charts[i].faces = std::move(components.faces[i]);
+    result.charts[i].orientable = components.orientable[i] != 0;
+  }
+  result.chart_vertex_of_corner.assign(static_cast<std::size_t>(half_edges.n_corners()), -1);
+  for (const int root : roots) {
+    Chart& chart = result.charts[result.chart_of_face[half_edges.face(root)]];
+    const int vertex = mesh.corner_vertices[root];
+    if (!chart.vertices.empty() && chart.vertices.back() == vertex) ++result.split_vertices;
+    result.chart_vertex_of_corner[root] = chart.n_vertices();
+    chart.vertices.push_back(vertex);
+  }
+  for (int c = 0; c < half_edges.n_corners(); ++c) {
+    if (half_edges.is_used(half_edges.face(c))) {
+      result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[fans.find(c)];
+    }
+  }
+
+  ChartBuilder builder(mesh, half_edges, components.reversed, result.chart_vertex_of_corner);
+  for (Chart& chart : result.charts) builder.complete(chart);
+
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (half_edges.state(face) != FaceState::duplicate) continue;
+    const int original = half_edges.original(face);
+    Chart& chart = result.charts[result.chart_of_face[original]];
+    result.chart_of_face[face] = result.chart_of_face[original];
+    chart.duplicates.push_back(face);
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+      for (int d = mesh.face_offsets[original]; d < mesh.face_offsets[original + 1]; ++d) {
+        if (mesh.corner_vertices[c] == mesh.corner_vertices[d]) {
+          result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[d];
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal

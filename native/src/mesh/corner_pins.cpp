@@ -1,0 +1,136 @@
+#include "mesh/corner_pins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+namespace {
+
+Complex uv_of(const CornerPins& pins, int corner) {
+  const double* uv = pins.uv + 2 * static_cast<std::size_t>(corner);
+  return {uv[0], uv[1]};
+}
+
+template <class Visit>
+void for_each_selected_corner(const PolygonMesh& mesh, Visit&& visit) {
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) visit(c);
+  }
+}
+
+/// The different pins of each vertex that has any, in the order of the corners.
+std::map<int, std::vector<Complex>> pins_of_vertices(const PolygonMesh& mesh, const CornerPins& pins) {
+  std::map<int, std::vector<Complex>> result;
+  for_each_selected_corner(mesh, [&](int c) {
+    if (!pins.pinned[c]) return;
+    std::vector<Complex>& positions = result[mesh.corner_vertices[c]];
+    const Complex uv = uv_of(pins, c);
+    if (std::find(positions.begin(), positions.end(), uv) == positions.end()) positions.push_back(uv);
+  });
+  return result;
+}
+
+}  // namespace
+
+PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : mesh_(mesh) {
+  validate(mesh);
+  if (pins.pinned == nullptr) return;
+  std::map<int, std::vector<Complex>> split = pins_of_vertices(mesh, pins);
+  for (auto it = split.begin(); it != split.end();) it = it->second.size() < 2 ? split.erase(it) : std::next(it);
+  if (split.empty()) return;
+
+  std::map<int, int> first_copy;
+  for (const auto& [vertex, positions] : split) {
+    if (positions.size() >
+        static_cast<std::size_t>(std::numeric_limits<int>::max() - mesh.n_vertices) - copied_.size()) {
+      throw InvalidMesh("The mesh has too many vertices with several pins; unpin some.");
+    }
+    first_copy[vertex] = mesh.n_vertices + static_cast<int>(copied_.size());
+    copied_.insert(copied_.end(), positions.size() - 1, vertex);
+  }
+  positions_.assign(mesh.positions, mesh.positions + 3 * static_cast<std::size_t>(mesh.n_vertices));
+  for (const int vertex : copied_) {
+    const double* p = mesh.positions + 3 * static_cast<std::size_t>(vertex);
+    positions_.insert(positions_.end(), p, p + 3);
+  }
+  corner_vertices_.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.face_offsets[mesh.n_faces]);
+  for_each_selected_corner(mesh, [&](int c) {
+    const auto found = split.find(mesh.corner_vertices[c]);
+    if (found == split.end()) return;
+    const Complex uv = uv_of(pins, c);
+    const auto nearest = std::min_element(found->second.begin(), found->second.end(),
+                                          [uv](Complex a, Complex b) { return std::norm(a - uv) < std::norm(b - uv); });
+    const auto copy = static_cast<int>(nearest - found->second.begin());
+    if (copy > 0) corner_vertices_[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
+  });
+  add_seams(split);
+}
+
+void PinSplitMesh::add_seams(const std::map<int, std::vector<Complex>>& split) {
+  // Between copies only those pairs that are sides of faces: all pairs would be too many around a pole.
+  using Edge = std::array<int, 2>;
+  const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
+  std::set<Edge> at_copies;
+  for (int i = 0; i < mesh_.n_seam_edges; ++i) {
+    const auto& [a, b] = mesh_.seam_edges[i];
+    seam_edges_.push_back({a, b});
+    if (split.count(a) + split.count(b) > 0) at_copies.insert(edge(a, b));
+  }
+  std::set<Edge> copies;
+  for (int face = 0; face < mesh_.n_faces; ++face) {
+    const int first = mesh_.face_offsets[face];
+    const int end = mesh_.face_offsets[face + 1];
+    for (int c = first; c < end; ++c) {
+      const int next = c + 1 < end ? c + 1 : first;
+      const Edge original = edge(mesh_.corner_vertices[c], mesh_.corner_vertices[next]);
+      const Edge copy = edge(corner_vertices_[c], corner_vertices_[next]);
+      if (copy != original && at_copies.count(original) > 0) copies.insert(copy);
+    }
+  }
+  seam_edges_.insert(seam_edges_.end(), copies.begin(), copies.end());
+}
+
+PolygonMesh PinSplitMesh::view() const {
+  PolygonMesh view = mesh_;
+  if (copied_.empty()) return view;
+  view.positions = positions_.data();
+  view.n_vertices += static_cast<int>(copied_.size());
+  view.corner_vertices = corner_vertices_.data();
+  view.seam_edges = seam_edges_.data();
+  view.n_seam_edges = static_cast<int>(seam_edges_.size());
+  return view;
+}
+
+Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<int>& chart_vertex_of_corner,
+                const CornerPins& pins) {
+  Pins sums;
+  if (pins.pinned == nullptr) return sums;
+  std::map<int, int> counts;
+  for (const int face : chart.faces) {
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+      if (!pins.pinned[c]) continue;
+      const Complex uv = uv_of(pins, c);
+      if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) {
+        throw InvalidMesh("A pinned UV of face " + std::to_string(face) +
+                          " is not finite; unpin it or give it a valid position.");
+      }
+      sums[chart_vertex_of_corner[c]] += uv;
+      ++counts[chart_vertex_of_corner[c]];
+    }
+  }
+  // Equal pins, the rule, must come back to the bit.
+  for (auto& [vertex, sum] : sums) {
+    const int count = counts[vertex];
+    if (count > 1) sum /= static_cast<double>(count);
+  }
+  return sums;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,250 @@
+#include "mesh/mirror_symmetry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+/// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
+class NearbyVertices {
+ public:
+  NearbyVertices(const Positions& points, const std::vector<int>& used, double radius)
+      : points_(points), radius_(radius), cell_(2 * radius) {
+    for (const int v : used) cells_[key(cell_of(points.row(v)))].push_back(v);
+  }
+  /// Those within the radius, ascending.
+  std::vector<int> near(const Eigen::RowVector3d& point) const {
+    std::vector<int> result;
+    const auto centre = cell_of(point);
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const auto found = cells_.find(
+          key({centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + neighbour / 9 - 1}));
+      if (found == cells_.end()) continue;
+      for (const int v : found->second) {
+        if ((points_.row(v) - point).norm() <= radius_) result.push_back(v);
+      }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  Cell cell_of(const Eigen::RowVector3d& p) const {
+    return {static_cast<std::int64_t>(std::floor(p[0] / cell_)), static_cast<std::int64_t>(std::floor(p[1] / cell_)),
+            static_cast<std::int64_t>(std::floor(p[2] / cell_))};
+  }
+  /// Cells of the same key are told apart by the distances.
+  static std::uint64_t key(const Cell& cell) {
+    return static_cast<std::uint64_t>(cell[0]) * 73856093U ^ static_cast<std::uint64_t>(cell[1]) * 19349663U ^
+           static_cast<std::uint64_t>(cell[2]) * 83492791U;
+  }
+
+  const Positions& points_;
+  double radius_;
+  double cell_;
+  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+};
+
+/// Vertices of selected faces with finite coordinates.
+std::vector<int> used_vertices(const PolygonMesh& mesh) {
+  std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices), 0);
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!mesh.is_selected(face)) continue;
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) used[mesh.corner_vertices[c]] = 1;
+  }
+  std::vector<int> result;
+  for (int v = 0; v < mesh.n_vertices; ++v) {
+    const double* p = mesh.positions + 3 * static_cast<std::size_t>(v);
+    if (used[v] != 0 && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) result.push_back(v);
+  }
+  return result;
+}
+
+/// Faces by their sorted vertices.
+class FaceTable {
+ public:
+  explicit FaceTable(const PolygonMesh& mesh) : mesh_(mesh) {
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (mesh.is_selected(face)) faces_.emplace_back(vertices(face), face);
+    }
+    std::sort(faces_.begin(), faces_.end());
+  }
+  const std::vector<std::pair<std::vector<int>, int>>& faces() const { return faces_; }
+  /// The face on these sorted vertices, the first of several, or -1.
+  int find(const std::vector<int>& sorted) const {
+    const auto found = std::lower_bound(faces_.begin(), faces_.end(), std::make_pair(sorted, -1));
+    return found != faces_.end() && found->first == sorted ? found->second : -1;
+  }
+
+ private:
+  std::vector<int> vertices(int face) const {
+    std::vector<int> sorted(mesh_.corner_vertices + mesh_.face_offsets[face],
+                            mesh_.corner_vertices + mesh_.face_offsets[face + 1]);
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  }
+  const PolygonMesh& mesh_;
+  std::vector<std::pair<std::vector<int>, int>> faces_;
+};
+
+/// The selected faces of each vertex, once per corner.
+class VertexFaces {
+ public:
+  explicit VertexFaces(const PolygonMesh& mesh) : start_(static_cast<std::size_t>(mesh.n_vertices) + 1, 0) {
+    const auto each = [&](auto&& visit) {
+      for (int face = 0; face < mesh.n_faces; ++face) {
+        if (!mesh.is_selected(face)) continue;
+        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c)
+          visit(mesh.corner_vertices[c], face);
+      }
+    };
+    each([&](int vertex, int) { ++start_[vertex + 1]; });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    faces_.resize(static_cast<std::size_t>(start_.back()));
+    std::vector<int> fill(start_.begin(), start_.end() - 1);
+    each([&](int vertex, int face) { faces_[fill[vertex]++] = face; });
+  }
+  const int* begin(int vertex) const { return faces_.data() + start_[vertex]; }
+  const int* end(int vertex) const { return faces_.data() + start_[static_cast<std::size_t>(vertex) + 1]; }
+  bool share_a_face(int a, int b) const {
+    if (end(a) - begin(a) > end(b) - begin(b)) std::swap(a, b);
+    // Ascending, as they were entered.
+    return std::any_of(begin(a), end(a), [&](int face) { return std::binary_search(begin(b), end(b), face); });
+  }
+
+ private:
+  std::vector<int> start_;
+  std::vector<int> faces_;
+};
+
+/// Of several vertices near the mirror image of a vertex, the one whose faces have most vertices that are images of the
+/// own faces' vertices. Memory is linear in the corners, so that polygons may have any number of them.
+class AmbiguousMatch {
+ public:
+  /// image (V,): -1 where there is none yet.
+  AmbiguousMatch(const PolygonMesh& mesh, const VertexFaces& faces, const std::vector<int>& image)
+      : faces_(faces), image_(image), start_(static_cast<std::size_t>(mesh.n_faces) + 1, 0) {
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (mesh.is_selected(face)) {
+        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+          if (image[mesh.corner_vertices[c]] >= 0) matched_.push_back(mesh.corner_vertices[c]);
+        }
+      }
+      start_[static_cast<std::size_t>(face) + 1] = static_cast<int>(matched_.size());
+    }
+  }
+  /// The first of the best candidates.
+  int choose(int own, const std::vector<int>& candidates) const {
+    int best = candidates.front();
+    std::ptrdiff_t max_common = -1;
+    for (const int candidate : candidates) {
+      const std::ptrdiff_t n_common = common(own, candidate);
+      if (n_common <= max_common) continue;
+      max_common = n_common;
+      best = candidate;
+    }
+    return best;
+  }
+
+ private:
+  std::ptrdiff_t common(int own, int candidate) const {
+    std::ptrdiff_t result = 0;
+    for (const int* face = faces_.begin(own); face != faces_.end(own); ++face) {
+      for (int i = start_[*face]; i < start_[*face + 1]; ++i) {
+        const int image = image_[matched_[i]];
+        result += matched_[i] != own && image != candidate && faces_.share_a_face(image, candidate) ? 1 : 0;
+      }
+    }
+    return result;
+  }
+
+  const VertexFaces& faces_;
+  const std::vector<int>& image_;
+  std::vector<int> start_;    ///< per face, into matched_
+  std::vector<int> matched_;  ///< the vertices of each face that have an image
+};
+
+/// Matches the vertices across one plane. Only pairs that name each other are kept.
+void match_vertices(const PolygonMesh& mesh, const Positions& points, const std::vector<int>& used,
+                    const NearbyVertices& nearby, const VertexFaces& faces, MirrorSymmetry& result) {
+  std::vector<int> image(static_cast<std::size_t>(points.rows()), -1);
+  std::vector<std::pair<int, std::vector<int>>> ambiguous;
+  for (const int v : used) {
+    Eigen::RowVector3d mirrored = points.row(v);
+    mirrored[result.axis] = -mirrored[result.axis];
+    std::vector<int> near = nearby.near(mirrored);
+    if (near.size() == 1) image[v] = near.front();
+    if (near.size() > 1) ambiguous.emplace_back(v, std::move(near));
+  }
+  std::vector<int> chosen;
+  const AmbiguousMatch match(mesh, faces, image);
+  for (const auto& [v, candidates] : ambiguous) chosen.push_back(match.choose(v, candidates));
+  for (std::size_t i = 0; i < chosen.size(); ++i) image[ambiguous[i].first] = chosen[i];
+  result.vertex.assign(image.size(), -1);
+  result.side.assign(image.size(), 0);
+  for (const int v : used) {
+    if (image[v] >= 0 && image[image[v]] == v) result.vertex[v] = image[v];
+    if (result.vertex[v] != v) result.side[v] = points(v, result.axis) < 0 ? -1 : 1;
+  }
+}
+
+int match_faces(const FaceTable& table, MirrorSymmetry& result) {
+  int matched = 0;
+  std::vector<int> mirrored;
+  for (const auto& [vertices, face] : table.faces()) {
+    mirrored.clear();
+    for (const int v : vertices) mirrored.push_back(result.vertex[v]);
+    std::sort(mirrored.begin(), mirrored.end());
+    if (mirrored.empty() || mirrored.front() < 0) continue;
+    result.face[face] = table.find(mirrored);
+    matched += result.face[face] >= 0 ? 1 : 0;
+  }
+  return matched;
+}
+
+}  // namespace
+
+MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
+  validate(mesh);
+  const auto no_image = [&](std::size_t n) { return std::vector<int>(n, -1); };
+  MirrorSymmetry best{-1, no_image(static_cast<std::size_t>(mesh.n_vertices)),
+                      no_image(static_cast<std::size_t>(mesh.n_faces)),
+                      std::vector<signed char>(static_cast<std::size_t>(mesh.n_vertices), 0)};
+  const std::vector<int> used = used_vertices(mesh);
+  if (used.empty()) return best;
+  const Eigen::Map<const Positions> given(mesh.positions, mesh.n_vertices, 3);
+  Eigen::RowVector3d low = given.row(used.front());
+  Eigen::RowVector3d high = low;
+  for (const int v : used) {
+    low = low.cwiseMin(given.row(v));
+    high = high.cwiseMax(given.row(v));
+  }
+  const double extent = (high - low).maxCoeff();
+  if (!(extent > 0) || !std::isfinite(extent)) return best;
+  // In units of the extent, from the centre, the cells of the grid have small numbers.
+  Positions points = Positions::Zero(mesh.n_vertices, 3);
+  for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
+  const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
+  const VertexFaces faces(mesh);
+  const FaceTable table(mesh);
+  int max_matched = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    MirrorSymmetry candidate{axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
+    match_vertices(mesh, points, used, nearby, faces, candidate);
+    const int matched = match_faces(table, candidate);
+    if (matched <= max_matched) continue;
+    max_matched = matched;
+    best = std::move(candidate);
+  }
+  return best;
+}
+
+}  // namespace spectral_conformal

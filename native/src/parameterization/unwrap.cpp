@@ -1,0 +1,262 @@
+#include "spectral_conformal/unwrap.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "quality/overlap.h"
+#include "spectral_conformal/distortion.h"
+
+namespace spectral_conformal {
+
+std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric) {
+  std::vector<TriangleMetric> result;
+  if (metric == nullptr) return result;
+  const Positions positions = chart.positions(mesh);
+  result.reserve(chart.triangles.size());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const auto& [a, b, c] = chart.triangles[t];
+    result.push_back(restrict_to_triangle(metric[chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]],
+                                          positions.row(a), positions.row(b), positions.row(c)));
+  }
+  return result;
+}
+
+namespace {
+
+/// Fills in mean_qc, max_qc, flipped and area of a solved chart.
+void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
+             UnwrappedChart& report) {
+  const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
+  report.mean_qc = distortion.mean_qc;
+  report.max_qc = distortion.max_qc;
+  int last_flipped = -1;
+  for (const int t : distortion.triangulation) {
+    const int face = chart.triangle_face[static_cast<std::size_t>(t)];
+    if (!distortion.flipped[static_cast<std::size_t>(t)] || face == last_flipped) continue;
+    last_flipped = face;
+    ++report.flipped;
+  }
+  report.area = energy.area() * scale * scale;
+}
+
+/// Adds the pins of mesh vertices, on the copies that a chart has of them, where corners have none.
+void add_vertex_pins(const PinSplitMesh& split, const Chart& chart, const Pins& vertex_pins, Pins& pins) {
+  if (vertex_pins.empty()) return;
+  for (int v = 0; v < chart.n_vertices(); ++v) {
+    const auto pin = vertex_pins.find(split.original_vertex(chart.vertices[static_cast<std::size_t>(v)]));
+    if (pin != vertex_pins.end()) pins.emplace(v, pin->second);
+  }
+}
+
+/// A mesh cut into charts.
+struct Cut {
+  PinSplitMesh split;
+  PolygonMesh mesh;
+  ChartDecomposition decomposition;
+  Cut(const PolygonMesh& given, const CornerPins& corner_pins)
+      : split(given, corner_pins), mesh(split.view()), decomposition(build_charts(mesh)) {}
+};
+
+/// Solves one chart, again and again; reports what it cannot do instead of throwing.
+class ChartUnwrapper {
+ public:
+  ChartUnwrapper(const Cut& cut, Chart chart, const UnwrapOptions& options) : cut_(cut), chart_(std::move(chart)) {
+    report_.n_vertices = chart_.n_vertices();
+    report_.method = options.solve.method;
+    report_.weights = options.patch.weights;
+    report_.boundary = options.patch.boundary;
+    report_.faces = chart_.faces;
+    report_.faces.insert(report_.faces.end(), chart_.duplicates.begin(), chart_.duplicates.end());
+    std::sort(report_.faces.begin(), report_.faces.end());
+    try {
+      pins_ = chart_pins(cut.mesh, chart_, cut.decomposition.chart_vertex_of_corner, options.corner_pins);
+      add_vertex_pins(cut.split, chart_, options.vertex_pins, pins_);
+      report_.n_pins = static_cast<int>(pins_.size());
+      options_ = options.solve;
+      options_.extenders.clear();
+      options_.hole_rigidity = 0;
+      report_.method = options_.method = method_with_pins(options.solve, pins_.size());
+      solver_ = std::make_unique<Solver>(chart_, chart_.positions(cut.mesh), options.patch,
+                                         chart_metric(cut.mesh, chart_, options.metric));
+    } catch (const InvalidMesh& problem) {
+      report_.message = problem.what();
+    }
+  }
+
+  /// Solves and writes the corners' places to `result`; the extenders that act are no longer unused.
+  UnwrappedChart solve(const std::vector<VertexExtender>& extenders, double hole_rigidity, double tolerance,
+                       const Progress& progress, Unwrap& result) {
+    UnwrappedChart report = report_;
+    if (!solver_) return report;
+    try {
+      SolveOptions options = options_;
+      options.tolerance = tolerance;
+      std::vector<std::size_t> acting;
+      if (report.method == Method::spectral) {
+        options.hole_rigidity = hole_rigidity;
+        options.extenders = own(extenders, acting);
+      }
+      const Parameterization solution = solver_->solve(options, pins_, progress);
+      report.solved = true;
+      measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
+      report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
+      report.method = solution.method;
+      report.weights = solution.weights;
+      report.boundary = solution.boundary;
+      report.fallback = solution.fallback;
+      report.clamped_triangles = solution.clamped_triangles;
+      report.eigenvalue_of = solution.eigenvalue_of;
+      report.attempts = solution.attempts;
+      report.message = solution.message;
+      report.eigenvalue = solution.eigenvalue;
+      report.residual = solution.residual;
+      report.iterations = solution.iterations;
+      report.turning_number = solution.turning_number;
+      report.unfolded = solution.unfolded;
+      report.is_embedding = solution.is_embedding;
+      report.mean_qc_before = solution.mean_qc_before;
+      for (const std::size_t k : acting) result.unused_extenders[k] = false;
+      write(report.faces, solution.z, result);
+    } catch (const InvalidMesh& problem) {
+      report.message = problem.what();
+    } catch (const SolveFailure& problem) {
+      report.message = problem.what();
+    }
+    return report;
+  }
+
+ private:
+  /// The extenders between two different vertices of the chart; `acting` gets their numbers.
+  std::vector<Extender> own(const std::vector<VertexExtender>& extenders, std::vector<std::size_t>& acting) {
+    std::vector<Extender> result;
+    for (std::size_t k = 0; k < extenders.size(); ++k) {
+      const VertexExtender& extender = extenders[k];
+      std::vector<int> from = copies(extender.from);
+      std::vector<int> to = copies(extender.to);
+      if (extender.from == extender.to || from.empty() || to.empty()) continue;
+      result.push_back({std::move(from), std::move(to), extender.strength});
+      acting.push_back(k);
+    }
+    return result;
+  }
+
+  /// The chart vertices that are copies of a mesh vertex.
+  std::vector<int> copies(int vertex) {
+    if (by_mesh_vertex_.empty()) {
+      by_mesh_vertex_.reserve(chart_.vertices.size());
+      for (int v = 0; v < chart_.n_vertices(); ++v) {
+        by_mesh_vertex_.push_back({cut_.split.original_vertex(chart_.vertices[static_cast<std::size_t>(v)]), v});
+      }
+      std::sort(by_mesh_vertex_.begin(), by_mesh_vertex_.end());
+    }
+    std::vector<int> result;
+    for (auto it = std::lower_bound(by_mesh_vertex_.begin(), by_mesh_vertex_.end(), std::pair<int, int>(vertex, 0));
+         it != by_mesh_vertex_.end() && it->first == vertex; ++it) {
+      result.push_back(it->second);
+    }
+    return result;
+  }
+
+  void write(const std::vector<int>& faces, const ComplexVector& z, Unwrap& result) const {
+    for (const int face : faces) {
+      for (int c = cut_.mesh.face_offsets[face]; c < cut_.mesh.face_offsets[face + 1]; ++c) {
+        const Complex uv = z[cut_.decomposition.chart_vertex_of_corner[c]];
+        result.uv.row(c) << uv.real(), uv.imag();
+        result.solved_corners[c] = true;
+      }
+    }
+  }
+
+  const Cut& cut_;
+  Chart chart_;
+  UnwrappedChart report_;  ///< before a solve
+  Pins pins_;
+  SolveOptions options_;                             ///< without forces
+  std::unique_ptr<Solver> solver_;                   ///< null where the chart cannot be solved
+  std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
+};
+
+/// A result without its charts.
+Unwrap empty_result(const Cut& cut, std::size_t n_extenders) {
+  const int n_corners = cut.mesh.n_faces == 0 ? 0 : cut.mesh.face_offsets[cut.mesh.n_faces];
+  Unwrap result;
+  result.uv.setZero(n_corners, 2);
+  result.solved_corners.assign(static_cast<std::size_t>(n_corners), false);
+  result.chart_of_face = cut.decomposition.chart_of_face;
+  result.unused_extenders.assign(n_extenders, true);
+  return result;
+}
+
+void add_degenerate_faces(const Cut& cut, Unwrap& result) {
+  const std::vector<int>& faces = cut.decomposition.degenerate_faces;
+  if (faces.empty()) return;
+  for (const int face : faces) result.chart_of_face[face] = static_cast<int>(result.charts.size());
+  UnwrappedChart unusable;
+  unusable.faces = faces;
+  unusable.message =
+      "Faces with fewer than three different vertices, or with the same vertex twice in a row, cannot be unwrapped; "
+      "delete them or merge their vertices.";
+  result.charts.push_back(std::move(unusable));
+}
+
+/// The share of each chart in the work, by faces: where it begins and ends, 0 to 1.
+std::vector<std::pair<double, double>> shares(const std::vector<Chart>& charts) {
+  double total = 1e-9;
+  for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
+  std::vector<std::pair<double, double>> result;
+  double done = 0;
+  for (const Chart& chart : charts) {
+    const double share = static_cast<double>(chart.faces.size()) / total;
+    result.push_back({0.05 + 0.95 * done, 0.05 + 0.95 * (done + share)});
+    done += share;
+  }
+  return result;
+}
+
+}  // namespace
+
+Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress) {
+  report(progress, 0.0, "charts");
+  Cut cut(mesh, options.corner_pins);
+  Unwrap result = empty_result(cut, options.extenders.size());
+  const auto parts = shares(cut.decomposition.charts);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    // Moved in, so that each gives its memory back before the next solve.
+    ChartUnwrapper chart(cut, std::move(cut.decomposition.charts[i]), options);
+    result.charts.push_back(chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance,
+                                        part(progress, parts[i].first, parts[i].second), result));
+  }
+  add_degenerate_faces(cut, result);
+  return result;
+}
+
+struct Unwrapper::State {
+  Cut cut;
+  std::vector<std::pair<double, double>> parts;
+  std::vector<ChartUnwrapper> charts;
+  State(const PolygonMesh& mesh, const UnwrapOptions& options)
+      : cut(mesh, options.corner_pins), parts(shares(cut.decomposition.charts)) {
+    charts.reserve(parts.size());
+    for (Chart& chart : cut.decomposition.charts) charts.emplace_back(cut, std::move(chart), options);
+  }
+};
+
+Unwrapper::Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options)
+    : state_(std::make_unique<State>(mesh, options)) {}
+
+Unwrapper::~Unwrapper() = default;
+
+Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, double hole_rigidity, double tolerance,
+                        const Progress& progress) {
+  Unwrap result = empty_result(state_->cut, extenders.size());
+  for (std::size_t i = 0; i < state_->charts.size(); ++i) {
+    const auto& [from, to] = state_->parts[i];
+    result.charts.push_back(
+        state_->charts[i].solve(extenders, hole_rigidity, tolerance, part(progress, from, to), result));
+  }
+  add_degenerate_faces(state_->cut, result);
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,48 @@
+#include "quality/box_tree.h"
+
+#include <algorithm>
+
+namespace spectral_conformal {
+namespace {
+
+/// Below this, testing the leaves one by one takes no longer than a level of nodes.
+constexpr int max_leaves = 4;
+
+}  // namespace
+
+void PlaneBox::include(const PlaneBox& other) {
+  for (int axis = 0; axis < 2; ++axis) {
+    low[axis] = std::min(low[axis], other.low[axis]);
+    high[axis] = std::max(high[axis], other.high[axis]);
+  }
+}
+
+BoxTree::BoxTree(const std::vector<PlaneBox>& boxes) {
+  leaves_.reserve(boxes.size());
+  for (const PlaneBox& box : boxes) leaves_.push_back({box, static_cast<int>(leaves_.size())});
+  nodes_.reserve(boxes.size());
+  if (!boxes.empty()) build(0, static_cast<int>(boxes.size()));
+}
+
+int BoxTree::build(int first, int last) {
+  PlaneBox box = leaves_[static_cast<std::size_t>(first)].box;
+  for (int i = first + 1; i < last; ++i) box.include(leaves_[static_cast<std::size_t>(i)].box);
+  const int node = static_cast<int>(nodes_.size());
+  nodes_.push_back({box, first, last, 0});
+  if (last - first <= max_leaves) return node;
+  const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
+  const int middle = first + (last - first) / 2;
+  // Halves of the sum of both ends; the index makes the order the same everywhere.
+  std::nth_element(leaves_.begin() + first, leaves_.begin() + middle, leaves_.begin() + last,
+                   [axis](const Leaf& a, const Leaf& b) {
+                     const double centre_a = 0.5 * a.box.low[axis] + 0.5 * a.box.high[axis];
+                     const double centre_b = 0.5 * b.box.low[axis] + 0.5 * b.box.high[axis];
+                     return centre_a != centre_b ? centre_a < centre_b : a.index < b.index;
+                   });
+  build(first, middle);
+  const int second = build(middle, last);
+  nodes_[static_cast<std::size_t>(node)].second_child = second;
+  return node;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,156 @@
+#include "spectral_conformal/map_defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "geometry/quad_splits.h"
+#include "mesh/charts.h"
+#include "quality/flips.h"
+#include "quality/overlap.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// UVs are stored in single precision: a coordinate is off by up to 2^-24 = 6e-8 of itself. Two points, each off in
+/// both directions of the plane, move a height by up to 1.7e-7; this leaves half as much again.
+constexpr double resolution = 2.5e-7;
+
+/// The mesh in the plane of its map: its vertices are the different images that mesh vertices have.
+class MapMesh {
+ public:
+  MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
+    const int n_corners = mesh.n_corners();
+    std::vector<Image> images;
+    images.reserve(static_cast<std::size_t>(n_corners));
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (!mesh.is_selected(face)) continue;
+      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+        const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
+        if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
+          throw InvalidMesh("The UV of corner " + std::to_string(c) + " (face " + std::to_string(face) +
+                            ") is not finite; leave its face out of the selection or give it coordinates.");
+        }
+        images.push_back({mesh.corner_vertices[c], uv[0], uv[1], c});
+      }
+    }
+    std::sort(images.begin(), images.end());
+    vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const Image& image = images[i];
+      if (i == 0 || !images[i - 1].same_point(image)) positions_.insert(positions_.end(), {image.u, image.v, 0.0});
+      vertex_of_corner_[image.corner] = n_vertices() - 1;
+    }
+    // Corners that are not selected refer to a vertex too.
+    if (positions_.empty()) positions_.assign(3, 0.0);
+  }
+
+  PolygonMesh view() const {
+    PolygonMesh view = mesh_;
+    view.positions = positions_.data();
+    view.n_vertices = n_vertices();
+    view.corner_vertices = vertex_of_corner_.data();
+    view.seam_edges = nullptr;
+    view.n_seam_edges = 0;
+    return view;
+  }
+
+ private:
+  struct Image {
+    int vertex;
+    double u;
+    double v;
+    int corner;
+
+    bool operator<(const Image& other) const {
+      if (vertex != other.vertex) return vertex < other.vertex;
+      if (u != other.u) return u < other.u;
+      return v != other.v ? v < other.v : corner < other.corner;
+    }
+    bool same_point(const Image& other) const { return vertex == other.vertex && u == other.u && v == other.v; }
+  };
+
+  int n_vertices() const { return static_cast<int>(positions_.size() / 3); }
+
+  PolygonMesh mesh_;
+  std::vector<double> positions_;
+  std::vector<int> vertex_of_corner_;
+};
+
+/// The map of an island, by its own vertices.
+ComplexVector map_of(const Chart& island, const PolygonMesh& mesh) {
+  ComplexVector z(island.n_vertices());
+  for (int v = 0; v < island.n_vertices(); ++v) {
+    const double* p = mesh.positions + 3 * static_cast<std::size_t>(island.vertices[static_cast<std::size_t>(v)]);
+    z[v] = Complex(p[0], p[1]);
+  }
+  return z;
+}
+
+/// The mesh face of a triangle.
+int face_of(const Chart& island, int triangle) {
+  return island.faces[static_cast<std::size_t>(island.triangle_face[static_cast<std::size_t>(triangle)])];
+}
+
+/// The triangles of several islands in one map.
+struct Layout {
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> face;  ///< of the mesh
+  std::vector<Complex> z;
+
+  /// `oriented`: the map of the island or its mirror image, positively oriented.
+  void add(const Chart& island, const ComplexVector& island_z, const ComplexVector& oriented) {
+    const int first = static_cast<int>(z.size());
+    for (const int t : mapped_triangulation(island.triangles, island.triangle_weights, oriented)) {
+      const auto& [a, b, c] = island.triangles[static_cast<std::size_t>(t)];
+      triangles.push_back({first + a, first + b, first + c});
+      face.push_back(face_of(island, t));
+    }
+    z.insert(z.end(), island_z.begin(), island_z.end());
+  }
+
+  void mark_overlapping(std::vector<bool>& faces) const {
+    const Eigen::Map<const ComplexVector> map(z.data(), static_cast<Eigen::Index>(z.size()));
+    const std::vector<bool> overlapping = overlapping_triangles(triangles, map, face, resolution);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (overlapping[t]) faces[face[t]] = true;
+    }
+  }
+};
+
+void mark_flipped(const Chart& island, const ComplexVector& z, std::vector<bool>& faces) {
+  const FlipTolerance tolerance{0, resolution};
+  for (const int t : mapped_triangulation(island.triangles, island.triangle_weights, z)) {
+    if (is_flipped(island.triangles[static_cast<std::size_t>(t)], z, tolerance)) faces[face_of(island, t)] = true;
+  }
+}
+
+}  // namespace
+
+MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bool between_islands) {
+  validate(mesh);
+  const MapMesh map_mesh(mesh, corner_uv);
+  const PolygonMesh in_plane = map_mesh.view();
+  MapDefects result;
+  result.flipped.assign(static_cast<std::size_t>(mesh.n_faces), false);
+  result.overlapping = result.flipped;
+  Layout layout;
+  for (const Chart& island : build_charts(in_plane).charts) {
+    const ComplexVector z = map_of(island, in_plane);
+    const ComplexVector oriented = positively_oriented(island.triangles, island.triangle_weights, z);
+    mark_flipped(island, oriented, result.flipped);
+    if (between_islands) {
+      layout.add(island, z, oriented);
+    } else {
+      for (const int face : overlapping_faces(island, oriented, resolution)) {
+        result.overlapping[island.faces[static_cast<std::size_t>(face)]] = true;
+      }
+    }
+  }
+  layout.mark_overlapping(result.overlapping);
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "mesh/charts.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// For each triangle of a map, whether its interior meets that of another triangle, of another face where `face` names
+/// the face of each. Candidates come from a BoxTree, O(n log n) where boxes meet few others that do not overlap; a pair
+/// overlaps when no side of either separates them. Contacts do not count that are less deep than 1e-9 of the smaller
+/// triangle's size, or than `resolution` times the largest coordinate that the two have. map (V,) must be finite; face
+/// (F,) or empty.
+std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map,
+                                        const std::vector<int>& face = {}, double resolution = 0);
+
+/// The faces of a chart, as indices into its `faces`, ascending, whose images under z cover part of another face's.
+/// Triangulated by mapped_triangulation. Where has_degree_at_most_one proves it enough, only pairs with one of the
+/// non_positive_triangles are tested, so that an injective map costs next to nothing. z (V,) positively oriented.
+std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, double resolution = 0);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "seams/trial_map.h"
+
+namespace spectral_conformal {
+
+/// A place where a cut would lower the distortion of a map.
+struct DistortedPlace {
+  int vertex;     ///< of the mesh that the chart is of
+  bool on_loop;   ///< on the loop of a hole, not inside
+  double volume;  ///< how much distortion there is around, weighted by area
+};
+
+/// The prominent extrema of the scale's logarithm about the median (see field_extrema.h) that are not on the outer
+/// loop: minima, and inside the chart maxima. `mesh` is the one that the chart was built from.
+std::vector<DistortedPlace> scale_extrema(const PolygonMesh& mesh, const MappedChart& mapped, double median_log2_scale);
+
+/// Vertices, not on the outer loop, whose faces have more QC in excess of 1 than those of their neighbours.
+std::vector<DistortedPlace> angle_peaks(const PolygonMesh& mesh, const MappedChart& mapped);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,221 @@
+#include "seams/piece_seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "mesh/boundary_loops.h"
+#include "seams/handle_cuts.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Edges of the mirror plane are where artists look for seams first.
+constexpr double axis_discount = 0.7;
+/// No island gets less than this part of the area of the chart that it is cut from.
+constexpr double least_island = 0.02;
+
+}  // namespace
+
+PieceSeams::PieceSeams(const SeamPiece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
+    : piece_(&piece),
+      graph_(piece.view()),
+      mirror_(std::move(mirror)),
+      symmetric_(mirror_.image == index),
+      side_(piece.vertices.size(), 0) {
+  if (!symmetric_) return;
+  for (std::size_t v = 0; v < side_.size(); ++v) side_[v] = symmetry.side[piece.vertices[v]];
+  for (int e = 0; e < n_edges(); ++e) {
+    if (along_axis(e)) graph_.scale_cost(e, axis_discount);
+  }
+}
+
+double PieceSeams::length(const SeamEdges& edges) const {
+  double sum = 0;
+  for (const int edge : edges) sum += graph_.edges()[edge].length;
+  return sum;
+}
+
+void PieceSeams::add(const SeamEdges& edges) {
+  for (const int edge : edges) {
+    graph_.cut(edge);
+    edges_.push_back(edge);
+  }
+}
+
+std::vector<std::array<int, 2>> PieceSeams::with(const SeamEdges& more) const {
+  std::vector<std::array<int, 2>> seams = piece_->seams;
+  for (const auto* edges : {&edges_, &more}) {
+    for (const int edge : *edges) seams.push_back(graph_.edges()[edge].vertices);
+  }
+  return seams;
+}
+
+int PieceSeams::mirrored_chart(int chart, const std::vector<int>& chart_of_face) const {
+  if (!symmetric_) return chart;
+  const auto face = std::find(chart_of_face.begin(), chart_of_face.end(), chart) - chart_of_face.begin();
+  return chart_of_face[mirror_.face[static_cast<std::size_t>(face)]];
+}
+
+bool PieceSeams::self_mirrored(int chart, const std::vector<int>& chart_of_face) const {
+  return symmetric_ && mirrored_chart(chart, chart_of_face) == chart;
+}
+
+int PieceSeams::on_positive_side(int vertex) const {
+  return symmetric_ && side_[vertex] < 0 ? mirror_.vertex[vertex] : vertex;
+}
+
+bool PieceSeams::along_axis(int edge) const {
+  return on_axis(graph_.edges()[edge].vertices[0]) && on_axis(graph_.edges()[edge].vertices[1]);
+}
+
+int PieceSeams::mirror_edge(int edge) const {
+  if (!symmetric_) return -1;
+  const auto [a, b] = graph_.edges()[edge].vertices;
+  return graph_.find_edge(mirror_.vertex[a], mirror_.vertex[b]);
+}
+
+/// The edges that are not cut yet, in the order of the path, and then their images.
+SeamEdges PieceSeams::with_images(const SeamEdges& path) const {
+  SeamEdges result;
+  std::set<int> known;
+  for (const int edge : path) {
+    if (!graph_.edges()[edge].cut && known.insert(edge).second) result.push_back(edge);
+  }
+  if (!symmetric_) return result;
+  const std::size_t n = result.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int image = mirror_edge(result[i]);
+    if (image >= 0 && known.insert(image).second) result.push_back(image);
+  }
+  return result;
+}
+
+std::vector<SeamEdges> PieceSeams::open() {
+  std::vector<SeamEdges> cuts = handle_cuts(piece_->view(), graph_, [&](int edge) { return mirror_edge(edge); });
+  for (const SeamEdges& cut : cuts) add(cut);
+  if (std::none_of(graph_.edges().begin(), graph_.edges().end(), [](const auto& edge) { return edge.cut; })) {
+    cuts.push_back(first_slit());
+    add(cuts.back());
+  }
+  const SeamEdges bridge = symmetric_outer_loop();
+  if (!bridge.empty()) {
+    cuts.push_back(bridge);
+    add(bridge);
+  }
+  return cuts;
+}
+
+int PieceSeams::farthest_vertex(int source, bool on_axis_only) const {
+  const std::vector<double> distance =
+      graph_.distances({source}, [&](int edge) { return !on_axis_only || along_axis(edge); });
+  int farthest = source;
+  for (int v = 0; v < graph_.n_vertices(); ++v) {
+    if (std::isfinite(distance[v]) && distance[v] > distance[farthest]) farthest = v;
+  }
+  return farthest;
+}
+
+/// The slit that opens a surface without boundary: between vertices far apart, on the mirror plane if it has edges.
+SeamEdges PieceSeams::first_slit() {
+  int axis_edge = -1;
+  for (int e = 0; e < n_edges() && axis_edge < 0; ++e) {
+    if (along_axis(e)) axis_edge = e;
+  }
+  symmetric_ = symmetric_ && axis_edge >= 0;
+  const int one = farthest_vertex(graph_.edges()[symmetric_ ? axis_edge : 0].vertices[0], symmetric_);
+  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  target[farthest_vertex(one, symmetric_)] = 1;
+  return graph_.path(one, target, [&](int edge, int) { return !symmetric_ || along_axis(edge); });
+}
+
+SeamEdges PieceSeams::symmetric_outer_loop() const {
+  if (!symmetric_) return {};
+  PolygonMesh mesh = piece_->view();
+  const std::vector<std::array<int, 2>> seams = with({});
+  mesh.seam_edges = seams.data();
+  mesh.n_seam_edges = static_cast<int>(seams.size());
+  const ChartDecomposition decomposition = build_charts(mesh);
+  const Chart& chart = decomposition.charts.front();
+  if (chart.boundary_loops.size() < 2) return {};
+  const int outer = outer_loop(chart.boundary_loops, chart.positions(mesh));
+  std::set<int> loop;
+  for (const int v : chart.boundary_loops[static_cast<std::size_t>(outer)]) loop.insert(chart.vertices[v]);
+  const int start = *loop.begin();
+  if (loop.count(mirror_.vertex[start]) > 0) return {};
+  std::vector<char> axis(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (int v = 0; v < graph_.n_vertices(); ++v) axis[v] = on_axis(v) ? 1 : 0;
+  return with_images(graph_.path(on_positive_side(start), axis, [&](int e, int from) {
+    const auto& ends = graph_.edges()[e].vertices;
+    return side_[ends[0] == from ? ends[1] : ends[0]] >= 0;
+  }));
+}
+
+SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const {
+  const bool halved = self_mirrored(chart, chart_of_face);
+  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (const auto& edge : graph_.edges()) {
+    if (edge.cut) target[edge.vertices[0]] = target[edge.vertices[1]] = 1;
+  }
+  std::vector<char> own_loop(target.size(), 0);
+  if (on_loop) {
+    const std::vector<double> along = graph_.distances({vertex}, [&](int edge) { return graph_.edges()[edge].cut; });
+    for (std::size_t v = 0; v < along.size(); ++v) {
+      if (!std::isfinite(along[v])) continue;
+      own_loop[v] = 1;
+      target[v] = 0;
+    }
+  }
+  const bool own_loop_halved = halved && on_loop && own_loop[mirror_.vertex[vertex]] != 0;
+  const auto allowed = [&](int e, int from) {
+    const auto& edge = graph_.edges()[e];
+    const bool inside = std::any_of(edge.faces.begin(), edge.faces.end(),
+                                    [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
+    if (!inside) return false;
+    if (!halved || edge.cut) return true;
+    const int to = edge.vertices[0] == from ? edge.vertices[1] : edge.vertices[0];
+    // A path that leaves the mirror plane, or its own loop beside it, would enclose an island with its image.
+    if (side_[to] < 0 || (on_axis(from) && !on_axis(to))) return false;
+    return !(own_loop_halved && own_loop[from] != 0 && !on_axis(from));
+  };
+  return with_images(graph_.path(vertex, target, allowed));
+}
+
+SeamEdges PieceSeams::cut_along_axis(const SeparableFaces& faces) const {
+  SeamEdges result;
+  for (int e = 0; e < n_edges(); ++e) {
+    const auto& edge = graph_.edges()[e];
+    if (!edge.cut && along_axis(e) && faces.member[edge.faces[0]] != 0) result.push_back(e);
+  }
+  return result;
+}
+
+/// Makes a side that is mostly its own mirror image symmetric, and any other one disjoint from its image.
+void PieceSeams::clear_of_image(const std::vector<double>& area, std::vector<char>& side) const {
+  const std::vector<char> whole = side;
+  const auto shared = [&](std::size_t f) { return whole[f] != 0 && whole[mirror_.face[f]] != 0; };
+  double own_area = 0;
+  double shared_area = 0;
+  for (std::size_t f = 0; f < side.size(); ++f) {
+    own_area += whole[f] != 0 ? area[f] : 0;
+    shared_area += shared(f) ? area[f] : 0;
+  }
+  for (std::size_t f = 0; f < side.size(); ++f) {
+    side[f] = 2 * shared_area > own_area ? shared(f) : whole[f] != 0 && !shared(f);
+  }
+}
+
+SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<int>& sources,
+                                const std::vector<int>& sinks, int chart, const std::vector<int>& chart_of_face) const {
+  std::vector<char> side = separating_side(faces, sources, sinks, least_island);
+  if (self_mirrored(chart, chart_of_face)) clear_of_image(faces.area, side);
+  SeamEdges cut;
+  for (int e = 0; e < n_edges(); ++e) {
+    const auto& edge = graph_.edges()[e];
+    if (!edge.cut && faces.member[edge.faces[0]] != 0 && side[edge.faces[0]] != side[edge.faces[1]]) cut.push_back(e);
+  }
+  return with_images(cut);
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/charts.h"
+#include "mesh/mirror_symmetry.h"
+#include "seams/seam_graph.h"
+#include "seams/seam_piece.h"
+#include "seams/separating_cut.h"
+
+namespace spectral_conformal {
+
+/// Edges of a SeamGraph, by number.
+using SeamEdges = std::vector<int>;
+
+/// The new seams of a piece, and the ways to extend them. Where the piece is its own mirror image, every cut comes with
+/// its image and keeps to one half, so that both together enclose nothing.
+class PieceSeams {
+ public:
+  /// The piece must outlive this object; `index` is its number. Coordinates must be finite.
+  PieceSeams(const SeamPiece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry);
+
+  const SeamPiece& piece() const { return *piece_; }
+  const SeamGraph& graph() const { return graph_; }
+  /// The new seams so far.
+  const SeamEdges& edges() const { return edges_; }
+  double length(const SeamEdges& edges) const;
+  void add(const SeamEdges& edges);
+  /// The vertices of all seams of the piece, old, new and `more`, for a PolygonMesh of it.
+  std::vector<std::array<int, 2>> with(const SeamEdges& more) const;
+
+  /// Whether the charts, given per face of the piece, are mapped so that `chart` is its own mirror image.
+  bool self_mirrored(int chart, const std::vector<int>& chart_of_face) const;
+  /// The chart that `chart` is mapped onto, or itself where the piece has no mirror image of its own.
+  int mirrored_chart(int chart, const std::vector<int>& chart_of_face) const;
+  /// Of a vertex and its mirror image the one on the positive side.
+  int on_positive_side(int vertex) const;
+
+  /// Cuts the handles open and slits a closed surface, and adds these cuts. Then one more joins the longest boundary
+  /// loop of a symmetric piece to its image, because its map would not be symmetric otherwise.
+  std::vector<SeamEdges> open();
+  /// The cheapest cut within a chart from a vertex to the nearest cut, or, from the loop of a hole, to another one.
+  SeamEdges cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const;
+  /// All edges of the chart on the mirror plane that are not cut.
+  SeamEdges cut_along_axis(const SeparableFaces& faces) const;
+  /// See separating_side.
+  SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
+                      int chart, const std::vector<int>& chart_of_face) const;
+
+ private:
+  int n_edges() const { return static_cast<int>(graph_.edges().size()); }
+  bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }
+  bool along_axis(int edge) const;
+  int mirror_edge(int edge) const;
+  SeamEdges with_images(const SeamEdges& path) const;
+  SeamEdges first_slit();
+  int farthest_vertex(int source, bool on_axis_only) const;
+  SeamEdges symmetric_outer_loop() const;
+  void clear_of_image(const std::vector<double>& area, std::vector<char>& side) const;
+
+  const SeamPiece* piece_;
+  SeamGraph graph_;
+  PieceMirror mirror_;
+  bool symmetric_;                 ///< cuts come with their images
+  std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 without a mirror image
+  SeamEdges edges_;
+};
+
+}  // namespace spectral_conformal

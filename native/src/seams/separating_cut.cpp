@@ -1,0 +1,155 @@
+#include "seams/separating_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "graph/adjacency.h"
+#include "graph/maximum_flow.h"
+#include "graph/shortest_paths.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// The minimum cut may move by this part of the way from the level to the sources or the sinks.
+constexpr double leeway = 0.3;
+
+/// The member faces as nodes, joined over the edges that are not cut.
+Adjacency dual_graph(const SeparableFaces& faces) {
+  const auto& edges = faces.graph->edges();
+  return Adjacency::from_arcs(static_cast<int>(faces.member.size()), [&](auto&& visit) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (edges[e].cut) continue;
+      const auto [a, b] = edges[e].faces;
+      if (faces.member[a] == 0 || faces.member[b] == 0) continue;
+      visit(a, static_cast<int>(e), b);
+      visit(b, static_cast<int>(e), a);
+    }
+  });
+}
+
+std::vector<double> distances(const SeparableFaces& faces, const Adjacency& dual, const std::vector<int>& sources) {
+  ShortestPathSearch search(dual.n_nodes());
+  for (const int source : sources) search.offer(source, 0);
+  for (int face = search.settle(); face >= 0; face = search.settle()) {
+    for (const auto& arc : dual.arcs(face)) {
+      search.offer(arc.to, search.distance(face) + (faces.centre[face] - faces.centre[arc.to]).norm());
+    }
+  }
+  return search.distances();
+}
+
+/// The members in rising order of the level function.
+std::vector<int> in_order(const SeparableFaces& faces, const std::vector<double>& level) {
+  std::vector<int> order;
+  for (std::size_t f = 0; f < level.size(); ++f) {
+    if (faces.member[f] != 0) order.push_back(static_cast<int>(f));
+  }
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return level[a] != level[b] ? level[a] < level[b] : a < b; });
+  return order;
+}
+
+/// The level of the cut with the lowest cost for its area, or a value that is not a number.
+double best_level(const SeparableFaces& faces, const Adjacency& dual, const std::vector<double>& level,
+                  const std::vector<int>& order, double low, double high, double least_share) {
+  double total = 0;
+  for (const int face : order) total += faces.area[face];
+  std::vector<char> inside(level.size(), 0);
+  double area = 0;
+  double cost = 0;
+  double best = infinite;
+  double result = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    const int face = order[i];
+    inside[face] = 1;
+    area += faces.area[face];
+    for (const auto& [edge, other] : dual.arcs(face)) {
+      cost += (inside[other] != 0 ? -1 : 1) * faces.graph->edges()[edge].cost;
+    }
+    const double next = level[order[i + 1]];
+    const double smaller = std::min(area, total - area);
+    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= least_share * total)) continue;
+    const double score = cost / std::sqrt(smaller);
+    if (score < best) {
+      best = score;
+      result = 0.5 * (level[face] + next);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> face_distances(const SeparableFaces& faces, const std::vector<int>& sources) {
+  return distances(faces, dual_graph(faces), sources);
+}
+
+std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const std::vector<int>& some) {
+  const auto dual = dual_graph(faces);
+  std::vector<char> open(faces.member.size(), 0);
+  for (const int face : some) open[face] = 1;
+  std::vector<std::pair<double, std::vector<int>>> parts;
+  for (const int seed : some) {
+    if (open[seed] == 0) continue;
+    open[seed] = 0;
+    std::vector<int> part{seed};
+    double area = 0;
+    for (std::size_t head = 0; head < part.size(); ++head) {
+      area += faces.area[part[head]];
+      for (const auto& arc : dual.arcs(part[head])) {
+        if (open[arc.to] == 0) continue;
+        open[arc.to] = 0;
+        part.push_back(arc.to);
+      }
+    }
+    parts.emplace_back(-area, std::move(part));
+  }
+  std::sort(parts.begin(), parts.end());
+  std::vector<std::vector<int>> result;
+  result.reserve(parts.size());
+  for (auto& part : parts) result.push_back(std::move(part.second));
+  return result;
+}
+
+std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
+                                  const std::vector<int>& sinks, double least_share) {
+  std::vector<char> side(faces.member.size(), 0);
+  const auto dual = dual_graph(faces);
+  std::vector<double> level = distances(faces, dual, sources);
+  const std::vector<double> from_sinks = distances(faces, dual, sinks);
+  double low = -infinite;
+  double high = infinite;
+  for (std::size_t f = 0; f < level.size(); ++f) {
+    level[f] = faces.member[f] != 0 && std::isfinite(level[f]) && std::isfinite(from_sinks[f])
+                   ? level[f] - from_sinks[f]
+                   : infinite;
+  }
+  for (const int face : sources) low = std::max(low, level[face]);
+  for (const int face : sinks) high = std::min(high, level[face]);
+  const std::vector<int> order = in_order(faces, level);
+  const double best = best_level(faces, dual, level, order, low, high, least_share);
+  if (std::isnan(best)) return side;
+
+  // Nodes: 0 the source, 1 the sink, then the faces between.
+  const double lower = best - leeway * (best - low);
+  const double upper = best + leeway * (high - best);
+  std::vector<int> node(level.size(), -1);
+  int n_nodes = 2;
+  for (const int face : order) node[face] = level[face] <= lower ? 0 : level[face] >= upper ? 1 : n_nodes++;
+  std::vector<CapacityEdge> between;
+  for (const int face : order) {
+    for (const auto& [edge, other] : dual.arcs(face)) {
+      if (face < other && node[face] != node[other]) {
+        between.push_back({node[face], node[other], faces.graph->edges()[edge].cost});
+      }
+    }
+  }
+  const std::vector<char> reached = min_cut_source_side(n_nodes, between, 0, 1);
+  for (const int face : order) side[face] = reached[node[face]];
+  return side;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From polygon meshes to placed maps, with the real solver."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import spectral_conformal
+from spectral_unwrap.core import native
+from spectral_unwrap.core.mesh import PolygonMesh
+from spectral_unwrap.core.options import Options
+from spectral_unwrap.core.placement import place
+from spectral_unwrap.core.solve import solve
+
+CUBE_VERTICES = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+
+
+def polygon_mesh(vertices, faces, seams=(), selected=None, uv=None):
+    return PolygonMesh(
+        np.array(vertices, dtype=float),
+        np.concatenate([[0], np.cumsum([len(face) for face in faces])]).astype(np.int32),
+        np.concatenate(faces).astype(np.int32),
+        np.asarray(seams, dtype=np.int32).reshape(-1, 2),
+        np.ones(len(faces), dtype=bool) if selected is None else np.asarray(selected),
+        uv,
+    )
+
+
+def separated_cube(**options):
+    return polygon_mesh(
+        CUBE_VERTICES, CUBE_FACES, [(face[i - 1], face[i]) for face in CUBE_FACES for i in range(4)], **options
+    )
+
+
+def test_corners_know_their_face():
+    mesh = polygon_mesh(CUBE_VERTICES, [CUBE_FACES[0], CUBE_FACES[1][:3]])
+    assert mesh.face_of_corner().tolist() == [0, 0, 0, 0, 1, 1, 1]
+
+
+def test_every_selected_face_of_a_separated_cube_is_a_chart():
+    mesh = separated_cube(selected=[True, False, True, True, False, True])
+    solution = solve(mesh, Options())
+    assert [chart.status for chart in solution.charts] == ["solved"] * 4
+    assert sorted(set(solution.chart_of_corner.reshape(6, 4)[mesh.selected_faces].ravel())) == [0, 1, 2, 3]
+    np.testing.assert_array_equal(solution.solved_corners.reshape(6, 4).all(axis=1), mesh.selected_faces)
+
+
+def test_failed_chart_has_no_solved_corners():
+    solution = solve(polygon_mesh(CUBE_VERTICES, CUBE_FACES), Options())
+    assert not solution.solved_corners.any()
+    assert [chart.status for chart in solution.charts] == ["failed"]
+    assert solution.charts[0].message
+
+
+def test_mesh_that_is_no_mesh_is_an_error_of_that_mesh():
+    solution = solve(polygon_mesh(CUBE_VERTICES[:7], CUBE_FACES), Options())
+    assert "vertex 7" in solution.error
+    assert not solution.solved_corners.any()
+    assert solution.uv.shape == (24, 2)
+
+
+def test_options_reach_the_solver():
+    # A curved patch: its map depends on every option.
+    x, y = np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7) ** 3)
+    vertices = np.stack([x, y, np.exp(x) * np.cos(2 * y)], axis=-1).reshape(-1, 3)
+    faces = [(7 * r + c, 7 * r + c + 1, 7 * r + c + 8, 7 * r + c + 7) for r in range(6) for c in range(6)]
+    mesh = polygon_mesh(vertices, faces)
+    maps = [
+        solve(mesh, options).uv
+        for options in (
+            Options(),
+            Options(boundary="vertex"),
+            Options(weights="inverse_area"),
+            Options(method="lscm"),
+            Options(method="fiedler"),
+            Options(method="area"),
+        )
+    ]
+    for i in range(len(maps)):
+        for j in range(i):
+            assert not np.allclose(maps[i], maps[j], atol=1e-6)
+
+
+def test_cancelling_raises():
+    with pytest.raises(spectral_conformal.Cancelled):
+        solve(separated_cube(), Options(), progress=lambda _fraction, _phase: False)
+
+
+def test_charts_of_all_meshes_are_placed_together_to_one_scale():
+    meshes = [separated_cube(), separated_cube()]
+    meshes[1].vertices[:] *= 0.5
+    solutions = [solve(mesh, Options()) for mesh in meshes]
+    faces = np.concatenate(place(meshes, solutions, keep_in_place=False).uv).reshape(12, 4, 2)
+    sides = np.linalg.norm(faces[:, 1] - faces[:, 0], axis=1)
+    np.testing.assert_allclose(sides[:6], sides[0])
+    np.testing.assert_allclose(sides[6:], sides[0] / 2.0)
+    low, high = faces.min(axis=1), faces.max(axis=1)
+    for i in range(12):
+        for j in range(i):
+            assert (np.minimum(high[i], high[j]) < np.maximum(low[i], low[j])).any()
+
+
+def test_kept_in_place_chart_by_chart():
+    former = np.random.default_rng(0).random((24, 2))
+    former[:4] = 0.0
+    mesh = separated_cube(uv=former)
+    placement = place([mesh], [solve(mesh, Options())], keep_in_place=True)
+    assert placement.without_bounds == 1
+    new, old = placement.uv[0].reshape(6, 4, 2)[1:], former.reshape(6, 4, 2)[1:]
+    centre = (new.min(axis=1) + new.max(axis=1)) / 2.0
+    np.testing.assert_allclose(centre, (old.min(axis=1) + old.max(axis=1)) / 2.0)
+    room = np.ptp(old, axis=1).min(axis=1)
+    np.testing.assert_allclose(np.ptp(new, axis=1).max(axis=1), room)
+
+
+@pytest.fixture
+def broken_bundle(tmp_path, monkeypatch):
+    """Put a spectral_conformal that does not load beside the add-on's other parts."""
+    (tmp_path / "spectral_conformal.py").write_text("import _compiled_for_another_platform")
+    package = sys.modules["spectral_unwrap"]
+    monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+
+
+def test_missing_module_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "spectral_conformal", None)
+    with pytest.raises(native.NativeModuleError, match="install the package of Spectral Unwrap made for this platform"):
+        native.spectral_conformal()
+
+
+def test_broken_bundled_module_is_not_passed_over(broken_bundle):
+    with pytest.raises(native.NativeModuleError, match="_compiled_for_another_platform"):
+        native.spectral_conformal()
+
+
+def test_pin_that_is_no_place_is_none_beside_one_that_is():
+    former = np.random.default_rng(0).random((24, 2))
+    former[1] = np.nan
+    pinned = np.zeros(24, dtype=bool)
+    pinned[:2] = True
+    mesh = replace(separated_cube(uv=former), pinned_corners=pinned)
+    (uv,) = place([mesh], [solve(mesh, Options())], keep_in_place=False).uv
+    assert np.isfinite(uv).all()
+    np.testing.assert_allclose(uv[0], former[0])
+
+
+def test_faces_that_single_precision_merges_are_those_that_shrink():
+    # Squares in a row, each half as wide as the last.
+    left = np.cumsum([0.0] + [0.5**k for k in range(30)])
+    vertices = [(x, y, 0.0) for x in left for y in (0.0, 0.5 ** np.searchsorted(left, x))]
+    faces = [(2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1) for k in range(30)]
+    mesh = polygon_mesh(vertices, faces)
+    solution = solve(mesh, Options())
+    assert solution.charts[0].status == "solved"
+    # As small in 3D, they lose nothing.
+    assert solution.too_small_faces(mesh) == 0
+    even = polygon_mesh([(k // 2, k % 2, 0.0) for k in range(62)], faces)
+    assert solve(even, Options()).too_small_faces(even) == 0
+    small = np.count_nonzero(0.5 ** np.arange(30) < 2.0**-21 * np.ptp(solution.uv, axis=0).max())
+    assert abs(solution.too_small_faces(even) - small) <= 2
+    assert small > 5

@@ -1,0 +1,139 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "injective/fold_free_map.h"
+#include "mesh/boundary_loops.h"
+#include "meshes.h"
+#include "quality/turning_number.h"
+#include "spectral_conformal/distortion.h"
+#include "spectral_conformal/errors.h"
+#include "spectral_conformal/parameterize.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+struct Input {
+  Patch patch;
+  ConformalEnergy energy;
+  std::vector<BoundaryLoop> loops;
+  std::vector<char> held;
+
+  explicit Input(const Mesh& mesh)
+      : patch(mesh), energy(patch.energy(Weights::uniform)), loops(patch.chart.boundary_loops) {
+    std::swap(loops.front(), loops[static_cast<std::size_t>(outer_loop(loops, patch.positions))]);
+  }
+  FoldFreeMap solve(const ComplexVector& z, const Progress& progress = {}) const {
+    return fold_free_map({energy, patch.positions, loops, held}, z, progress);
+  }
+  /// Whether both triangles of every face's first split, and all other triangles, are counter-clockwise.
+  bool is_fold_free(const ComplexVector& z) const {
+    for (std::size_t t = 0; t < patch.chart.triangles.size(); ++t) {
+      const auto& [a, b, c] = patch.chart.triangles[t];
+      if (!(std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a])) > 0)) return false;
+      if (patch.chart.triangle_weights[t] != 1.0 && t % 4 == 1) t += 2;
+    }
+    return turning_number(loops.front(), patch.chart.triangles, patch.chart.triangle_weights, z) == 1;
+  }
+};
+
+ComplexVector conformal_map(const Patch& patch) {
+  return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
+}
+
+/// Three triangles around an inner vertex that stands aside (Floater, Parametric Tilings and Scattered Data
+/// Approximation, 1998): beyond -1 the conformal map folds one of them.
+Mesh floater(double offset) {
+  return Mesh({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, offset, 1}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("fold_free_map");
+
+TEST_CASE("a map without folds is returned as it is") {
+  const Input input(bumpy_grid(8, 6));
+  const ComplexVector z = conformal_map(input.patch);
+  const FoldFreeMap map = input.solve(z);
+  CHECK(map.z == z);
+  CHECK(map.folded_before == 0);
+  CHECK_FALSE(map.is_embedding);
+  CHECK_FALSE(map.relaxation);
+  CHECK(map.is_locally_injective);
+}
+
+TEST_CASE("Floater's three triangles are unfolded in place") {
+  for (const double offset : {-1.0, -2.0, -5.0}) {
+    const Input input(floater(offset));
+    const ComplexVector z = conformal_map(input.patch);
+    const FoldFreeMap map = input.solve(z);
+    CHECK(map.folded_before >= 1);
+    CHECK(map.folded == 0);
+    CHECK(map.is_locally_injective);
+    CHECK(input.is_fold_free(map.z));
+  }
+}
+
+TEST_CASE("a map that winds round twice inside is given up for an embedding") {
+  // z^2 on a grid around 0: no flip, but its boundary and the triangles at 0 go round twice.
+  Mesh mesh = flat_grid(8, 8);
+  for (auto& p : mesh.points) p -= Eigen::Vector3d(4, 4, 0);
+  mesh.points[40] = {0, 0, 0};
+  const Input input(mesh);
+  ComplexVector z = flat_map(input.patch.positions);
+  for (Complex& value : z) value *= value;
+  const FoldFreeMap map = input.solve(z);
+  CHECK(map.is_embedding);
+  REQUIRE(map.relaxation);
+  CHECK(map.relaxation->status == DescentStatus::converged);
+  CHECK(map.relaxation->energy < map.relaxation->energy_before);
+  CHECK(map.is_locally_injective);
+  CHECK(input.is_fold_free(map.z));
+  // The patch is flat: relaxed, the embedding is nearly a similarity.
+  CHECK(difference_up_to_similarity(map.z, flat_map(input.patch.positions)) < 0.05);
+}
+
+TEST_CASE("without a map, with holes and with quads there is an embedding, nearly as good as the conformal map") {
+  for (const Mesh& mesh : {bumpy_grid(10, 8), perforated_grid(12, 9), quad_grid(6, 5), spiky_grid(2, 1.0)}) {
+    const Input input(mesh);
+    const FoldFreeMap map = input.solve({});
+    CHECK(map.is_embedding);
+    CHECK(map.is_locally_injective);
+    CHECK(input.is_fold_free(map.z));
+    const auto mean = [&](const ComplexVector& z) {
+      return measure_distortion(input.patch.positions, input.patch.chart.triangles, input.patch.chart.triangle_weights,
+                                z)
+          .mean_qc;
+    };
+    CHECK(mean(map.z) < mean(conformal_map(input.patch)) + 0.05);
+  }
+}
+
+TEST_CASE("held vertices stay, and no embedding replaces them") {
+  Input input(flat_grid(5, 5));
+  ComplexVector z = flat_map(input.patch.positions);
+  z[14] += Complex(2.0, 0);
+  input.held.assign(static_cast<std::size_t>(z.size()), 1);
+  const FoldFreeMap map = input.solve(z);
+  CHECK(map.folded > 0);
+  CHECK_FALSE(map.is_embedding);
+  CHECK(map.z == z);
+}
+
+TEST_CASE("it can be cancelled at every report") {
+  const Input input(spiky_grid(1, 3.0));
+  for (int allowed = 0; allowed < 40; ++allowed) {
+    int reports = 0;
+    try {
+      input.solve({}, [&](double, const char*) { return reports++ < allowed; });
+      CHECK(reports <= allowed);
+    } catch (const Cancelled&) {
+      CHECK(reports == allowed + 1);
+    }
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

@@ -1,0 +1,258 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "conformal/placement.h"
+#include "meshes.h"
+#include "spectral_conformal/distortion.h"
+#include "spectral_conformal/errors.h"
+#include "spectral_conformal/parameterize.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+Solver solver(const Patch& patch, Weights weights = Weights::uniform,
+              BoundaryMeasure boundary = BoundaryMeasure::length,
+              FactorizationBackend backend = FactorizationBackend::automatic) {
+  return {patch.chart, patch.positions, PatchOptions{weights, boundary, backend}};
+}
+
+Parameterization solve(const Patch& patch, Method method, Weights weights = Weights::uniform) {
+  return solver(patch, weights).solve({method}, {});
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("parameterize");
+
+TEST_CASE("flat patches come back as themselves, by every method, at any scale and place") {
+  const Mesh meshes[] = {flat_grid(12, 9), quad_grid(12, 9)};
+  for (const Mesh& flat : meshes) {
+    for (const double scale : {1e-15, 1.0, 1e15}) {
+      Mesh mesh = flat;
+      for (auto& p : mesh.points) p = scale * (p + Eigen::Vector3d(100, -70, 30));
+      const Patch patch(mesh);
+      for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+        for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+          const Parameterization map = solve(patch, method, weights);
+          CHECK(map.turning_number == 1);
+          CHECK_MESSAGE(map.message.empty(), map.message);
+          const Distortion distortion =
+              measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
+          CHECK(distortion.max_qc - 1 < 1e-9);
+          CHECK(distortion.log2_scale.cwiseAbs().maxCoeff() < 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the eigenvalue is that of L z = lambda B z in the units of the input") {
+  Mesh mesh = perforated_grid(7, 7);
+  for (auto& p : mesh.points) p *= 3;
+  const Patch patch(mesh);
+  for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+    const ConformalEnergy energy = patch.energy(weights);
+    // Weights 1 / |T| instead of mean / |T|.
+    const Eigen::MatrixXcd matrix = dense(energy.matrix()) / energy.weight_unit();
+    const auto n = static_cast<int>(matrix.cols());
+    for (const auto boundary : {BoundaryMeasure::length, BoundaryMeasure::vertex}) {
+      const BoundaryForm form = boundary_form(patch.outer(), patch.positions, boundary);
+      // The largest mu of B^ z = mu (L + B + 1 1^T) z among those orthogonal to the constants: mu = 1 / (lambda + 1).
+      Eigen::VectorXcd mass = Eigen::VectorXcd::Zero(n);
+      for (std::size_t i = 0; i < form.vertices.size(); ++i) mass[form.vertices[i]] = form.mass[i];
+      const Eigen::MatrixXcd projected = Eigen::MatrixXcd(mass.asDiagonal()) - mass * mass.transpose() / form.total();
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> reference(
+          projected, matrix + projected + Eigen::MatrixXcd::Ones(n, n));
+      const double expected = 1 / reference.eigenvalues()[n - 1] - 1;
+      for (const auto backend : backends()) {
+        const Parameterization map = solver(patch, weights, boundary, backend).solve({Method::spectral}, {});
+        CHECK(map.eigenvalue == doctest::Approx(expected).epsilon(1e-8));
+        CHECK(map.residual < 1e-10);
+        CHECK(map.iterations > 0);
+        CHECK(difference_up_to_similarity(map.z, reference.eigenvectors().col(n - 1)) < 1e-6);
+        CHECK(energy.value(map.z) / energy.weight_unit() / form.value(map.z) ==
+              doctest::Approx(map.eigenvalue).epsilon(1e-9));
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> fiedler(matrix);
+    CHECK(solve(patch, Method::fiedler, weights).eigenvalue == doctest::Approx(fiedler.eigenvalues()[1]).epsilon(1e-8));
+    const Parameterization area = solve(patch, Method::area, weights);
+    CHECK(area.eigenvalue == doctest::Approx(energy.value(area.z) / energy.area_form(area.z)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("maps are centred, positively oriented and as large as the surface") {
+  const Patch patch(perforated_grid(10, 7));
+  const ConformalEnergy energy = patch.energy(Weights::uniform);
+  for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+    const Parameterization map = solve(patch, method);
+    CHECK(std::abs(map.z.mean()) < 1e-12);
+    CHECK(signed_area(energy, map.z) == doctest::Approx(energy.area()).epsilon(1e-12));
+    CHECK(map.turning_number == 1);
+    CHECK_FALSE(map.timings.empty());
+    for (const auto& [phase, seconds] : map.timings) CHECK((seconds >= 0 && !phase.empty()));
+  }
+}
+
+TEST_CASE("a solver object gives the same map again, and as a fresh one does") {
+  const Patch patch(bumpy_grid(10, 8));
+  Solver kept = solver(patch);
+  const ComplexVector first = kept.solve({Method::spectral}, {}).z;
+  CHECK(kept.solve({Method::fiedler}, {}).z != first);
+  CHECK(kept.solve({Method::spectral}, {}).z == first);
+  CHECK(solve(patch, Method::spectral).z == first);
+}
+
+TEST_CASE("a mirror-symmetric quad mesh has a mirror-symmetric map") {
+  Mesh mesh = quad_grid(10, 6);
+  for (auto& p : mesh.points) p = {p.x() - 5, p.y(), std::cos(0.5 * (p.x() - 5)) * (1 + 0.3 * p.y())};
+  const Patch patch(mesh);
+  for (const auto weights : {Weights::uniform, Weights::inverse_area}) {
+    const ComplexVector z = solve(patch, Method::spectral, weights).z;
+    ComplexVector mirrored(z.size());
+    for (int j = 0; j <= 6; ++j) {
+      for (int i = 0; i <= 10; ++i) mirrored[11 * j + i] = z[11 * j + 10 - i];
+    }
+    CHECK(difference_up_to_similarity(mirrored.conjugate(), z) < 1e-7);
+  }
+}
+
+TEST_CASE("LSCM: two or more pins are held exactly, one places the map, none leaves it to the method") {
+  const Patch patch(perforated_grid(7, 7));
+  Solver kept = solver(patch);
+  const Pins pins{{0, {10, 20}}, {30, {14, 20.5}}, {51, {12, 25}}};
+  const Parameterization held = kept.solve({Method::lscm}, pins);
+  for (const auto& [vertex, position] : pins) CHECK(held.z[vertex] == position);
+  CHECK(held.residual < 1e-10);
+  const Parameterization placed = kept.solve({Method::lscm}, {{5, {3, 4}}});
+  const Parameterization free = kept.solve({Method::lscm}, {});
+  CHECK(placed.z[5] == Complex(3, 4));
+  CHECK(difference_up_to_similarity(placed.z, free.z) < 1e-12);
+}
+
+TEST_CASE("pins that cannot be used are refused") {
+  const Patch patch(bumpy_grid(4, 4));
+  Solver kept = solver(patch);
+  CHECK_THROWS_AS(kept.solve({Method::lscm}, {{0, 1.0}, {3, 1.0}}), InvalidMesh);
+  const double infinite = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(kept.solve({Method::lscm}, {{0, 1.0}, {3, infinite}}), InvalidMesh);
+}
+
+TEST_CASE("hard pins are held by pinned LSCM for 'spectral', and refused by the methods that hold none") {
+  const Patch patch(bumpy_grid(5, 4));
+  const Pins pins{{0, {1, 2}}, {5, {6, 2}}, {29, {6, 7}}};
+  const Parameterization held = solver(patch).solve({Method::spectral}, pins);
+  CHECK(held.method == Method::lscm);
+  CHECK(held.eigenvalue_of == EigenvalueOf::map);
+  CHECK(held.z == solver(patch).solve({Method::lscm}, pins).z);
+  for (const auto method : {Method::fiedler, Method::area}) {
+    CHECK_THROWS_AS(solver(patch).solve({method}, pins), InvalidMesh);
+    CHECK(solver(patch).solve({method}, {{0, {1, 2}}}).method == method);
+  }
+  SolveOptions soft;
+  soft.soft_pins = 1;
+  CHECK(solver(patch).solve(soft, pins).method == Method::spectral);
+  SolveOptions forced;
+  forced.hole_rigidity = 1;
+  CHECK_THROWS_AS(solver(patch).solve(forced, pins), InvalidMesh);
+}
+
+TEST_CASE("a map that winds twice under forces is a failure that names them") {
+  const Patch patch(bumpy_grid(8, 8));
+  SolveOptions options;
+  options.extenders = {{{20}, {60}, -1000}};
+  CHECK_THROWS_WITH_AS(solver(patch).solve(options, {}),
+                       "The boundary of the map winds round 2 times instead of once: weaken or remove extenders, or "
+                       "lower the hole rigidity.",
+                       SolveFailure);
+}
+
+TEST_CASE("vertices that no face uses, and holes, are no obstacle") {
+  Mesh mesh = perforated_grid(7, 7);
+  mesh.points.insert(mesh.points.begin(), {9, 9, std::numeric_limits<double>::quiet_NaN()});
+  for (int& corner : mesh.corners) ++corner;
+  const Patch patch(mesh);
+  CHECK(patch.chart.n_vertices() == 64);
+  CHECK(solve(patch, Method::spectral).z.allFinite());
+}
+
+TEST_CASE("an energy that vanishes altogether is a failure, not a result") {
+  Patch patch(bumpy_grid(4, 4));
+  std::fill(patch.chart.triangle_weights.begin(), patch.chart.triangle_weights.end(), 0.0);
+  for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+    for (const auto backend : backends()) {
+      Solver empty = solver(patch, Weights::uniform, BoundaryMeasure::length, backend);
+      CHECK_THROWS_AS(empty.solve({method}, {}), SolveFailure);
+    }
+  }
+}
+
+TEST_CASE("progress runs from 0 to 1 and can stop every method") {
+  const Patch patch(bumpy_grid(9, 9));
+  for (const auto method : {Method::spectral, Method::lscm, Method::fiedler, Method::area}) {
+    double last = 0;
+    int calls = 0;
+    solver(patch).solve({method}, {}, [&](double fraction, const char*) {
+      CHECK((fraction >= last && fraction <= 1));
+      last = fraction;
+      ++calls;
+      return true;
+    });
+    CHECK(calls > 1);
+    for (int stop_at = 1; stop_at <= calls; ++stop_at) {
+      int call = 0;
+      const Progress stop = [&](double, const char*) { return ++call < stop_at; };
+      CHECK_THROWS_AS(solver(patch).solve({method}, {}, stop), Cancelled);
+    }
+  }
+}
+
+TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies between") {
+  const Patch patch(bumpy_grid(12, 10));
+  double last = std::numeric_limits<double>::infinity();
+  for (const double amount : {0.0, 0.5, 1.0}) {
+    PatchOptions options;
+    options.area_blend = amount;
+    Solver blended(patch.chart, patch.positions, options);
+    const Parameterization map = blended.solve({}, {});
+    const Distortion measured =
+        measure_distortion(patch.positions, patch.chart.triangles, patch.chart.triangle_weights, map.z);
+    CHECK(measured.log2_scale_deviation < last);
+    last = measured.log2_scale_deviation;
+    CHECK(std::count(measured.flipped.begin(), measured.flipped.end(), true) == 0);
+    // The map of a metric is conformal for it.
+    if (amount == 1.0) CHECK(map.eigenvalue < 1e-20);
+    // Pinned maps keep to the metric too.
+    const Pins pins{{0, map.z[0]}, {5, map.z[5]}};
+    if (amount == 1.0) CHECK(difference(blended.solve({Method::lscm}, pins).z, map.z) < 1e-8);
+  }
+  const Progress stop = [](double fraction, const char*) { return fraction < 0.3; };
+  PatchOptions options;
+  options.area_blend = 1;
+  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, options).solve({}, {}, stop), Cancelled);
+}
+
+TEST_CASE("the area blend with filled holes") {
+  const Patch patch(perforated_grid(10, 10));
+  PatchOptions options;
+  options.fill_holes = true;
+  options.area_blend = 1;
+  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  CHECK(map.z.size() == patch.positions.rows());
+  CHECK(map.eigenvalue < 1e-20);
+}
+
+TEST_CASE("a metric that is not positive definite is refused") {
+  const Patch patch(bumpy_grid(4, 3));
+  std::vector<TriangleMetric> metric(patch.chart.triangles.size());
+  metric[3] = {1, 2, 1};
+  CHECK_THROWS_AS(Solver(patch.chart, patch.positions, PatchOptions{}, metric), InvalidMesh);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

@@ -1,0 +1,172 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "meshes.h"
+#include "quality/flips.h"
+#include "quality/map_degree.h"
+#include "quality/overlap.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+bool certainly_injective(const Patch& patch, const ComplexVector& z) {
+  return non_positive_triangles(patch.chart.triangles, z).empty() &&
+         has_degree_at_most_one(patch.chart.boundary_loops, z);
+}
+
+bool overlaps(const Patch& patch, const ComplexVector& z) {
+  const std::vector<bool> overlapping = overlapping_triangles(patch.chart.triangles, z);
+  return std::find(overlapping.begin(), overlapping.end(), true) != overlapping.end();
+}
+
+bool folds(const Patch& patch, const ComplexVector& z) {
+  return std::any_of(patch.chart.triangles.begin(), patch.chart.triangles.end(), [&](const std::array<int, 3>& t) {
+    return std::imag(std::conj(z[t[1]] - z[t[0]]) * (z[t[2]] - z[t[0]])) <= 0;
+  });
+}
+
+ComplexVector mapped(const Patch& patch, const std::function<Complex(double, double)>& map) {
+  ComplexVector z(patch.positions.rows());
+  for (Eigen::Index v = 0; v < z.size(); ++v) z[v] = map(patch.positions(v, 0), patch.positions(v, 1));
+  return z;
+}
+
+/// Bends a strip along x to an arc of the given angle per unit of x, with radius 10 in its middle.
+std::function<Complex(double, double)> bent(double angle, double middle, double widening = 0) {
+  return [=](double x, double y) { return std::polar(10 + widening * x + y - middle, -angle * x); };
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("map_degree");
+
+TEST_CASE("flat patches, with and without holes, are injective; mirrored ones are not oriented") {
+  for (const Mesh& mesh : {flat_grid(12, 9), perforated_grid(12, 9)}) {
+    const Patch patch(mesh);
+    const ComplexVector z = flat_map(patch.positions);
+    CHECK(certainly_injective(patch, std::polar(1e-8, 0.7) * z));
+    CHECK(certainly_injective(patch, (z.array() + Complex(1e6, -1e6)).matrix()));
+    CHECK_FALSE(certainly_injective(patch, z.conjugate()));
+  }
+}
+
+TEST_CASE("a strip bent past itself overlaps without a flip, one that spirals outwards does not overlap") {
+  const Patch patch(flat_grid(40, 4));
+  for (const auto& [angle, widening, overlapping] :
+       {std::array<double, 3>{0.14, 0, 0}, {0.2, 0, 1}, {0.35, 0, 1}, {0.25, 0.25, 0}, {0.25, 0.05, 1}}) {
+    CAPTURE(angle);
+    CAPTURE(widening);
+    const ComplexVector z = mapped(patch, bent(angle, 2, widening));
+    REQUIRE_FALSE(folds(patch, z));
+    CHECK(overlaps(patch, z) == (overlapping != 0));
+    CHECK(certainly_injective(patch, z) == (overlapping == 0));
+  }
+}
+
+TEST_CASE("a boundary that winds twice round a branch point, without a flip") {
+  Mesh fan;
+  constexpr int n = 24;
+  for (int i = 0; i < n; ++i) fan.points.emplace_back(std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0);
+  fan.points.emplace_back(0, 0, 0);
+  for (int i = 0; i < n; ++i) fan.add({i, (i + 1) % n, n});
+  const Patch patch(fan);
+  // Farther out on the second round, so that the boundary crosses itself in one place only.
+  ComplexVector z(n + 1);
+  for (int i = 0; i < n; ++i) z[i] = std::polar(1 + 0.05 * i, 4 * pi * i / n);
+  z[n] = 0;
+  REQUIRE_FALSE(folds(patch, z));
+  CHECK(overlaps(patch, z));
+  CHECK_FALSE(certainly_injective(patch, z));
+}
+
+TEST_CASE("an annulus that winds twice") {
+  const Patch patch(perforated_grid(3, 3));
+  REQUIRE(patch.chart.boundary_loops.size() == 2);
+  ComplexVector squared = flat_map(patch.positions);
+  for (Complex& p : squared) p = (p - Complex(1.5, 1.5)) * (p - Complex(1.5, 1.5));
+  CHECK(overlaps(patch, squared));
+  CHECK_FALSE(has_degree_at_most_one(patch.chart.boundary_loops, squared));
+}
+
+TEST_CASE("two loops that are simple, disjoint and counter-clockwise, without a flip") {
+  // w + 1 / w maps an annulus about |w| = 1 two to one, branching at 1 and -1, its two loops to confocal ellipses.
+  constexpr int n = 24;
+  constexpr int inner = -3;
+  constexpr int outer = 5;
+  const double step = 2 * pi / n;
+  Mesh annulus;
+  for (int k = inner; k <= outer; ++k) {
+    for (int i = 0; i < n; ++i) {
+      const Complex w = std::polar(std::exp(0.5 * std::sqrt(3.0) * step * k), step * (i + (k % 2 == 0 ? 0 : 0.5)));
+      annulus.points.emplace_back(w.real(), w.imag(), 0);
+    }
+  }
+  for (int k = 0; k < outer - inner; ++k) {
+    const auto vertex = [&](int ring, int i) { return ring * n + (i + n) % n; };
+    const int shift = (k + inner) % 2 == 0 ? 0 : 1;
+    for (int i = 0; i < n; ++i) {
+      annulus.add({vertex(k, i), vertex(k + 1, i + shift - 1), vertex(k + 1, i + shift)});
+      annulus.add({vertex(k, i), vertex(k + 1, i + shift), vertex(k, i + 1)});
+    }
+  }
+  const Patch patch(annulus);
+  ComplexVector z = flat_map(patch.positions);
+  REQUIRE(certainly_injective(patch, z));
+  for (Complex& w : z) w = w + 1.0 / w;
+  REQUIRE(non_positive_triangles(patch.chart.triangles, z).empty());
+  for (const BoundaryLoop& loop : patch.chart.boundary_loops) REQUIRE(shoelace_area(loop, z) > 0);
+  CHECK(overlaps(patch, z));
+  CHECK_FALSE(has_degree_at_most_one(patch.chart.boundary_loops, z));
+}
+
+TEST_CASE("collapsed maps are not injective, tiny ones are") {
+  const Patch patch(flat_grid(6, 3));
+  const ComplexVector flat = flat_map(patch.positions);
+  const BoundaryLoop& loop = patch.outer();
+  ComplexVector collapsed = flat;
+  collapsed[loop[0]] = collapsed[loop[1]];
+  CHECK_FALSE(certainly_injective(patch, collapsed));
+  CHECK_FALSE(certainly_injective(patch, ComplexVector::Zero(flat.size())));
+  CHECK(certainly_injective(patch, 1e-200 * flat));
+}
+
+TEST_CASE("agrees with the test of all triangles on random maps") {
+  int injective = 0;
+  int unseen_by_flips = 0;
+  int folded_within = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const Patch patch(seed % 2 == 0 ? flat_grid(18, 3) : perforated_grid(18, 3));
+    const ComplexVector random = random_map(patch.positions.rows() + 2, seed + 1);
+    const double angle = 0.35 * (1 + random[0].real());
+    ComplexVector z = mapped(patch, bent(angle, 1.5, 0.6 * (1 + random[0].imag())));
+    const double noise = seed % 3 == 0 ? 0.0 : 0.25 * std::abs(random[1]);
+    z += noise * random.tail(z.size());
+    const bool found = overlaps(patch, z);
+    const bool folded = folds(patch, z);
+    CAPTURE(seed);
+    // In doubt only where the boundary touches itself, which random numbers do not make it do.
+    CHECK(certainly_injective(patch, z) == (!folded && !found));
+    // Where the boundary leaves the folded triangles to look at, they find all that the test of all pairs finds.
+    const std::vector<bool> all_pairs = overlapping_triangles(patch.chart.triangles, z);
+    std::vector<int> expected;
+    for (std::size_t t = 0; t < all_pairs.size(); ++t) {
+      if (all_pairs[t]) expected.push_back(static_cast<int>(t));
+    }
+    CHECK(overlapping_faces(patch.chart, z) == expected);
+    injective += !folded && !found ? 1 : 0;
+    unseen_by_flips += found && !folded ? 1 : 0;
+    folded_within += folded && has_degree_at_most_one(patch.chart.boundary_loops, z) ? 1 : 0;
+  }
+  REQUIRE(injective > 50);
+  REQUIRE(unseen_by_flips > 20);
+  REQUIRE(folded_within > 20);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

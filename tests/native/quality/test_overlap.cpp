@@ -1,0 +1,161 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "meshes.h"
+#include "quality/overlap.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+using Triangles = std::vector<std::array<int, 3>>;
+
+double cross(Complex a, Complex b) { return std::imag(std::conj(a) * b); }
+
+/// Area common to two triangles, by clipping one with the half-planes of the other (Sutherland and Hodgman).
+double common_area(std::array<Complex, 3> a, std::array<Complex, 3> b) {
+  if (cross(b[1] - b[0], b[2] - b[0]) < 0) std::swap(b[1], b[2]);
+  std::vector<Complex> polygon(a.begin(), a.end());
+  for (int k = 0; k < 3; ++k) {
+    const Complex side = b[(k + 1) % 3] - b[k];
+    std::vector<Complex> clipped;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Complex p = polygon[i];
+      const Complex q = polygon[(i + 1) % polygon.size()];
+      const double at_p = cross(side, p - b[k]);
+      const double at_q = cross(side, q - b[k]);
+      if (at_p >= 0) clipped.push_back(p);
+      if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) clipped.push_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    polygon = std::move(clipped);
+  }
+  double area = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) area += 0.5 * cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return std::abs(area);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("overlap");
+
+TEST_CASE("a flat mesh does not overlap, nor does one turned by any angle: neighbours only touch") {
+  const Patch patch(flat_grid(12, 9));
+  for (const double angle : {0.0, 0.3, 1.0, 2.2}) {
+    const ComplexVector z = std::polar(3.0, angle) * flat_map(patch.positions);
+    const std::vector<bool> overlapping = overlapping_triangles(patch.chart.triangles, z);
+    CHECK(std::count(overlapping.begin(), overlapping.end(), true) == 0);
+  }
+}
+
+TEST_CASE("agrees with the common area of every pair of scattered triangles") {
+  constexpr int n = 60;
+  Triangles triangles;
+  const ComplexVector random = random_map(4 * n, 11);
+  ComplexVector z(3 * n);
+  for (int t = 0; t < n; ++t) {
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    for (int k = 0; k < 3; ++k) z[3 * t + k] = 4.0 * random[4 * t] + 0.6 * random[4 * t + 1 + k];
+  }
+  const std::vector<bool> overlapping = overlapping_triangles(triangles, z);
+  int expected_count = 0;
+  for (int a = 0; a < n; ++a) {
+    bool expected = false;
+    for (int b = 0; b < n; ++b) {
+      expected |=
+          a != b && common_area({z[3 * a], z[3 * a + 1], z[3 * a + 2]}, {z[3 * b], z[3 * b + 1], z[3 * b + 2]}) > 1e-9;
+    }
+    CHECK(overlapping[a] == expected);
+    expected_count += expected ? 1 : 0;
+  }
+  REQUIRE((expected_count > 10 && expected_count < 50));
+}
+
+TEST_CASE("one inside another, two that coincide, and a folded neighbour overlap") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  ComplexVector z(6);
+  z << 0.0, 4.0, Complex(0, 4), Complex(1, 1), Complex(1.5, 1), Complex(1, 1.5);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
+  z.tail(3) = z.head(3);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
+  z.head(4) << 0.0, 1.0, Complex(0.5, 1), Complex(0.5, 0.4);
+  CHECK(overlapping_triangles({{0, 1, 2}, {1, 0, 3}}, z) == std::vector<bool>{true, true});
+  z[3] = Complex(0.5, -0.4);
+  CHECK(overlapping_triangles({{0, 1, 2}, {1, 0, 3}}, z) == std::vector<bool>{false, false});
+}
+
+TEST_CASE("contacts less deep than rounding do not count, whatever the scale") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  for (const double scale : {1e-200, 1e-12, 1.0, 1e12, 1e200}) {
+    ComplexVector z(6);
+    for (const double depth : {1e-12, 1e-6}) {
+      z << 0.0, 1.0, Complex(0, 1), Complex(0, depth), Complex(0, depth - 1), Complex(1, depth - 1);
+      z *= scale;
+      CHECK(overlapping_triangles(two, z) == std::vector<bool>{depth > 1e-9, depth > 1e-9});
+    }
+  }
+}
+
+TEST_CASE("a collapsed triangle covers nothing") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  ComplexVector z(6);
+  z << 0.0, 4.0, Complex(0, 4), Complex(1, 1), Complex(1, 1), Complex(1, 1);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{false, false});
+  z[4] = Complex(-3, -5);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{false, false});
+  z[5] = Complex(1.5, 1);
+  CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
+}
+
+TEST_CASE("a great many triangles stacked on each other are answered without looking at all pairs") {
+  constexpr int n = 300000;
+  const Triangles stack(n, {0, 1, 2});
+  ComplexVector z(3);
+  z << 0.0, 1.0, Complex(0, 1);
+  const std::vector<bool> overlapping = overlapping_triangles(stack, z);
+  CHECK(std::count(overlapping.begin(), overlapping.end(), true) == n);
+}
+
+TEST_CASE("triangles of one face do not count as covering each other, nor what single precision cannot resolve") {
+  const Triangles two{{0, 1, 2}, {3, 4, 5}};
+  ComplexVector z(6);
+  z << 0.0, 1.0, Complex(0, 1), Complex(0.1, 0.1), Complex(1.1, 0.1), Complex(0.1, 1.1);
+  CHECK(overlapping_triangles(two, z, {0, 1}) == std::vector<bool>{true, true});
+  CHECK(overlapping_triangles(two, z, {7, 7}) == std::vector<bool>{false, false});
+  for (const double depth : {1e-7, 1e-6}) {
+    z << 0.0, 1.0, Complex(0, 1), Complex(0, depth), Complex(0, depth - 1), Complex(1, depth - 1);
+    CHECK(overlapping_triangles(two, z, {}, 2.5e-7)[0] == (depth > 2.5e-7));
+    CHECK(overlapping_triangles(two, z)[0]);
+    z.array() += 100.0;
+    CHECK_FALSE(overlapping_triangles(two, z, {}, 2.5e-7)[0]);
+  }
+}
+
+TEST_CASE("overlapping faces are found, the two splits of a quad not taken for an overlap") {
+  for (const Mesh& mesh : {quad_grid(4, 1), flat_grid(4, 1)}) {
+    const Patch patch(mesh);
+    ComplexVector z = flat_map(patch.positions);
+    CHECK(overlapping_faces(patch.chart, z).empty());
+    CHECK(overlapping_faces(patch.chart, z.conjugate()).empty());
+    // Folded over at x = 3.2, so that what lies beyond covers what lies before.
+    for (Complex& p : z) p = Complex(3.2 - std::abs(p.real() - 3.2), p.imag());
+    const std::vector<int> faces = overlapping_faces(patch.chart, z);
+    CHECK_FALSE(faces.empty());
+    CHECK(std::find(faces.begin(), faces.end(), 0) == faces.end());
+    CHECK(std::is_sorted(faces.begin(), faces.end()));
+  }
+}
+
+TEST_CASE("a quad that folds over covers itself only, unless it reaches its neighbour") {
+  const Patch patch(quad_grid(2, 1));
+  ComplexVector z = flat_map(patch.positions);
+  z[0] = Complex(0.4, 0.8);  // the first quad crosses itself
+  CHECK(overlapping_faces(patch.chart, z).empty());
+  z[0] = Complex(1.4, 0.5);
+  CHECK(overlapping_faces(patch.chart, z) == std::vector<int>{0, 1});
+}
+
+TEST_CASE("no triangles") { CHECK(overlapping_triangles({}, {}).empty()); }
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

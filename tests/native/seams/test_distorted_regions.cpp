@@ -1,0 +1,75 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "meshes.h"
+#include "seams/distorted_regions.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+MappedChart mapped(const Mesh& mesh) {
+  ChartDecomposition decomposition = build_charts(mesh.view());
+  REQUIRE(decomposition.charts.size() == 1);
+  MappedChart chart = map_chart(mesh.view(), std::move(decomposition.charts.front()), {}, {});
+  REQUIRE(chart.solved);
+  return chart;
+}
+
+bool names(const std::vector<DistortedPlace>& places, int vertex) {
+  return std::any_of(places.begin(), places.end(), [&](const auto& place) { return place.vertex == vertex; });
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("distorted_regions");
+
+TEST_CASE("the tips of spikes are where the scale is smallest") {
+  const Mesh mesh = spiky_grid(2, 6);
+  const std::vector<DistortedPlace> places = scale_extrema(mesh.view(), mapped(mesh), 0);
+  REQUIRE(places.size() >= 2);
+  for (const int tip : {4 * 17 + 4, 4 * 17 + 12}) CHECK(names(places, tip));
+  for (const DistortedPlace& place : places) CHECK_FALSE(place.on_loop);
+}
+
+TEST_CASE("the far end of a tube is a place on a loop") {
+  Mesh tube;
+  constexpr int around = 12, rings = 10;
+  for (int j = 0; j < rings; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * 3.14159265358979 * i / around;
+      const double radius = 1 - 0.02 * j;  // the lower end is the longer loop
+      tube.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.5 * j);
+    }
+  }
+  for (int j = 0; j + 1 < rings; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const int next = (i + 1) % around;
+      tube.add({j * around + i, j * around + next, (j + 1) * around + next, (j + 1) * around + i});
+    }
+  }
+  const std::vector<DistortedPlace> places = scale_extrema(tube.view(), mapped(tube), 0);
+  REQUIRE_FALSE(places.empty());
+  CHECK(std::any_of(places.begin(), places.end(),
+                    [](const DistortedPlace& place) { return place.on_loop && place.vertex >= (rings - 1) * around; }));
+}
+
+TEST_CASE("a flat patch has none") {
+  const Mesh mesh = quad_grid(6, 6);
+  CHECK(scale_extrema(mesh.view(), mapped(mesh), 0).empty());
+  for (const DistortedPlace& place : angle_peaks(mesh.view(), mapped(mesh))) CHECK(place.volume < 1e-9);
+}
+
+TEST_CASE("the angles are worst at the tip of a coarse spike") {
+  const Mesh mesh = spiky_grid(1, 5);
+  const std::vector<DistortedPlace> places = angle_peaks(mesh.view(), mapped(mesh));
+  const auto worst =
+      std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.volume < b.volume; });
+  REQUIRE(worst != places.end());
+  const Eigen::Vector3d& p = mesh.points[worst->vertex];
+  CHECK((p.head<2>() - Eigen::Vector2d(4, 4)).norm() < 3);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "meshes.h"
+#include "seams/cut_surface.h"
+#include "seams/piece_seams.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// The one piece of a mesh, with its seams. Keeps what PieceSeams refers to.
+struct OnePiece {
+  Mesh mesh;
+  MirrorSymmetry symmetry;
+  std::vector<SeamPiece> pieces;
+  std::vector<int> one_chart;
+
+  explicit OnePiece(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
+    pieces = seam_pieces(mesh.view(), build_charts(mesh.view()));
+    REQUIRE(pieces.size() == 1);
+    one_chart.assign(static_cast<std::size_t>(mesh.n_faces()), 0);
+  }
+  PieceSeams seams() const {
+    return PieceSeams(pieces[0], 0, mirror_pieces(mesh.view(), build_charts(mesh.view()), pieces, symmetry)[0],
+                      symmetry);
+  }
+  std::vector<Chart> charts(const PieceSeams& seams) const {
+    PolygonMesh view = pieces[0].view();
+    const auto edges = seams.with({});
+    view.seam_edges = edges.data();
+    view.n_seam_edges = static_cast<int>(edges.size());
+    return build_charts(view).charts;
+  }
+  /// Whether the images of the edges are among them.
+  bool symmetric(const PieceSeams& seams) const {
+    std::set<std::array<int, 2>> edges;
+    for (const int e : seams.edges()) edges.insert(seams.graph().edges()[e].vertices);
+    return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      const int a = symmetry.vertex[edge[0]], b = symmetry.vertex[edge[1]];
+      return edges.count({std::min(a, b), std::max(a, b)}) == 1;
+    });
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("piece_seams");
+
+TEST_CASE("closed surfaces are opened to disks with or without holes, symmetrically") {
+  for (const Mesh& mesh : {sphere(4), torus(12, 8), double_torus()}) {
+    const OnePiece piece(mesh);
+    PieceSeams seams = piece.seams();
+    CHECK_FALSE(seams.open().empty());
+    const auto charts = piece.charts(seams);
+    REQUIRE(charts.size() == 1);
+    CHECK_FALSE(charts[0].boundary_loops.empty());
+    CHECK(handle_curves(charts[0]) == 0);
+    CHECK(piece.symmetric(seams));
+  }
+  const OnePiece odd(tetrahedron());
+  PieceSeams seams = odd.seams();
+  CHECK(seams.open().size() == 1);
+  CHECK(odd.charts(seams)[0].boundary_loops.size() == 1);
+}
+
+TEST_CASE("a patch that can be unwrapped needs no cut, one whose longest loops are a mirrored pair gets a bridge") {
+  const OnePiece disk(spiky_grid(1, 2));
+  PieceSeams none = disk.seams();
+  CHECK(none.open().empty());
+  // A tube along x, closed round z, symmetric in x: its two ends are each other's images.
+  Mesh tube;
+  for (int i = 0; i < 7; ++i) {
+    for (int k = 0; k < 10; ++k)
+      tube.points.emplace_back(i - 3, std::cos(k * 0.6283185307), std::sin(k * 0.6283185307));
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < 10; ++k)
+      tube.add({10 * i + k, 10 * i + 10 + k, 10 * i + 10 + (k + 1) % 10, 10 * i + (k + 1) % 10});
+  }
+  for (Eigen::Vector3d& p : tube.points) p.y() *= 1.2;
+  const OnePiece open(tube);
+  REQUIRE(open.symmetry.axis == 0);
+  PieceSeams seams = open.seams();
+  CHECK(seams.open().size() == 1);
+  CHECK(open.charts(seams)[0].boundary_loops.size() == 1);
+  CHECK(open.symmetric(seams));
+}
+
+TEST_CASE("a cut to a spike comes with its image, and encloses nothing") {
+  const OnePiece piece(spiky_grid(2, 5));
+  PieceSeams seams = piece.seams();
+  const SeamEdges cut = seams.cut_to(4 * 17 + 12, false, 0, piece.one_chart);
+  seams.add(cut);
+  CHECK(cut.size() == 8);
+  CHECK(seams.length(cut) > 8);
+  CHECK(piece.symmetric(seams));
+  CHECK(piece.charts(seams).size() == 1);
+  CHECK(seams.cut_to(4 * 17 + 4, false, 0, piece.one_chart).empty());  // reached by the image
+}
+
+TEST_CASE("a hole is joined to the border, not to itself") {
+  Mesh mesh = quad_grid(9, 9);
+  mesh.points[0].z() = 1e-2;  // no symmetry
+  Mesh holed;
+  holed.points = mesh.points;
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const int x = f % 9, y = f / 9;
+    if (x >= 3 && x < 6 && y >= 3 && y < 6) continue;
+    holed.add({mesh.corners.begin() + mesh.offsets[f], mesh.corners.begin() + mesh.offsets[f + 1]});
+  }
+  const OnePiece piece(holed);
+  PieceSeams seams = piece.seams();
+  seams.add(seams.cut_to(3 * 10 + 4, true, 0, piece.one_chart));
+  CHECK(seams.edges().size() == 3);
+  CHECK(piece.charts(seams)[0].boundary_loops.size() == 1);
+}
+
+TEST_CASE("parts are cut apart symmetrically") {
+  const OnePiece piece(spiky_grid(2, 5));
+  PieceSeams seams = piece.seams();
+  SeparableFaces faces;
+  faces.graph = &seams.graph();
+  faces.member.assign(piece.one_chart.size(), 1);
+  faces.area.assign(piece.one_chart.size(), 1.0);
+  for (int f = 0; f < piece.mesh.n_faces(); ++f)
+    faces.centre.push_back(piece.mesh.points[piece.mesh.corners[piece.mesh.offsets[f]]]);
+  PieceSeams along = seams;
+  along.add(along.cut_along_axis(faces));
+  CHECK(piece.charts(along).size() == 2);
+  CHECK(piece.symmetric(along));
+  seams.add(seams.cut_apart(faces, {3 * 16 + 3}, {3 * 16 + 8}, 0, piece.one_chart));
+  CHECK(piece.charts(seams).size() >= 2);
+  CHECK(piece.symmetric(seams));
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

@@ -1,0 +1,108 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshes.h"
+#include "seams/seam_graph.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+bool everywhere(int, int) { return true; }
+
+std::vector<char> only(const SeamGraph& graph, int vertex) {
+  std::vector<char> targets(static_cast<std::size_t>(graph.n_vertices()), 0);
+  targets[vertex] = 1;
+  return targets;
+}
+
+int turns(const Mesh& mesh, const SeamGraph& graph, const std::vector<int>& path) {
+  int count = 0;
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
+  for (const int edge : path) {
+    const auto [a, b] = graph.edges()[edge].vertices;
+    const Eigen::Vector3d direction = (mesh.points[b] - mesh.points[a]).cwiseAbs();
+    if (!last.isZero() && !direction.isApprox(last)) ++count;
+    last = direction;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("seam_graph");
+
+TEST_CASE("edges on the border, seams and edges of three faces are cut") {
+  Mesh mesh = quad_grid(3, 2);
+  mesh.seams = {{6, 5}, {0, 11}};
+  const SeamGraph graph(mesh.view());
+  CHECK(graph.edges().size() == 17);
+  CHECK(graph.find_edge(0, 11) == -1);
+  CHECK(graph.edges()[graph.find_edge(5, 6)].cut);
+  CHECK(graph.edges()[graph.find_edge(0, 1)].cut);
+  CHECK_FALSE(graph.edges()[graph.find_edge(1, 5)].cut);
+  Mesh fin({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  const SeamGraph finned(fin.view());
+  CHECK(finned.edges()[finned.find_edge(0, 1)].cut);
+}
+
+TEST_CASE("of the many shortest ways over a grid one with a single turn is taken") {
+  const Mesh mesh = quad_grid(9, 7);
+  const SeamGraph graph(mesh.view());
+  const std::vector<int> path = graph.path(11, only(graph, 68), [&](int e, int) { return !graph.edges()[e].cut; });
+  CHECK(path.size() == 12);
+  CHECK(turns(mesh, graph, path) == 1);
+}
+
+TEST_CASE("cut edges are free and forbidden edges are not walked") {
+  const Mesh mesh = quad_grid(6, 6);
+  const SeamGraph graph(mesh.view());
+  for (const int edge : graph.path(8, only(graph, 40), everywhere)) {
+    const bool on_border = graph.edges()[edge].cut;
+    const auto& ends = graph.edges()[edge].vertices;
+    const bool at_an_end = std::any_of(ends.begin(), ends.end(), [](int v) { return v == 8 || v == 40; });
+    CHECK((on_border || at_an_end));
+  }
+  CHECK(graph.path(8, only(graph, 40), [](int, int) { return false; }).empty());
+  CHECK(graph.path(8, only(graph, 8), everywhere).empty());
+}
+
+TEST_CASE("folded edges are cheaper, concave ones most") {
+  Mesh mesh = quad_grid(4, 2);
+  for (Eigen::Vector3d& p : mesh.points) p.z() = std::abs(p.x() - 1) < 0.5 ? 1 : std::abs(p.x() - 3) < 0.5 ? -1 : 0;
+  const SeamGraph graph(mesh.view());
+  const auto relative = [&](int a, int b) {
+    const auto& edge = graph.edges()[graph.find_edge(a, b)];
+    return edge.cost / edge.length;
+  };
+  const double ridge = relative(1, 6);
+  const double valley = relative(3, 8);
+  CHECK(valley < ridge);
+  CHECK(ridge < 1);
+  CHECK(relative(5, 6) == doctest::Approx(1));
+}
+
+TEST_CASE("distances and the tree that they come from") {
+  const Mesh mesh = quad_grid(5, 5);
+  SeamGraph graph(mesh.view());
+  std::vector<int> parent;
+  const auto inner = [&](int edge) { return !graph.edges()[edge].cut; };
+  const std::vector<double> distance = graph.distances({7}, inner, &parent);
+  CHECK(distance[7] == 0);
+  CHECK(parent[7] == -1);
+  CHECK(distance[28] == doctest::Approx(6));
+  CHECK(graph.edges()[parent[8]].vertices == std::array<int, 2>{7, 8});
+  CHECK(std::isinf(distance[0]));
+}
+
+TEST_CASE("a mesh that is none is refused") {
+  Mesh mesh = quad_grid(2, 2);
+  mesh.corners[0] = 99;
+  CHECK_THROWS_AS(SeamGraph(mesh.view()), InvalidMesh);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
