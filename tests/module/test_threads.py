@@ -142,6 +142,7 @@ def test_a_solver_is_not_called_by_its_own_progress_function():
     assert solver.solve().turning_number == 1
 
 
+@pytest.mark.slow
 def test_result_does_not_depend_on_the_thread_count():
     code = (
         "import hashlib, spectral_conformal as sc; from tests.module import meshes\n"

@@ -50,6 +50,7 @@ def compile_commands(pytestconfig):
     return flavours.configure("release")
 
 
+@pytest.mark.slow
 def test_clang_tidy(compile_commands):
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         findings = threads.map(lambda path: clang_tidy(path, compile_commands), SOURCES)
