@@ -4,17 +4,12 @@
 blender --factory-startup --python drive_adjust_extender.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import sys
-from pathlib import Path
-
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import (  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import (
     ADD,
     ADJUST,
     click_sidebar,
@@ -23,7 +18,7 @@ from extender_sidebar import (  # noqa: E402
     open_grid,
     pairs,
 )
-from session import VERDICT, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface.session import VERDICT, override, point_at, screenshot, uv, xdotool
 
 
 def raise_a_hill():

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where a problem's own solve fails, another one is solved: fields say which, and it can be forbidden."""
 
-import degenerate
-import meshes
 import numpy as np
 import pytest
-import reference
 import spectral_conformal as sc
+
+from tests.module import degenerate, meshes, reference
 
 # Surfaces so rough that the boundary of their own map winds round twice: (mesh, weights, fallback that helps).
 CASES = {

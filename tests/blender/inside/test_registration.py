@@ -6,7 +6,8 @@ import sys
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 ADDON = "spectral_unwrap"
 MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select")

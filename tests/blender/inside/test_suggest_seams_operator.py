@@ -9,7 +9,8 @@ import bpy
 import jobs
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 names = importlib.import_module("spectral_unwrap.names")
 
