@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
+#include "linear_algebra/blas_threads.h"
 #include "linear_algebra/factorization.h"
 #include "mesh/charts.h"
 

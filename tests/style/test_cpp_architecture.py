@@ -30,11 +30,11 @@ FLOORS = (
 HEADER_ONLY = {"errors", "progress", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
-    "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"factorization.cpp"}),
+    "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
     "CGAL": (r"CGAL/|boost/", {"polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),
-    "the dynamic linker": (r"dlfcn\.h", {"factorization.cpp"}),
+    "the dynamic linker": (r"dlfcn\.h|windows\.h", {"blas_threads.cpp"}),
 }
 
 

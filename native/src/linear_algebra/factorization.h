@@ -13,8 +13,9 @@ enum class FactorizationBackend {
   eigen       ///< Eigen's SimplicialLDLT
 };
 
-/// The factorisation of one Hermitian positive definite matrix and the solves with it. Owns all its memory; different
-/// objects can be used in different threads at once.
+/// The factorisation of one Hermitian positive definite matrix and the solves with it. Owns all its memory: different
+/// objects can be used in different threads at once, one object by one thread at a time (solves share its workspace).
+/// Results do not depend on the number of BLAS threads that the process has set (blas_threads.h).
 class Factorization {
  public:
   virtual ~Factorization() = default;
@@ -33,7 +34,7 @@ class Factorization {
   virtual void solve_selected(const ComplexVector& b, ComplexVector& x) = 0;
   /// x = A^-1 S b, (n,), from b on the selected vertices.
   virtual void solve_from_selected(const ComplexVector& b, ComplexVector& x) = 0;
-  /// Nonzeros of the factor, as stored.
+  /// Entries of the factor, as stored: supernodes hold some zeros.
   virtual double factor_nonzeros() const = 0;
 };
 
@@ -45,7 +46,5 @@ std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, 
 
 /// The library behind `automatic` and its version, such as "CHOLMOD 3.0.14".
 std::string factorization_library();
-/// The file of the BLAS that the factorisation's calls are bound to and what it says of itself, or "" without CHOLMOD.
-std::string blas_library();
 
 }  // namespace spectral_conformal

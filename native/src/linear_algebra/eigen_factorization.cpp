@@ -1,0 +1,64 @@
+#include "linear_algebra/eigen_factorization.h"
+
+#include <Eigen/SparseCholesky>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+/// Tells the size of the factor, which Eigen counts with ints, before there is one.
+class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
+ public:
+  double planned_nonzeros() const { return m_nonZerosPerCol.cast<double>().sum(); }
+};
+
+class EigenFactorization final : public Factorization {
+ public:
+  void analyze(const HermitianMatrix& matrix) override {
+    ldlt_.analyzePattern(matrix);
+    check_factor_size(ldlt_.planned_nonzeros());
+  }
+
+  bool factorize(const HermitianMatrix& matrix) override {
+    ldlt_.factorize(matrix);
+    // L D L^H also exists for some indefinite matrices: positive definite means positive pivots.
+    return ldlt_.info() == Eigen::Success && (ldlt_.vectorD().real().array() > 0).all();
+  }
+
+  void solve(const ComplexVector& b, ComplexVector& x) override { x = ldlt_.solve(b); }
+
+  void select(std::vector<int> vertices) override { selected_ = std::move(vertices); }
+
+  void solve_selected(const ComplexVector& b, ComplexVector& x) override {
+    ComplexVector full;
+    solve_from_selected(b, full);
+    x.resize(b.size());
+    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = full[selected_[i]];
+  }
+
+  void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
+    ComplexVector full = ComplexVector::Zero(ldlt_.rows());
+    for (Eigen::Index i = 0; i < b.size(); ++i) full[selected_[i]] = b[i];
+    x = ldlt_.solve(full);
+  }
+
+  double factor_nonzeros() const override {
+    const HermitianMatrix& factor = ldlt_.matrixL().nestedExpression();
+    return static_cast<double>(factor.nonZeros());
+  }
+
+ private:
+  SimplicialLdlt ldlt_;
+  std::vector<int> selected_;
+};
+
+}  // namespace
+
+std::unique_ptr<Factorization> make_eigen_factorization() { return std::make_unique<EigenFactorization>(); }
+
+std::string eigen_version() {
+  return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+         std::to_string(EIGEN_MINOR_VERSION);
+}
+
+}  // namespace spectral_conformal
