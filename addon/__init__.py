@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import operators, properties
-from .extenders import tracking
-from .live import following
+from . import handlers, operators, properties
 from .overlay import extender_arrows
 from .ui import menus, panels
 
@@ -19,7 +17,8 @@ bl_info = {
     "category": "UV",
 }
 
-_PARTS = (properties, tracking, operators, following, menus, panels, extender_arrows)
+# Each may use those before it: they come in this order and go in the reverse one.
+_PARTS = (properties, handlers, operators, menus, panels, extender_arrows)
 
 
 def register() -> None:

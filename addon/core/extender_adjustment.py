@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The map of the islands that an extender acts on, followed while its strength changes."""
+"""The map of the islands that extenders act on, followed while their strengths change."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from . import native, pinned_chart, placement, solve
+from . import charts, native, placement, solve
+from .errors import ReadableError
 from .mesh import PolygonMesh
 from .options import Options
 
@@ -13,38 +15,41 @@ from .options import Options
 _TOLERANCE = 1e-4
 
 
-class AdjustmentError(ValueError):
-    """The extender cannot be adjusted; the message says why and what to do."""
+class AdjustmentError(ReadableError, ValueError):
+    """The extenders cannot be adjusted; the message says why and what to do."""
 
 
 class ExtenderAdjustment:
-    """Solves the charts of one mesh again for every strength of one of its extenders, and keeps their place and size.
+    """Solves charts of one mesh again for changing strengths of extenders, and keeps their place and size.
 
     Charts and factors are kept, so that a change costs a few solves with them.
 
     Attributes:
-        corners: (N,) intp, the corners of the charts that the extender acts on, whole faces.
+        corners: (N,) intp, the corners of the charts that the extenders act on, whole faces.
+        unused: how many of the extenders had no effect on the last map.
     """
 
-    def __init__(self, mesh: PolygonMesh, options: Options, extender: tuple[int, int]) -> None:
-        """Take the charts of `mesh` that hold both vertices of `extender`.
+    def __init__(self, mesh: PolygonMesh, options: Options, pairs: Sequence[tuple[int, int]]) -> None:
+        """Take the charts of `mesh` that hold both vertices of one of the `pairs`.
 
-        Extenders of `mesh` between the same two vertices give way to the one adjusted.
+        Extenders of `mesh` between the same two vertices give way to those adjusted.
 
         Raises:
-            AdjustmentError: no chart holds both vertices.
+            AdjustmentError: no chart holds both vertices of a pair.
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
-        faces = _faces_of_charts(mesh, extender)
+        faces = charts.faces_of_charts_with(mesh, mesh.selected_faces, pairs)
         if not faces.any():
             raise AdjustmentError(
                 "The extender has no effect: its vertices lie in no common island; remove the seams between them"
             )
         self._mesh = replace(mesh, selected_faces=faces)
         self._options = options
-        self._extender = extender
-        self._others = [e for e in mesh.extenders if {e[0], e[1]} != set(extender)]
+        self._pairs = list(pairs)
+        adjusted = {frozenset(pair) for pair in pairs}
+        self._others = [extender for extender in mesh.extenders if frozenset(extender[:2]) not in adjusted]
         self.corners = np.flatnonzero(faces[mesh.face_of_corner()])
+        self.unused = 0
         try:
             self._unwrapper = native.spectral_conformal().Unwrapper(
                 mesh.vertices,
@@ -58,15 +63,16 @@ class ExtenderAdjustment:
         self._shown: np.ndarray | None = None
         self._scale: np.ndarray | None = None
 
-    def map(self, strength: float, is_final: bool = False) -> np.ndarray:
-        """Return the map at `corners`, (N, 2) float64, for a strength; `is_final` asks for all digits.
+    def map(self, strengths: Sequence[float], is_final: bool = False) -> np.ndarray:
+        """Return the map at `corners`, (N, 2) float64, for a strength of each pair; `is_final` asks for all digits.
 
         Raises:
-            AdjustmentError: an island could not be solved at this strength.
+            AdjustmentError: an island could not be solved with these strengths, or pins hold all of them.
         """
+        adjusted = [(*pair, strength) for pair, strength in zip(self._pairs, strengths)]
         try:
             result = self._unwrapper.solve(
-                extenders=[*self._others, (*self._extender, strength)],
+                extenders=[*self._others, *adjusted],
                 hole_rigidity=self._options.hole_rigidity,
                 **({} if is_final else {"tolerance": _TOLERANCE}),
             )
@@ -75,7 +81,8 @@ class ExtenderAdjustment:
         failed = [chart.message for chart in result.charts if chart.status != "solved"]
         if failed:
             raise AdjustmentError(failed[0])
-        if result.unused_extenders[-1]:
+        self.unused = int(np.count_nonzero(result.unused_extenders[len(self._others) :]))
+        if self.unused == len(self._pairs):
             raise AdjustmentError("The extender has no effect: pins hold its island; unpin it or use soft pins")
         if self._shown is None:
             self._chart = result.chart_of_face[self._mesh.face_of_corner()]
@@ -92,12 +99,3 @@ class ExtenderAdjustment:
         mapped = former_area > 0.0
         start = np.where(mapped[chart][:, None], former, placement.side_by_side(uv, np.where(mapped[chart], -1, chart)))
         return start, np.sqrt(placement.areas(start, chart, offsets, len(area)) / area)
-
-
-def _faces_of_charts(mesh: PolygonMesh, extender: tuple[int, int]) -> np.ndarray:
-    """Return which faces belong to charts with both vertices, (F,) bool."""
-    chart_of_face = pinned_chart.chart_of_face(mesh, mesh.selected_faces)
-    face_of_corner = mesh.face_of_corner()
-    charts = [set(chart_of_face[face_of_corner[mesh.corner_vertices == vertex]].tolist()) for vertex in extender]
-    common = (charts[0] & charts[1]) - {-1}
-    return np.isin(chart_of_face, list(common))

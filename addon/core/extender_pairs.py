@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .errors import ReadableError
+
 # Identifiers lie below: Blender interpolates the integers of vertices in single precision, which holds these exactly.
 ID_LIMIT = 1 << 24
 # Odd, so that multiplying by them modulo ID_LIMIT loses nothing.
@@ -30,7 +32,7 @@ class Extender:
     second_id: int
 
 
-class SelectionError(ValueError):
+class SelectionError(ReadableError, ValueError):
     """The selected vertices make no pairs; the message says what to select."""
 
 

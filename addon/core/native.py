@@ -5,11 +5,13 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
 
+from .errors import ReadableError
+
 _TOP_LEVEL = "spectral_conformal"
 _BUNDLED = f"{__package__.rpartition('.')[0]}.{_TOP_LEVEL}"
 
 
-class NativeModuleError(ImportError):
+class NativeModuleError(ReadableError, ImportError):
     """The compiled module is missing or does not fit this Blender; the message says what to do."""
 
 

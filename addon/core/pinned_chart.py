@@ -1,66 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What live unwrapping needs apart from Blender: the charts around a change, and the map for moving pins.
-
-Edges are vertex pairs in any order; `visible` (F,) bool are the faces that count, the others are as if deleted.
-"""
+"""The map of one chart while its pins move."""
 
 import numpy as np
 
 from . import native
 from .mesh import PolygonMesh
 
-# Samples kept of one chart: every pin that moves by itself needs one more.
-_MOST_SAMPLES = 12
-# Pins are single precision numbers.
+# Maps kept of one chart: every pin that moves by itself needs one more, and four at a time are many for a hand.
+_MAX_SAMPLES = 12
+# Relative; Blender keeps pins in single precision, whose spacing is 1.2e-7.
 _PIN_TOLERANCE = 1e-6
-
-
-def chart_of_face(mesh: PolygonMesh, visible: np.ndarray) -> np.ndarray:
-    """Return the chart of every face, (F,) intp, -1 for faces that are not visible; the numbers have gaps.
-
-    Charts end at seams and at edges that do not have two faces.
-    """
-    face = mesh.face_of_corner()
-    keys = _corner_edges(mesh)
-    usable = visible[face] & ~np.isin(keys, _keys(mesh, mesh.seam_edges))
-    order = np.flatnonzero(usable)
-    order = order[np.argsort(keys[order], kind="stable")]
-    _, first, count = np.unique(keys[order], return_index=True, return_counts=True)
-    first = first[count == 2]
-    a, b = face[order[first]], face[order[first + 1]]
-    chart = np.arange(len(visible))
-    while True:
-        low, high = np.minimum(chart[a], chart[b]), np.maximum(chart[a], chart[b])
-        if np.array_equal(low, high):
-            return np.where(visible, chart, -1)
-        np.minimum.at(chart, high, low)
-        while not np.array_equal(chart, chart[chart]):
-            chart = chart[chart]
-
-
-def changed_edges(before: np.ndarray, after: np.ndarray) -> np.ndarray:
-    """Return the edges, (N, 2), that stand in one of two edge lists only."""
-    edges = np.vstack([np.unique(np.sort(edges, axis=1), axis=0) for edges in (before, after)])
-    unique, count = np.unique(edges, axis=0, return_counts=True)
-    return unique[count == 1]
-
-
-def faces_of_charts_at(mesh: PolygonMesh, visible: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Return which faces, (F,) bool, belong to a chart that has one of the `edges`."""
-    chart = chart_of_face(mesh, visible)
-    beside = np.zeros(len(visible), dtype=bool)
-    beside[mesh.face_of_corner()[np.isin(_corner_edges(mesh), _keys(mesh, edges))]] = True
-    return visible & np.isin(chart, chart[beside & visible])
-
-
-def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
-    """Return the key of the edge from every corner to the next one of its face, (C,)."""
-    return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
-
-
-def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
-    ends = np.sort(np.asarray(edges, dtype=np.int64), axis=1)
-    return ends[:, 0] * len(mesh.vertices) + ends[:, 1]
 
 
 class PinnedChart:
@@ -149,8 +98,8 @@ class PinnedChart:
         if not result.solved_corners[self.corners].all() or len(result.charts) != 1:
             return None
         uv = result.uv[self.corners].astype(np.float64)
-        self._places = [*self._places, _complex(places)][-_MOST_SAMPLES:]
-        self._maps = [*self._maps, _complex(uv)][-_MOST_SAMPLES:]
+        self._places = [*self._places, _complex(places)][-_MAX_SAMPLES:]
+        self._maps = [*self._maps, _complex(uv)][-_MAX_SAMPLES:]
         return uv / self._isotropy
 
 

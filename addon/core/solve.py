@@ -21,7 +21,7 @@ class Solution:
         uv: (C, 2) float64, meaningful where `chart_of_corner` is not -1.
         chart_of_corner: (C,) intp, index into `charts` of the solved chart; -1 where the map must not change.
         charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them.
-        failed_faces: (F,) bool, the faces of failed charts.
+        failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart where all are refused.
         error: why the whole mesh was refused; empty if it was not.
         unused_extenders: number of the mesh's extenders that no solved chart could use.
     """
@@ -29,9 +29,14 @@ class Solution:
     uv: np.ndarray
     chart_of_corner: np.ndarray
     charts: Sequence[Any]
-    failed_faces: np.ndarray
+    failed_islands: np.ndarray
     error: str = ""
     unused_extenders: int = 0
+
+    @property
+    def failed_faces(self) -> np.ndarray:
+        """(F,) bool, the faces of failed charts."""
+        return self.failed_islands >= 0
 
     @property
     def solved_corners(self) -> np.ndarray:
@@ -92,14 +97,15 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
         )
     except ValueError as error:
         corners = len(mesh.corner_vertices)
-        return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), mesh.selected_faces, str(error))
+        refused = np.where(mesh.selected_faces, 0, -1)
+        return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), refused, str(error))
     chart_of_corner = result.chart_of_face[mesh.face_of_corner()]
     failed = np.array([chart.status != "solved" for chart in result.charts] + [False])
     return Solution(
         result.uv,
         np.where(result.solved_corners, chart_of_corner, -1),
         result.charts,
-        failed[result.chart_of_face],
+        np.where(failed[result.chart_of_face], result.chart_of_face, -1),
         unused_extenders=_count_unused(mesh, result.unused_extenders),
     )
 

@@ -29,13 +29,13 @@ class Subdivision:
         """Return what a solution for `mesh` says about the coarse mesh."""
         chart = solution.chart_of_corner[self.corner_of_corner]
         whole = np.logical_and.reduceat(chart >= 0, self.coarse.face_offsets[:-1])
-        failed = np.zeros(len(whole), dtype=bool)
-        failed[self.face_of_face[solution.failed_faces]] = True
+        failed = np.full(len(whole), -1)
+        failed[self.face_of_face[solution.failed_faces]] = solution.failed_islands[solution.failed_faces]
         return replace(
             solution,
             uv=solution.uv[self.corner_of_corner],
             chart_of_corner=np.where(whole[self.coarse.face_of_corner()], chart, -1),
-            failed_faces=failed,
+            failed_islands=failed,
         )
 
 

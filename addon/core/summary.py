@@ -86,10 +86,3 @@ def _mean_qc_change(charts: Sequence[Any]) -> tuple[float, float] | None:
         sum(value(chart) * (chart.area / area) for chart in mapped)
         for value in (lambda chart: chart.mean_qc_before, lambda chart: chart.mean_qc)
     )
-
-
-def count_failed(solutions: Sequence[Solution]) -> tuple[int, int]:
-    """Return the numbers of failed charts and of their faces; a mesh refused as a whole counts as one chart."""
-    charts = sum(chart.status != "solved" for solution in solutions for chart in solution.charts)
-    faces = sum(int(solution.failed_faces.sum()) for solution in solutions)
-    return charts + sum(bool(solution.error) for solution in solutions), faces

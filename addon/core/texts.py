@@ -20,8 +20,7 @@ UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
 SELECT_FAILED_LABEL = "Select Failed Islands"
 SELECT_FAILED_DESCRIPTION = (
-    f"Select the faces of the islands that {UNWRAP_LABEL} cannot solve, among the selected faces, or among all visible "
-    "ones if none is selected"
+    f"Select the visible faces of the islands that {UNWRAP_LABEL} could not solve when they were unwrapped last"
 )
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
 SELECT_DEFECTS_DESCRIPTION = (
@@ -93,11 +92,59 @@ NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge
 ADJUSTED_WITHOUT_SUBSURF = (
     "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
 )
+EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap with it"
+NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
+STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
+OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
+NO_SUCH_EXTENDER = "No such extender; choose one in the list"
+ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
+NOTHING_SELECTED = "Nothing selected; select the faces to unwrap, in the UV editor their UVs"
+MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
+NO_VISIBLE_FACES = "No visible faces to cut"
+MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
+OUT_OF_MEMORY = (
+    "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
+    "levels"
+)
+PACKED_BESIDE_FAILED = (
+    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it"
+)
+NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map to look at; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+
+
+def is_running(label: str) -> str:
+    """Return why an operator is not available while the one with this label runs."""
+    return f"{label} is running; Esc cancels it"
+
+
+def cancelled(label: str) -> str:
+    """Return what the operator with this label says when it is cancelled."""
+    return f"{label}: Cancelled"
+
+
+def progress(label: str, percent: int, phase: str) -> str:
+    """Return what the status bar shows while the operator with this label runs."""
+    return " ".join(part for part in (f"{label}: {percent} %", phase, "  Esc: Cancel") if part)
+
+
+def printed_progress(label: str, percent: int, phase: str) -> str:
+    """Return the line that tells on a terminal how far the operator with this label is."""
+    return f"{label}: {percent} % ({phase})"
+
+
+def could_not_follow(problem: str) -> str:
+    """Return the line that tells on a terminal that live unwrapping could not follow."""
+    return f"{LIVE_UNWRAP_LABEL} could not follow: {problem}"
+
+
+def not_drawn(label: str, problem: str) -> str:
+    """Return the line that tells on a terminal that something could not be drawn."""
+    return f"{label} could not be drawn: {problem}"
 
 
 def information(summary: Summary, seconds: float, where_to_see: str) -> str:
@@ -192,6 +239,42 @@ def extenders_without_strength(names: Sequence[str]) -> str:
     return f"Skipped {_count(len(names), 'extender')} whose strength is no number that it can have: {', '.join(names)}"
 
 
+def broken_extender(name: str) -> str:
+    """Return why an extender that lacks a vertex cannot be adjusted."""
+    return f"{name} is broken: a vertex of it is gone; remove it and add another"
+
+
+def adjusting(strength: str, note: str) -> str:
+    """Return what the status bar shows while a strength is dragged."""
+    return f"{ADJUST_EXTENDER_LABEL}: strength {strength}   {note}"
+
+
+def removed_broken(count: int) -> str:
+    """Return what Remove Broken says."""
+    return f"Removed broken extenders: {count}"
+
+
+def broken_extender_selected(name: str, gone: int) -> str:
+    """Return the warning that an extender lacks vertices that were to be selected."""
+    return f"{name} is broken: {gone} of its vertices gone; remove it"
+
+
+def hidden_vertices(name: str, hidden: int) -> str:
+    """Return the warning that vertices of an extender are hidden, which are not selected."""
+    return f"{name} has hidden vertices: {hidden}; reveal them to select them"
+
+
+def added_extenders(count: int, existing: int, follows: bool) -> str:
+    """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
+    parts = []
+    if count:
+        acts = "" if follows else f", which will act on the next unwrap; {ADJUST_EXTENDER_LABEL} acts at once"
+        parts.append(f"Added {_count(count, 'extender')}{acts}")
+    if existing:
+        parts.append(f"Pairs that have an extender already: {existing}")
+    return ". ".join(parts)
+
+
 def unused_extenders(count: int) -> str:
     """Return the sentence for extenders that no island could use; empty for none."""
     if count == 0:
@@ -207,6 +290,11 @@ def selected_failed(islands: int, faces: int) -> str:
     if faces == 0:
         return "No islands failed, selection unchanged"
     return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
+
+
+def changed_since_unwrapped(names: Sequence[str]) -> str:
+    """Return the warning for meshes that have other faces than when they were unwrapped."""
+    return f"Faces were added, removed or reordered since the last unwrap of {', '.join(names)}; unwrap again"
 
 
 def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
@@ -248,6 +336,12 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
     if count == total:
         return f"{_count(total, 'cut')}, length {length}"
     return f"{count} of {_count(total, 'cut')}, length {length} of {total_length}"
+
+
+def preview_status(known: str) -> str:
+    """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
+    keys = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
+    return f"{SUGGEST_SEAMS_LABEL}: {known}   {keys}"
 
 
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:

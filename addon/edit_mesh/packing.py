@@ -9,11 +9,12 @@ import bpy
 import numpy as np
 
 from .. import compatibility
+from ..core.errors import ReadableError
 from ..core.options import Margin
 from .read import EditMesh, active_uv_layer
 
 
-class PackingError(RuntimeError):
+class PackingError(ReadableError):
     """Blender's packer did not run; the message says what to do."""
 
 

@@ -61,10 +61,18 @@ def set_strength(mesh: bpy.types.Mesh, index: int, strength: float) -> None:
     of(mesh)[index].strength = strength
 
 
-def changed(extender: bpy.types.PropertyGroup) -> None:
-    """Note that an extender has been changed through its properties."""
-    if not _session.is_writing:
-        _mark(extender.id_data)
+def show_strength(mesh: bpy.types.Mesh, index: int, strength: float) -> None:
+    """Let an extender have a strength for a while, which no undo step needs to know."""
+    with _writing():
+        of(mesh)[index].strength = strength
+
+
+def changed(extender: bpy.types.PropertyGroup) -> bool:
+    """Note that an extender has been changed through its properties; return whether it was by the user or a script."""
+    if _session.is_writing:
+        return False
+    _mark(extender.id_data)
+    return True
 
 
 def renamed(extender: bpy.types.PropertyGroup) -> None:
@@ -119,8 +127,8 @@ def label(extender: bpy.types.PropertyGroup) -> str:
     return extender.name or f"{texts.EXTENDER_NAME} without a name"
 
 
-def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float) -> int:
-    """Add an extender for every pair of vertices of a mesh in edit mode that has none yet; return how many.
+def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float) -> list[tuple[int, int]]:
+    """Add an extender for every pair of vertices of a mesh in edit mode that has none yet; return these pairs.
 
     The last one becomes the active one. `pairs` are indices of vertices.
     """
@@ -129,7 +137,7 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
     present = {frozenset(pair) for pair in ends(bm, mesh)}
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
     if not fresh:
-        return 0
+        return []
     vertex_ids = _identify(bm, mesh, [vertex for pair in fresh for vertex in pair])
     taken = {extender.name for extender in of(mesh)}
     extenders = _read(mesh)
@@ -140,7 +148,7 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
     _write(mesh, extenders)
     _mark(mesh)
     set_active(mesh, len(extenders) - 1)
-    return len(fresh)
+    return fresh
 
 
 def remove(mesh: bpy.types.Mesh, indices: Sequence[int]) -> None:

@@ -2,17 +2,16 @@
 """Keeps track of the extenders of meshes in edit mode: their vertices, for what is drawn, and their lists after undo.
 
 A track keeps Blender's Python wrapper of the edit mesh alive, because making or freeing one moves the UVs in memory, to
-which a running transform holds pointers. So wrappers are made in handlers, which run before a transform can start, and
-never while drawing.
+which a running transform holds pointers. So wrappers are made in handlers (handlers.py), which run before a transform
+can start, and never while drawing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import bmesh
 import bpy
 from bmesh.types import BMesh, BMVert
-from bpy.app.handlers import persistent
 
 from . import storage
 
@@ -71,60 +70,29 @@ def _vertex_ids(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     return [(extender.first_id, extender.second_id) for extender in storage.of(mesh)]
 
 
-def _follow(meshes: Sequence[bpy.types.Mesh]) -> None:
-    """Start to track those of the `meshes` that are in edit mode and have extenders; forget those that left it."""
-    for key in [key for key, tracked in _tracks.items() if not tracked.bm.is_valid]:
-        del _tracks[key]
+def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
+    """Start to track those of the `meshes`, all in edit mode, that have extenders; forget those that left it."""
+    forget_left()
     for mesh in meshes:
-        if mesh.is_editmode and storage.of(mesh) and mesh.as_pointer() not in _tracks:
+        if storage.of(mesh) and mesh.as_pointer() not in _tracks:
             storage.remember(mesh)
             _tracks[mesh.as_pointer()] = _resolved(bmesh.from_edit_mesh(mesh), mesh)
 
 
-@persistent
-def _on_depsgraph_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    updated = [update.id.original for update in depsgraph.updates if update.is_updated_geometry]
-    meshes = [block.data if isinstance(block, bpy.types.Object) else block for block in updated]
-    _follow([mesh for mesh in meshes if isinstance(mesh, bpy.types.Mesh)])
+def follow_after_undo(meshes: Sequence[bpy.types.Mesh]) -> None:
+    """Track the `meshes`, all in edit mode, anew after an undo or redo, with the lists that go with them."""
+    forget()
+    for mesh in meshes:
+        storage.restore(mesh)
+    follow(meshes)
 
 
-@persistent
-def _after_undo(*_arguments: object) -> None:
-    _tracks.clear()
-    for mesh in bpy.data.meshes:
-        if mesh.is_editmode:
-            storage.restore(mesh)
-    _follow(bpy.data.meshes)
+def forget_left() -> None:
+    """Let meshes go that have left edit mode."""
+    for key in [key for key, tracked in _tracks.items() if not tracked.bm.is_valid]:
+        del _tracks[key]
 
 
-@persistent
-def _before_load(*_arguments: object) -> None:
-    _tracks.clear()
-    storage.forget()
-
-
-@persistent
-def _after_load(*_arguments: object) -> None:
-    _follow(bpy.data.meshes)
-
-
-_HANDLERS = (
-    ("depsgraph_update_post", _on_depsgraph_update),
-    ("undo_post", _after_undo),
-    ("redo_post", _after_undo),
-    ("load_pre", _before_load),
-    ("load_post", _after_load),
-)
-
-
-def register() -> None:
-    """Add the handlers."""
-    for event, handler in _HANDLERS:
-        getattr(bpy.app.handlers, event).append(handler)
-
-
-def unregister() -> None:
-    """Remove the handlers and let the meshes go."""
-    for event, handler in _HANDLERS:
-        getattr(bpy.app.handlers, event).remove(handler)
+def forget() -> None:
+    """Let all meshes go."""
     _tracks.clear()

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's operators: thin classes; the work is in the plain functions beside this package."""
+"""The add-on's operators: thin classes; the work is in the plain functions of the other folders."""
 
 import bpy
 
+from ..unwrapping import last_result
+from . import extender_adjust, job_operator
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,
 )
-from .select_defects import UV_OT_spectral_select_defects
-from .select_failed import UV_OT_spectral_select_failed
+from .select import UV_OT_spectral_select_defects, UV_OT_spectral_select_failed
 from .suggest_seams import UV_OT_spectral_suggest_seams
 from .unwrap import UV_OT_spectral_unwrap
 
@@ -26,6 +27,12 @@ _CLASSES = (
 )
 
 
+def before_load() -> None:
+    """End the job that is under way, and forget what the file that is about to be left has to do with."""
+    job_operator.end_all()
+    last_result.forget()
+
+
 def register() -> None:
     """Register all operators."""
     for cls in _CLASSES:
@@ -33,6 +40,11 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Unregister all operators."""
+    """End what is under way and unregister all operators.
+
+    Blender drops running operators whose class goes without calling `cancel`.
+    """
+    before_load()
+    extender_adjust.end_running()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that changes an extender's strength while its island follows."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
 from .. import names
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError
-from ..core.native import NativeModuleError
 from ..core.typed_number import TypedNumber
-from ..extenders import storage
-from ..extenders.adjusted_map import AdjustedMap
+from ..live import adjusted_map
+from ..live.adjusted_map import AdjustedMap
 from ..ui import progress
+from .extender_list import INDEX, ExtenderOperator
 
-# Change of strength per pixel, and what Shift makes of it.
+# Change of strength per pixel: a tenth of a screen's width makes 1, the strength that counts like the whole border.
 _STEP = 0.01
+# What Shift makes of it, as in Blender's own transforms.
 _PRECISION = 0.1
 
 
-class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
+class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
     """Change the strength of an extender, and the map of its island with it."""
 
     bl_idname = names.ADJUST_EXTENDER_OPERATOR
@@ -26,70 +30,72 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
     bl_description = texts.ADJUST_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
-    index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
+    index: IntProperty(**INDEX)
     strength: FloatProperty(**names.EXTENDER_STRENGTH)
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where the active mesh in edit mode has extenders."""
-        return context.mode == "EDIT_MESH" and len(storage.of(context.edit_object.data)) > 0
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Set the strength and solve the island again."""
-        adjusted = self._adjusted(context)
-        return self._keep(adjusted) if adjusted else {"CANCELLED"}
+        return self._keep(self._adjusted(context))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin to drag at the strength that the extender has."""
-        adjusted = self._adjusted(context)
-        if adjusted is None:
-            return {"CANCELLED"}
-        self._map = adjusted
-        self._dragged = self.strength = adjusted.start
-        self._mouse_x = event.mouse_x
-        self._typed = TypedNumber()
-        self._problem = ""
-        self._show(context)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        """Begin to drag at the strength that the extender has; where nobody can drag, set the strength at once."""
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        return self.reporting(self._begin, context, event)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Drag, type, confirm or cancel; view navigation goes on."""
-        if context.mode != "EDIT_MESH" or not self._map.is_valid:
-            self._end(context)
-            return {"CANCELLED"}
-        if event.type == "MOUSEMOVE":
-            self._drag(context, event)
-        elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self.cancel(context)
-            return {"CANCELLED"}
-        elif event.type in {"LEFTMOUSE", "RET", "NUMPAD_ENTER"} and event.value == "PRESS":
-            self._end(context)
-            return self._keep(self._map)
-        elif event.value == "PRESS" and self._type(event):
-            self._show(context)
-        elif progress.moves_view(event):
-            return {"PASS_THROUGH"}
-        return {"RUNNING_MODAL"}
+        return self.reporting(self._handle, context, event)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Give the map back as it was. Blender calls it on closing, too."""
+        """Give map and strength back as they were. Blender calls it on closing, too."""
         self._end(context)
-        if self._map.is_valid:
+        if self._map.is_shown:
             self._map.restore()
 
-    def _adjusted(self, context: bpy.types.Context) -> AdjustedMap | None:
-        """Return the map to adjust; None having reported why there is none."""
-        mesh = context.edit_object.data
-        index = storage.active_index(mesh) if self.index < 0 else self.index
-        if not 0 <= index < len(storage.of(mesh)):
-            self.report({"ERROR"}, "No such extender; choose one in the list")
-            return None
+    def _begin(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        self._map = self._adjusted(context)
+        self._dragged = self.strength = self._map.start
+        self._mouse_x = event.mouse_x
+        self._typed = TypedNumber()
+        self._problem = ""
+        with self._restored_on_error(context):
+            self._show(context)
+            context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        is_over = context.mode != "EDIT_MESH" or not self._map.is_shown or not self._map.is_valid
+        if is_over or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
+            self.cancel(context)
+            return {"CANCELLED"}
+        with self._restored_on_error(context):
+            if event.type == "MOUSEMOVE":
+                self._drag(context, event)
+            elif event.type in {"LEFTMOUSE", "RET", "NUMPAD_ENTER"} and event.value == "PRESS":
+                self._end(context)
+                return self._keep(self._map)
+            elif event.value == "PRESS" and self._type(event):
+                self._show(context)
+            elif progress.moves_view(event):
+                return {"PASS_THROUGH"}
+        return {"RUNNING_MODAL"}
+
+    @contextmanager
+    def _restored_on_error(self, context: bpy.types.Context) -> Iterator[None]:
         try:
-            adjusted = AdjustedMap(context, index)
-        except (AdjustmentError, NativeModuleError) as error:
-            self.report({"ERROR"}, str(error))
-            return None
+            yield
+        except BaseException:
+            self.cancel(context)
+            raise
+
+    def _adjusted(self, context: bpy.types.Context) -> AdjustedMap:
+        """Return the map to adjust.
+
+        Raises:
+            ReadableError: there is none.
+        """
+        adjusted = AdjustedMap(context, self.chosen(context.edit_object.data))
         if adjusted.note:
             self.report({"INFO"}, adjusted.note)
         return adjusted
@@ -121,25 +127,33 @@ class MESH_OT_spectral_extender_adjust(bpy.types.Operator):
         except AdjustmentError as error:
             self._problem = str(error)
         number = f"[{self._typed.text}|]" if self._typed.text else f"{self.strength:.3f}"
-        keys = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
-        text = f"{texts.ADJUST_EXTENDER_LABEL}: strength {number}   {self._problem or keys}"
-        context.workspace.status_text_set(text)
+        context.workspace.status_text_set(texts.adjusting(number, self._problem or texts.ADJUST_EXTENDER_KEYS))
         for area in context.screen.areas:
             if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
                 area.tag_redraw()
 
     def _keep(self, adjusted: AdjustedMap) -> set[str]:
-        """Write the map of the strength in full precision and store the strength."""
+        """Write the map of the strength in full precision and store the strength.
+
+        Raises:
+            AdjustmentError: an island could not be solved; everything is as it was.
+        """
         try:
             adjusted.show(self.strength, is_final=True)
-        except AdjustmentError as error:
+            adjusted.keep(self.strength)
+        except BaseException:
             adjusted.restore()
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        adjusted.keep(self.strength)
+            raise
         return {"FINISHED"}
 
     def _end(self, context: bpy.types.Context) -> None:
         # Blender has no workspace while it closes or loads a file.
         if context.workspace is not None:
             context.workspace.status_text_set(None)
+
+
+def end_running() -> None:
+    """End a running drag as Esc does: Blender lets go of an operator that is unregistered without telling it."""
+    if adjusted_map.give_up():
+        for window in bpy.context.window_manager.windows:
+            window.workspace.status_text_set(None)

@@ -1,18 +1,67 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators that add extenders to meshes in edit mode, remove them and select their vertices."""
 
+from collections.abc import Mapping
+
 import bmesh
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
 from ..core import texts
+from ..core.errors import ReadableError
 from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
 from ..edit_mesh import selection
 from ..extenders import storage
+from ..live import following
+from .reporting_operator import ReportingOperator
+
+# Panels set these for one click; the next does not remember them, and Adjust Last Operation does not show them.
+FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
+# Arguments of the property of every operator on one extender.
+INDEX = {
+    "name": "Index",
+    "description": "Place in the list, -1 for the active extender",
+    "default": -1,
+    "min": -1,
+    "options": FOR_ONE_CALL,
+}
 
 
-class MESH_OT_spectral_extender_add(bpy.types.Operator):
+class ExtenderOperator(ReportingOperator):
+    """What the operators on extenders of the active object's mesh share."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where the active mesh in edit mode has extenders."""
+        return context.mode == "EDIT_MESH" and len(storage.of(context.edit_object.data)) > 0
+
+    def chosen(self, mesh: bpy.types.Mesh) -> int:
+        """Return the index of the extender to work on.
+
+        Raises:
+            SelectionError: there is none.
+        """
+        index = storage.active_index(mesh) if self.index < 0 else self.index
+        if not 0 <= index < len(storage.of(mesh)):
+            raise SelectionError(texts.NO_SUCH_EXTENDER)
+        return index
+
+    def let_follow(self, edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]) -> None:
+        """Let the map follow changed extenders at once, in the operator's own undo step; report where it cannot."""
+        if not strengths:
+            return
+        try:
+            note = following.follow_extenders(edit_object, strengths)
+        except ReadableError as error:
+            note = str(error)
+        except MemoryError:
+            note = texts.OUT_OF_MEMORY_TO_FOLLOW
+        if note:
+            self.report({"WARNING"}, note)
+
+
+class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
     """Add extenders between the selected vertices of every mesh in edit mode."""
 
     bl_idname = names.ADD_EXTENDER_OPERATOR
@@ -33,24 +82,23 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
         """Allow the operator where a mesh is in edit mode."""
         return context.mode == "EDIT_MESH"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Make the pairs of all meshes before any is added."""
         if self.strength != self.strength:
-            self.report({"ERROR"}, "The strength must be a number, not nan")
-            return {"CANCELLED"}
-        try:
-            pairs = self._pairs(context)
-        except SelectionError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        added = sum(storage.add(mesh, mesh_pairs, self.strength) for mesh, mesh_pairs in pairs.items())
-        skipped = sum(map(len, pairs.values())) - added
-        if skipped:
-            self.report({"INFO" if added else "WARNING"}, f"Pairs that have an extender already: {skipped}")
-        return {"FINISHED"} if added else {"CANCELLED"}
+            raise SelectionError(texts.STRENGTH_IS_NO_NUMBER)
+        pairs = self._pairs(context)
+        added = {edit_object: storage.add(edit_object.data, made, self.strength) for edit_object, made in pairs.items()}
+        count = sum(map(len, added.values()))
+        existing = sum(map(len, pairs.values())) - count
+        follows = following.is_on(context.scene) and count > 0
+        if follows:
+            for edit_object, fresh in added.items():
+                self.let_follow(edit_object, dict.fromkeys(fresh, self.strength))
+        self.report({"INFO" if count else "WARNING"}, texts.added_extenders(count, existing, follows))
+        return {"FINISHED"} if count else {"CANCELLED"}
 
-    def _pairs(self, context: bpy.types.Context) -> dict[bpy.types.Mesh, list[tuple[int, int]]]:
-        """Return the pairs of vertices of every mesh with a selection.
+    def _pairs(self, context: bpy.types.Context) -> dict[bpy.types.Object, list[tuple[int, int]]]:
+        """Return the pairs of vertices of every mesh with a selection, by its object.
 
         Raises:
             SelectionError: a selection makes no pairs.
@@ -68,85 +116,77 @@ class MESH_OT_spectral_extender_add(bpy.types.Operator):
                     made = pairs_to_active(selected.vertices, selected.active)
             except SelectionError as error:
                 raise SelectionError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
-            pairs[edit_object.data] = made
+            pairs[edit_object] = made
         if not pairs:
-            raise SelectionError("Nothing is selected; select the vertices to connect, one after the other")
+            raise SelectionError(texts.NO_VERTICES_SELECTED)
         return pairs
 
 
-class _ExtenderOperator:
-    """What the operators on one extender of the active object's mesh share."""
-
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where the active mesh in edit mode has extenders."""
-        return context.mode == "EDIT_MESH" and len(storage.of(context.edit_object.data)) > 0
-
-    def chosen(self, mesh: bpy.types.Mesh) -> int:
-        """Return the index of the extender to work on, -1 having reported that there is none."""
-        index = storage.active_index(mesh) if self.index < 0 else self.index
-        if not 0 <= index < len(storage.of(mesh)):
-            self.report({"ERROR"}, "No such extender; choose one in the list")
-            return -1
-        return index
-
-
-class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
+class MESH_OT_spectral_extender_remove(ExtenderOperator, bpy.types.Operator):
     """Remove one extender, or all broken ones."""
 
     bl_idname = names.REMOVE_EXTENDER_OPERATOR
     bl_label = texts.REMOVE_EXTENDER_LABEL
     bl_description = texts.REMOVE_EXTENDER_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
-    broken: BoolProperty(name="Broken", description="Remove all extenders with a vertex that is gone instead")
+    index: IntProperty(**INDEX)
+    broken: BoolProperty(
+        name="Broken", description="Remove all extenders with a vertex that is gone instead", options=FOR_ONE_CALL
+    )
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Return what is removed."""
         return texts.REMOVE_BROKEN_EXTENDERS_DESCRIPTION if properties.broken else texts.REMOVE_EXTENDER_DESCRIPTION
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Remove from the list of the active object's mesh."""
         mesh = context.edit_object.data
         if self.broken:
             ends = storage.ends(bmesh.from_edit_mesh(mesh), mesh)
             indices = [index for index, pair in enumerate(ends) if -1 in pair]
-            self.report({"INFO"}, f"Removed broken extenders: {len(indices)}")
+            self.report({"INFO"}, texts.removed_broken(len(indices)))
         else:
-            indices = [index for index in (self.chosen(mesh),) if index >= 0]
+            indices = [self.chosen(mesh)]
         if not indices:
             return {"CANCELLED"}
+        gone = self._acting(mesh, indices)
         storage.remove(mesh, indices)
+        if following.is_on(context.scene):
+            self.let_follow(context.edit_object, dict.fromkeys(gone, 0.0))
         return {"FINISHED"}
 
+    def _acting(self, mesh: bpy.types.Mesh, indices: list[int]) -> list[tuple[int, int]]:
+        """Return the vertices of those of the extenders that act on the map."""
+        ends = storage.ends(bmesh.from_edit_mesh(mesh), mesh)
+        listed = storage.of(mesh)
+        return [ends[k] for k in indices if -1 not in ends[k] and listed[k].use and listed[k].strength != 0.0]
 
-class MESH_OT_spectral_extender_select(_ExtenderOperator, bpy.types.Operator):
+
+class MESH_OT_spectral_extender_select(ExtenderOperator, bpy.types.Operator):
     """Select the vertices of one extender."""
 
     bl_idname = names.SELECT_EXTENDER_OPERATOR
     bl_label = texts.SELECT_EXTENDER_LABEL
     bl_description = texts.SELECT_EXTENDER_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", description="Place in the list, -1 for the active extender", default=-1, min=-1)
+    index: IntProperty(**INDEX)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Select what is left of the extender."""
         mesh = context.edit_object.data
         index = self.chosen(mesh)
-        if index < 0:
-            return {"CANCELLED"}
         name = storage.label(storage.of(mesh)[index])
         bm = bmesh.from_edit_mesh(mesh)
         bm.verts.ensure_lookup_table()
         present = [vertex for vertex in storage.ends(bm, mesh)[index] if vertex >= 0]
         hidden = sum(bm.verts[vertex].hide for vertex in present)
         if len(present) < 2:
-            self.report({"WARNING"}, f"{name} is broken: {2 - len(present)} of its vertices gone; remove it")
+            self.report({"WARNING"}, texts.broken_extender_selected(name, 2 - len(present)))
         if hidden:
-            self.report({"WARNING"}, f"{name} has hidden vertices: {hidden}; reveal them to select them")
+            self.report({"WARNING"}, texts.hidden_vertices(name, hidden))
         if len(present) == hidden:
             return {"CANCELLED"}
         selection.select_only_vertices(context, mesh, present)

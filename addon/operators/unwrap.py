@@ -8,20 +8,13 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
 from ..core import texts
-from ..core.native import NativeModuleError
-from ..edit_mesh.packing import PackingError
 from ..live import following
-from ..ui import progress
 from ..unwrapping import steps
-from ..unwrapping.in_thread import UnwrapInThread
 from ..unwrapping.last_settings import settings_of
-from ..unwrapping.steps import Outcome
-
-# A solve shorter than this ends within the click that started it.
-_SECONDS_BEFORE_MODAL = 0.25
+from .job_operator import Job, JobOperator
 
 
-class UV_OT_spectral_unwrap(bpy.types.Operator):
+class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
     """Unwrap the selected faces by Spectral Conformal Parameterization."""
 
     bl_idname = names.UNWRAP_OPERATOR
@@ -96,17 +89,6 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
     )
 
-    # The UnwrapInThread that a window waits for. An annotation makes bpy 4.2 and 4.5 crash on leaving Python.
-    _running = None
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode, one solve at a time."""
-        if cls._running is not None and cls._running.worker.is_wanted:
-            cls.poll_message_set(f"{texts.UNWRAP_LABEL} is running; Esc cancels it")
-            return False
-        return context.mode == "EDIT_MESH"
-
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
         layout = self.layout
@@ -142,70 +124,22 @@ class UV_OT_spectral_unwrap(bpy.types.Operator):
         column.prop(self, "margin_method")
         column.prop(self, "margin")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Unwrap with the operator's settings and report the result; Blender waits."""
+    def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
+        """Read, solve, place, write and pack; report the outcome."""
         start = time.perf_counter()
-        try:
-            with progress.blocking(context) as report_progress:
-                outcome = steps.unwrap(context, settings_of(self), report_progress, following.not_following)
-        except (NativeModuleError, PackingError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._report(outcome, time.perf_counter() - start)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Unwrap as `execute` does, but solve in a thread, so that Blender's windows live and Esc cancels."""
-        if bpy.app.background:
-            return self.execute(context)
-        edit_meshes = steps.read(context, settings_of(self))
+        settings = settings_of(self)
+        edit_meshes = steps.read(context, settings)
         if not edit_meshes:
-            return self._report(None, 0.0)
-        running = UnwrapInThread(settings_of(self), edit_meshes)
-        if running.worker.wait(_SECONDS_BEFORE_MODAL):
-            return self._write(context, running)
-        type(self)._running = running
-        self._progress = progress.WindowProgress(context)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for the solve; let nothing but view navigation through."""
-        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self.cancel(context)
-            self.report({"INFO"}, f"{texts.UNWRAP_LABEL}: Cancelled")
+            self.report({"WARNING"}, texts.NOTHING_SELECTED)
             return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
-        running = self._running
-        if context.mode == "EDIT_MESH" and not running.worker.wait(0.0):
-            self._progress.update(context, running.worker.fraction, running.worker.phase)
-            return {"PASS_THROUGH"}
-        self.cancel(context)
-        if not running.is_current(context):
-            self.report({"WARNING"}, "The meshes changed while they were solved, so nothing was written; unwrap again")
-            return {"CANCELLED"}
-        return self._write(context, running)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Stop waiting: the solve ends without result, its progress disappears. Blender calls it on closing, too."""
-        self._running.worker.cancel()
-        type(self)._running = None
-        self._progress.end(context)
-
-    def _write(self, context: bpy.types.Context, solved: UnwrapInThread) -> set[str]:
-        """Write what was solved in a thread and report the result."""
-        try:
-            outcome = solved.write(context, following.not_following)
-        except (NativeModuleError, PackingError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._report(outcome, solved.seconds)
-
-    def _report(self, outcome: Outcome | None, seconds: float) -> set[str]:
-        """Tell the user what was done in `seconds`; return the operator's status."""
-        if outcome is None:
-            self.report({"WARNING"}, "Nothing selected; select the faces to unwrap, in the UV editor their UVs")
-            return {"CANCELLED"}
-        for level, text in steps.reports(outcome, seconds):
+        read = edit_meshes
+        done = yield lambda report_progress: steps.solve(read, settings, report_progress)
+        if done.is_late:
+            edit_meshes = steps.read_again(done.context, settings, edit_meshes)
+            if edit_meshes is None:
+                self.report({"WARNING"}, texts.MESHES_CHANGED)
+                return {"CANCELLED"}
+        outcome = steps.write(done.context, settings, edit_meshes, done.result, following.not_following)
+        for level, text in steps.reports(outcome, time.perf_counter() - start):
             self.report({level}, text)
         return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

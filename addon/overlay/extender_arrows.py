@@ -9,17 +9,16 @@ vertices are connected.
 from collections.abc import Callable, Iterator
 
 import bpy
-import gpu
 import numpy as np
 from bmesh.types import BMVert
 from bpy_extras import view3d_utils
-from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility
 from ..core import arrow_shapes, texts
 from ..core.arrow_shapes import ArrowSize
+from ..core.errors import PrintOnce
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
+from .fill import fill_triangles
 
 _Point = tuple[float, float]
 # A function that returns the places on the screen, in pixels, of two vertices of a mesh; None where one is not shown.
@@ -33,8 +32,9 @@ _DIMMED = 0.3
 _SIZE = ArrowSize()
 _OUTLINE_PIXELS = 1.5
 
+_print_once = PrintOnce(lambda problem: texts.not_drawn(texts.EXTENDERS_LABEL, problem))
+
 _handles: list[tuple[type, object]] = []
-_told: set[str] = set()
 
 
 def _draw_in_viewport() -> None:
@@ -55,12 +55,9 @@ def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None
     try:
         corners, colors = _triangles(context, places_of)
         if len(corners):
-            _fill(corners, colors)
-    except Exception as error:  # noqa: BLE001 - an error while drawing would come again with every redraw
-        problem = f"{type(error).__name__}: {error}"
-        if problem not in _told:
-            _told.add(problem)
-            print(f"{texts.EXTENDERS_LABEL} could not be drawn: {problem}")
+            fill_triangles(corners, colors)
+    except Exception as error:  # noqa: BLE001 - it would come again with every redraw
+        _print_once(error)
 
 
 def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:
@@ -138,19 +135,6 @@ def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, 
     return places
 
 
-def _fill(corners: np.ndarray, colors: np.ndarray) -> None:
-    shader = gpu.shader.from_builtin(compatibility.SMOOTH_COLOR_SHADER)
-    points = np.column_stack([corners, np.zeros(len(corners))])
-    batch = batch_for_shader(
-        shader, "TRIS", {"pos": points.astype(np.float32).tolist(), "color": colors.astype(np.float32).tolist()}
-    )
-    gpu.state.blend_set("ALPHA")
-    try:
-        batch.draw(shader)
-    finally:
-        gpu.state.blend_set("NONE")
-
-
 def register() -> None:
     """Add the draw handlers; in background mode nothing is drawn."""
     if bpy.app.background:
@@ -164,4 +148,4 @@ def unregister() -> None:
     for space, handle in _handles:
         space.draw_handler_remove(handle, "WINDOW")
     _handles.clear()
-    _told.clear()
+    _print_once.forget()

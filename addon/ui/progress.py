@@ -18,7 +18,6 @@ _VIEW_EVENTS = frozenset(
         *("TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "MOUSESMARTZOOM"),
     }
 )
-_TIMER_SECONDS = 0.05
 # A solve in background mode prints nothing before this time, nor more often.
 _PRINT_SECONDS = 1.0
 
@@ -29,30 +28,35 @@ def moves_view(event: bpy.types.Event) -> bool:
 
 
 class WindowProgress:
-    """Progress at the mouse cursor and in the status bar, and a timer that wakes the modal operator to update it."""
+    """Progress at the mouse cursor and in the status bar."""
 
-    def __init__(self, context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> None:
+    def __init__(self, context: bpy.types.Context, label: str) -> None:
         """Show 0 % of what the operator with this label does."""
         self._label = label
         self._window_manager = context.window_manager
         self._window_manager.progress_begin(0, 100)
-        self._timer = self._window_manager.event_timer_add(_TIMER_SECONDS, window=context.window)
         self.update(context, 0.0, "")
 
     def update(self, context: bpy.types.Context, fraction: float, phase: str) -> None:
         """Show the fraction done and the phase."""
         percent = _percent(fraction)
         self._window_manager.progress_update(percent)
-        parts = (f"{self._label}: {percent} %", phase, "  Esc: Cancel")
-        context.workspace.status_text_set(" ".join(part for part in parts if part))
+        context.workspace.status_text_set(texts.progress(self._label, percent, phase))
 
     def end(self, context: bpy.types.Context) -> None:
-        """Remove the timer and everything shown."""
-        self._window_manager.event_timer_remove(self._timer)
+        """Remove everything shown."""
         self._window_manager.progress_end()
-        # Blender has no workspace while it closes or loads a file.
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
+        clear_status(context)
+
+
+def clear_status(context: bpy.types.Context) -> None:
+    """Give the status bar back to Blender, in all windows where the context has none, as in handlers and timers."""
+    if context.workspace is not None:
+        context.workspace.status_text_set(None)
+        return
+    for window in context.window_manager.windows:
+        with context.temp_override(window=window):
+            window.workspace.status_text_set(None)
 
 
 @contextmanager
@@ -77,7 +81,7 @@ def _printer(label: str) -> Progress:
         nonlocal printed_at, printed
         now, percent = time.monotonic(), _percent(fraction)
         if now - printed_at >= _PRINT_SECONDS and percent > printed:
-            print(f"{label}: {percent} % ({phase})", flush=True)
+            print(texts.printed_progress(label, percent, phase), flush=True)
             printed_at, printed = now, percent
 
     return progress

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/charts.h"
+#include "spectral_conformal/polygon_mesh.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal::python {

@@ -3,7 +3,7 @@
 #include "bindings/bind.h"
 #include "linear_algebra/blas_threads.h"
 #include "linear_algebra/factorization.h"
-#include "mesh/charts.h"
+#include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal::python {
 

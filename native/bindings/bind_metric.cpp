@@ -2,6 +2,7 @@
 
 #include "bindings/bind.h"
 #include "bindings/space_metric.h"
+#include "geometry/triangle_shape.h"
 
 namespace spectral_conformal::python {
 

@@ -32,7 +32,7 @@ class PatchSolver {
     const std::vector<SpaceMetric> tensors = space_metric(vertices, triangles, metric);
     const py::gil_scoped_release unlocked;
     const auto start = std::chrono::steady_clock::now();
-    const Chart chart = single_patch(mesh);
+    const Chart chart = single_chart(mesh);
     charts_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     vertices_ = chart.vertices;
     solver_ = std::make_unique<Solver>(chart, chart.positions(mesh), options,

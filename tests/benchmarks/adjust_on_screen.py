@@ -46,7 +46,7 @@ def inside(side: int, result: Path) -> None:
             bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT")
             extenders = sys.modules["spectral_unwrap.extenders.storage"]
             extenders.add(mesh, [(0, side * side // 2)], 1.0)
-            adjusted = sys.modules["spectral_unwrap.extenders.adjusted_map"].AdjustedMap(bpy.context, 0)
+            adjusted = sys.modules["spectral_unwrap.live.adjusted_map"].AdjustedMap(bpy.context, 0)
             adjusted.show(1.0)
             seconds = []
             for strength in np.linspace(1.0, 3.0, ROUNDS + 1)[1:]:

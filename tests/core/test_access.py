@@ -14,7 +14,17 @@ CPP = sorted(path for kind in ("h", "cpp") for path in (ROOT / "native").rglob(f
 
 # Everything of the standard library that may be imported: nothing that reaches outside the process.
 MODULES = {
-    *("__future__", "collections", "contextlib", "dataclasses", "functools", "hashlib", "importlib", "itertools"),
+    *(
+        "__future__",
+        "collections",
+        "contextlib",
+        "dataclasses",
+        "enum",
+        "functools",
+        "hashlib",
+        "importlib",
+        "itertools",
+    ),
     *("json", "math", "numbers", "operator", "threading", "time", "types", "typing"),
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }

@@ -14,6 +14,7 @@ STANDARD = {
     "collections",
     "contextlib",
     "dataclasses",
+    "enum",
     "hashlib",
     "itertools",
     "json",
@@ -23,17 +24,35 @@ STANDARD = {
     "typing",
 }
 
+# What a folder of the add-on may import of it, besides itself and what stands below all folders.
+BELOW = {
+    "core": set(),
+    "extenders": {"core"},
+    "edit_mesh": {"core", "extenders"},
+    "unwrapping": {"core", "extenders", "edit_mesh"},
+    "live": {"core", "extenders", "edit_mesh", "unwrapping"},
+    "overlay": {"core", "extenders", "edit_mesh"},
+    "ui": {"core", "extenders"},
+    "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
+}
+# Identifiers, and what differs between versions of Blender: no folder, and below all but core.
+GROUND = {"addon.names", "addon.compatibility"}
+
 IDENTIFIERS = (
     *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),
     *("VIEW3D_MT_", "VIEW3D_PT_", "IMAGE_MT_", "IMAGE_PT_", "MESH_UL_"),
 )
 
 
-def imports(path):
+def imports(path, for_types_too=True):
     """Return the imported modules of a file, relative ones as absolute names below `addon`."""
     package = ["addon", *path.relative_to(ADDON).parts[:-1]]
     found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    if not for_types_too:
+        is_for_types = lambda node: isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"  # noqa: E731
+        tree.body = [node for node in tree.body if not is_for_types(node)]
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             found.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -41,6 +60,44 @@ def imports(path):
             base = [*base, *(node.module or "").split(".")] if node.module else base
             found.update(".".join([*base, alias.name]) for alias in node.names)
     return found
+
+
+def modules():
+    """Return every module of the add-on with its file; a package is its `__init__`."""
+    found = {}
+    for path in ADDON.rglob("*.py"):
+        parts = ["addon", *path.relative_to(ADDON).with_suffix("").parts]
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imported_modules(path, known):
+    """Return which of the `known` modules a file imports; a name out of a module counts as that module."""
+    found = set()
+    for name in imports(path, for_types_too=False):
+        found.add(name if name in known else name.rpartition(".")[0])
+    return found & set(known)
+
+
+def cycle(graph):
+    """Return a cycle of a directed graph, a dictionary of sets, as a list of its nodes; empty where there is none."""
+    state, path = {}, []
+
+    def visit(node):
+        state[node] = "open"
+        path.append(node)
+        for target in sorted(graph.get(node, ())):
+            if state.get(target) == "open":
+                return [*path[path.index(target) :], target]
+            if target not in state:
+                found = visit(target)
+                if found:
+                    return found
+        path.pop()
+        state[node] = "done"
+        return []
+
+    return next((found for node in sorted(graph) if node not in state and (found := visit(node))), [])
 
 
 def relative(path):
@@ -60,6 +117,39 @@ def test_blender_layer_reaches_the_solver_through_core_only(path):
     for name in imports(path):
         assert "spectral_conformal" not in name
         assert name.startswith("addon.") or name.partition(".")[0] in {"numpy", *BLENDER, *STANDARD}, name
+
+
+def folder_of(module):
+    """Return the folder that holds a module; empty for the modules that hold the folders together."""
+    return module.split(".")[1] if module.count(".") > 1 or module.partition(".")[2] in BELOW else ""
+
+
+def test_folders_import_downwards_only():
+    known, upwards = modules(), []
+    for module, path in sorted(known.items()):
+        folder = folder_of(module)
+        allowed = {folder} | BELOW.get(folder, set())
+        for target in sorted(imported_modules(path, known)):
+            if folder and folder_of(target) not in allowed and target not in (GROUND if folder != "core" else ()):
+                upwards.append(f"{relative(path)} imports {target}")
+    assert upwards == []
+
+
+def test_what_stands_below_all_folders_imports_nothing_of_the_add_on():
+    known = modules()
+    for module in GROUND:
+        assert imported_modules(known[module], known) == set()
+
+
+def test_modules_import_each_other_in_one_direction():
+    known = modules()
+    # A package imports what it offers; that its modules name the package is no import of each other.
+    assert cycle({module: imported_modules(path, known) - {module} for module, path in known.items()}) == []
+
+
+def test_a_cycle_is_seen():
+    assert cycle({"a": {"b"}, "b": {"c"}, "c": set()}) == []
+    assert cycle({"a": {"b"}, "b": {"c", "d"}, "c": set(), "d": {"a"}}) == ["a", "b", "d", "a"]
 
 
 def test_identifiers_of_the_add_on_stand_in_names_only():

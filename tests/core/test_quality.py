@@ -26,7 +26,7 @@ def squares(sizes, image_sizes, selected=None, solved=None, mean_qc=1.0):
     chart = np.repeat(np.where(np.ones(n, bool) if solved is None else solved, 0, -1), 4)
     charts = (SimpleNamespace(status="solved", mean_qc=mean_qc, area=1.0),)
     uv = np.concatenate([size * unit for size in image_sizes])
-    return mesh, Solution(uv, chart, charts, np.zeros(n, bool))
+    return mesh, Solution(uv, chart, charts, np.full(n, -1))
 
 
 def measure(*pairs, factor=2.0):

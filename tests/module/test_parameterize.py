@@ -365,7 +365,7 @@ def punctured_torus():
         (square(), [], "no faces"),
         (square(), [[0, 1, 1]], "fewer than three different vertices"),
         (np.eye(4, 3), TETRAHEDRON, "closed"),
-        (*moebius(), "one-sided"),
+        (*moebius(), "non-orientable"),
         (*punctured_torus(), "handle"),
         (np.r_[square(), square() + 5], [[0, 1, 2], [4, 5, 6]], "2 components"),
         (np.r_[square(), [[0, 0, 1]]], [[0, 1, 2], [1, 0, 3], [0, 1, 4]], "three or more faces: 1"),

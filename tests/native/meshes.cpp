@@ -90,7 +90,7 @@ std::vector<DistortionElement> Patch::elements() const {
   return distortion_elements(uniform.triangles(), uniform.shapes(), uniform.triangle_weights(), 0);
 }
 
-Patch::Patch(const Mesh& mesh) : chart(single_patch(mesh.view())), positions(chart.positions(mesh.view())) {}
+Patch::Patch(const Mesh& mesh) : chart(single_chart(mesh.view())), positions(chart.positions(mesh.view())) {}
 
 const BoundaryLoop& Patch::outer() const { return chart.boundary_loops[outer_loop(chart.boundary_loops, positions)]; }
 

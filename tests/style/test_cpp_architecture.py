@@ -32,7 +32,8 @@ HEADER_ONLY = {"errors", "progress", "types"}
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
-    "CGAL": (r"CGAL/|boost/", {"polygon_triangulation.cpp"}),
+    "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
+    "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),
     "the dynamic linker": (r"dlfcn\.h|windows\.h", {"blas_threads.cpp"}),
 }

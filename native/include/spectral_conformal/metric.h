@@ -2,10 +2,11 @@
 
 #include <Eigen/Core>
 
-#include "geometry/triangle_shape.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
+
+struct TriangleShape;
 
 /// A change of metric of one triangle (section 4.3): the symmetric positive definite tensor
 ///   G = [xx xy; xy yy]
@@ -46,7 +47,7 @@ TriangleMetric blend(const TriangleMetric& metric, double amount);
 /// Whether both eigenvalues are positive, with a ratio of at most 1e16.
 bool is_positive_definite(const TriangleMetric& metric);
 
-/// The triangle stretched by the root of the metric, laid out again.
+/// The triangle stretched by the root of the metric, in its local isometric frame again.
 TriangleShape stretched(const TriangleShape& shape, const TriangleMetric& metric);
 
 }  // namespace spectral_conformal

@@ -78,8 +78,8 @@ struct Parameterization {
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
   double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
   // What was really solved.
-  Method method = Method::spectral;  ///< Method::lscm for two or more hard pins, whichever was asked for
-  Weights weights = Weights::uniform;                  ///< of the energy L
+  Method method = Method::spectral;    ///< Method::lscm for two or more hard pins, whichever was asked for
+  Weights weights = Weights::uniform;  ///< of the energy L
   BoundaryMeasure boundary = BoundaryMeasure::length;  ///< of the form B
   Fallback fallback = Fallback::none;
   int clamped_triangles = 0;  ///< those that Fallback::clamped_triangles gave a minimal height
@@ -89,8 +89,8 @@ struct Parameterization {
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
-/// The method that solves with this many pins: hard pins, from two on, are held by pinned LSCM where Method::spectral was
-/// asked for. Throws InvalidMesh for methods that hold none.
+/// The method that solves with this many pins: hard pins, from two on, are held by pinned LSCM where Method::spectral
+/// was asked for. Throws InvalidMesh for methods that hold none.
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins);
 
 /// One patch with its energy and boundary form; keeps the factor of L + s M between solves.
@@ -98,7 +98,8 @@ class Solver {
  public:
   /// chart: one disk-like patch; positions (V, 3) of its vertices. With `fill_holes` every loop but the outer one is
   /// closed by virtual triangles. metric: one per triangle of the chart, in the frame of its first side, or empty for
-  /// the metric of space. Throws InvalidMesh when why_not_a_disk says so, or a metric is not positive definite.
+  /// the metric of space. Throws InvalidMesh when why_not_parameterizable says so, or a metric is not positive
+  /// definite.
   Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
          const std::vector<TriangleMetric>& metric = {});
 
@@ -115,11 +116,10 @@ class Solver {
   /// with the other weights; `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its
   /// equations; where its boundary winds round more than once, `message` says so. Throws SolveFailure when nothing
   /// passes. Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them
-  /// starts from the maps of earlier solves, and fails where they are so strong that the map winds round more than once,
-  /// or hard pins hold it. With
-  /// `fold_free` flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced by an
-  /// embedding; `message` says what was done, what that cost, and where it could not be done. The eigenvalue is then
-  /// the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
+  /// starts from the maps of earlier solves, and fails where they are so strong that the map winds round more than
+  /// once, or hard pins hold it. With `fold_free` flipped triangles are unfolded, and a map that winds round more than
+  /// once, or none, is replaced by an embedding; `message` says what was done, what that cost, and where it could not
+  /// be done. The eigenvalue is then the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
   const ConformalEnergy& energy() const { return *energy_; }

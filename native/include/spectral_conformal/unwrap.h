@@ -43,7 +43,7 @@ struct UnwrappedChart {
   double residual = unknown;
   int iterations = 0;
   int turning_number = 0;
-  double mean_qc = unknown;  ///< of one triangulation: of a quad's two splits the less distorted one
+  double mean_qc = unknown;  ///< this and the next two: as measure_distortion finds them
   double max_qc = unknown;
   int flipped = 0;   ///< faces with a flipped triangle
   int unfolded = 0;  ///< this and the next two: see Parameterization

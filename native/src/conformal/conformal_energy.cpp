@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/signed_area.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -102,13 +104,12 @@ void ConformalEnergy::assemble(int n_vertices) {
     const double half_weight = 0.5 * weight(t);
     const double double_area = s.x1 * s.y2;
     // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
-    const double cotangent[3] = {s.x1 * s.x2 / double_area, s.x1 * (s.x1 - s.x2) / double_area,
-                                 (s.x2 * (s.x2 - s.x1) + s.y2 * s.y2) / double_area};
+    const std::array<double, 3> scaled_cotangents = s.scaled_cotangents();
     for (int k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3];
       const int j = triangle[(k + 2) % 3];
       if (i == j) continue;
-      const double dirichlet = half_weight * cotangent[k];
+      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);
       diagonal[i] += dirichlet;
       diagonal[j] += dirichlet;
       // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2, L_ji its conjugate.
@@ -178,7 +179,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    sum += weight(t) * std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
+    sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
   return sum;
 }

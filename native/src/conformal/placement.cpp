@@ -5,10 +5,11 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/signed_area.h"
+
 namespace spectral_conformal {
 namespace {
 
-double cross(Complex a, Complex b) { return std::imag(std::conj(a) * b); }
 double dot(Complex a, Complex b) { return std::real(std::conj(a) * b); }
 
 /// Andrew's monotone chain: counter-clockwise, no three points in a line.
@@ -75,7 +76,7 @@ double signed_area(const ConformalEnergy& energy, const ComplexVector& z) {
   const auto& triangles = energy.triangles();
   for (std::size_t t = 0; t + energy.n_virtual() < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    area += 0.5 * energy.triangle_weights()[t] * cross(z[b] - z[a], z[c] - z[a]);
+    area += energy.triangle_weights()[t] * signed_area(z[a], z[b], z[c]);
   }
   return area;
 }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/triangle_shape.h"
+
 namespace spectral_conformal {
 namespace {
 
-constexpr double largest_ratio = 1e16;
+/// Of two eigenvalues with a larger ratio, double precision (epsilon 2e-16) does not resolve the smaller one.
+constexpr double max_ratio = 1e16;
 
 /// G = mean I + deviator, the deviator being trace-free with eigenvalues +-radius.
 struct Split {
@@ -22,7 +25,7 @@ struct Split {
 double eigenvalue_ratio(const TriangleMetric& g, const Split& split) {
   const double larger = split.mean + split.radius;
   const double determinant = (g.xx / larger) * (g.yy / larger) - (g.xy / larger) * (g.xy / larger);
-  return determinant > 1 / largest_ratio ? 1 / determinant : largest_ratio;
+  return determinant > 1 / max_ratio ? 1 / determinant : max_ratio;
 }
 
 }  // namespace
@@ -55,7 +58,7 @@ TriangleMetric metric_of_map(const TriangleShape& shape, Complex d1, Complex d2)
 TriangleMetric metric_along(const Eigen::Vector3d& direction, double ratio,
                             const Eigen::Matrix<double, 2, 3>& tangent_frame) {
   const Eigen::Vector2d t = tangent_frame * direction.stableNormalized();
-  // Rounding makes the projection of a perpendicular direction point anywhere.
+  // The projection of a perpendicular direction is rounding, some 1e-16 long, and points anywhere.
   if (!(t.norm() > 1e-12)) return {};
   const Eigen::Vector2d unit = t.normalized();
   const double excess = ratio * ratio - 1;
@@ -75,14 +78,14 @@ TriangleMetric blend(const TriangleMetric& metric, double amount) {
 bool is_positive_definite(const TriangleMetric& metric) {
   const Split split(metric);
   return metric.xx > 0 && metric.yy > 0 && std::isfinite(split.mean + split.radius) &&
-         eigenvalue_ratio(metric, split) < largest_ratio;
+         eigenvalue_ratio(metric, split) < max_ratio;
 }
 
 TriangleShape stretched(const TriangleShape& shape, const TriangleMetric& metric) {
   // The Cholesky factor R of G = R^T R, upper triangular, keeps the first side on the first axis.
   const double along = std::sqrt(metric.xx);
   const double shear = metric.xy / along;
-  const double across = std::sqrt(std::max(metric.yy - shear * shear, metric.yy / largest_ratio));
+  const double across = std::sqrt(std::max(metric.yy - shear * shear, metric.yy / max_ratio));
   TriangleShape result = shape;
   result.x1 = along * shape.x1;
   result.x2 = along * shape.x2 + shear * shape.y2;

@@ -9,6 +9,9 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/polygon_normal.h"
+#include "geometry/quad_splits.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -24,25 +27,20 @@ std::pair<Vector, Vector> plane_axes(const Vector& normal) {
 
 void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   const auto point = [&](int i) -> Vector { return corners.row(i).transpose(); };
-  const Vector normal = (point(2) - point(0)).cross(point(3) - point(1));
-  // A corner triangle counts as inside when it turns with the quad; the threshold is relative to the quad's own area.
-  const double least = 1e-9 * normal.squaredNorm();
-  const auto inside = [&](int a, int b, int c) {
-    return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > least;
+  const Vector normal = (point(2) - point(0)).cross(point(3) - point(1));  // Newell's, in closed form
+  // A triangle lies inside when it is oriented like the quad, with an area above this fraction of the quad's: less is
+  // rounding of a corner on the diagonal.
+  constexpr double min_fraction = 1e-9;
+  const auto inside = [&](const std::array<int, 3>& triangle) {
+    const auto& [a, b, c] = triangle;
+    return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > min_fraction * normal.squaredNorm();
   };
-  const bool along_02 = inside(0, 1, 2) && inside(0, 2, 3);
-  const bool along_13 = inside(0, 1, 3) && inside(1, 2, 3);
+  const bool along_02 = inside(quad_splits[0]) && inside(quad_splits[1]);
+  const bool along_13 = inside(quad_splits[2]) && inside(quad_splits[3]);
   const bool both = along_02 == along_13;
-  const double share = both ? 0.5 : 1.0;
-  if (both || along_02) {
-    result.triangles.push_back({0, 1, 2});
-    result.triangles.push_back({0, 2, 3});
-  }
-  if (both || along_13) {
-    result.triangles.push_back({0, 1, 3});
-    result.triangles.push_back({1, 2, 3});
-  }
-  result.triangle_weights.assign(result.triangles.size(), share);
+  if (both || along_02) result.triangles.insert(result.triangles.end(), quad_splits.begin(), quad_splits.begin() + 2);
+  if (both || along_13) result.triangles.insert(result.triangles.end(), quad_splits.begin() + 2, quad_splits.end());
+  result.triangle_weights.assign(result.triangles.size(), both ? quad_split_weight : 1.0);
   result.simple = along_02 || along_13;
 }
 
@@ -78,12 +76,7 @@ void mark_inside(ConstrainedDelaunay& triangulation) {
 bool constrained_delaunay(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   const int n = static_cast<int>(corners.rows());
   const Vector centre = corners.colwise().mean().transpose();
-  Vector normal = Vector::Zero();  // Newell's: twice the vector area
-  for (int i = 0; i < n; ++i) {
-    const Vector a = corners.row(i).transpose() - centre;
-    const Vector b = corners.row((i + 1) % n).transpose() - centre;
-    normal += a.cross(b);
-  }
+  const Vector normal = polygon_normal(corners, centre);
   if (!(normal.squaredNorm() > 0) || !normal.allFinite()) return false;
   const auto [first, second] = plane_axes(normal);
 

@@ -7,7 +7,7 @@
 
 namespace spectral_conformal {
 
-/// Triangles of one polygon, as corner numbers, each covering its part of the polygon with the given weight.
+/// Triangles of one polygon, as corner numbers, and the weight with which each counts (quad_splits.h).
 struct PolygonTriangulation {
   std::vector<std::array<int, 3>> triangles;
   std::vector<double> triangle_weights;
@@ -17,8 +17,8 @@ struct PolygonTriangulation {
 /// Triangulates a polygon by its geometry, whatever corner comes first.
 ///  - Triangle: itself.
 ///  - Quad: both diagonal splits at half weight when it is convex as seen along the cross product of its diagonals, so
-///    that a symmetric quad mesh has a symmetric energy (four triangles, split by split); otherwise the one split that
-///    stays inside.
+///    that a symmetric quad mesh has a symmetric energy (the four triangles of quad_splits); otherwise the one split
+///    that stays inside.
 ///  - More corners: the constrained Delaunay triangulation of its projection along Newell's normal (CGAL).
 /// corners (n, 3), n >= 3, in order. Degenerate polygons get a fan around the corner nearest to their centroid.
 void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result);

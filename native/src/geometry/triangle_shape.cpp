@@ -43,7 +43,7 @@ TriangleShape over_side(int apex, double length, double foot, double height) {
   return shape;
 }
 
-/// The corner opposite to the longest side is lifted off that side.
+/// Moves the corner opposite to the longest side away from that side.
 TriangleShape clamped_frame(const std::array<Eigen::Vector3d, 3>& p) {
   const double lengths[3] = {(p[2] - p[1]).norm(), (p[0] - p[2]).norm(), (p[1] - p[0]).norm()};
   const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
@@ -63,15 +63,15 @@ TriangleShape clamped_frame(const std::array<Eigen::Vector3d, 3>& p) {
 
 }  // namespace
 
-TriangleShape TriangleShape::clamped_to(double least_height) const {
-  if (!(relative_height() < least_height)) return *this;
+TriangleShape TriangleShape::clamped_to(double height) const {
+  if (!(relative_height() < height)) return *this;
   const std::array<Complex, 3> z = {0.0, x1, Complex(x2, y2)};
   const double lengths[3] = {std::abs(z[2] - z[1]), std::abs(z[2]), x1};
   const int apex = static_cast<int>(std::max_element(lengths, lengths + 3) - lengths);
   const double length = lengths[apex];
   const Complex base = z[(apex + 1) % 3];
   const double foot = std::real(std::conj(z[(apex + 2) % 3] - base) * (z[apex] - base)) / length;
-  TriangleShape shape = over_side(apex, length, foot, least_height * length);
+  TriangleShape shape = over_side(apex, length, foot, height * length);
   shape.clamped = clamped;
   return shape;
 }

@@ -89,11 +89,11 @@ class Proxy {
       const double mean = 0.5 * (holomorphic + antiholomorphic) * elements_[t].weight;
       const double scale = 0.5 * mean / (double_area * double_area);
       const double area_part = 0.25 * (antiholomorphic - holomorphic) * elements_[t].weight / double_area;
-      const double cotangent[3] = {x1 * x2, x1 * (x1 - x2), x2 * (x2 - x1) + y2 * y2};
+      const std::array<double, 3> scaled_cotangents = elements_[t].shape.scaled_cotangents();
       for (int k = 0; k < 3; ++k) {
         const int i = elements_[t].corners[(k + 1) % 3];
         const int j = elements_[t].corners[(k + 2) % 3];
-        const double dirichlet = scale * cotangent[k];
+        const double dirichlet = scale * scaled_cotangents[k];
         value[diagonal[i]] += dirichlet;
         value[diagonal[j]] += dirichlet;
         if (!is_fixed(i) && !is_fixed(j))

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/signed_area.h"
+#include "quality/flips.h"
+
 namespace spectral_conformal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
 constexpr double isometry = 4;
-
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
 /// The determinant as DistortionElement::softening changes it, and the derivative of that.
 struct SoftDeterminant {
@@ -146,7 +147,7 @@ double largest_step(const std::vector<DistortionElement>& elements, const Comple
 
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
-    return element.measured && !(jacobian(element, z).determinant > 0);
+    return element.measured && !is_positive(element.corners, z);
   }));
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/quad_splits.h"
 #include "injective/descent.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
@@ -52,8 +53,9 @@ class FoldFree {
  private:
   static std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-  /// Of a quad's two splits only one can be asked to have no fold: the first, unless its diagonal is an edge already,
-  /// which no straight lines can draw twice.
+  /// Of a quad's two splits only one can be required to have no fold: the first, unless its diagonal is an edge
+  /// already, which no straight lines can draw twice. Chosen before there is a map; mapped_triangulation then finds a
+  /// split without a fold.
   void choose_splits(const std::vector<double>& triangle_weights) {
     const auto n = static_cast<std::ptrdiff_t>(triangles_.size());
     if (std::all_of(triangle_weights.begin(), triangle_weights.begin() + n,
@@ -62,7 +64,7 @@ class FoldFree {
       return;
     }
     std::set<std::pair<int, int>> edges;
-    const auto is_first_of_quad = [&](std::size_t t) { return triangle_weights[t] != 1.0; };
+    const auto is_first_of_quad = [&](std::size_t t) { return begins_quad(triangle_weights[t]); };
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& [a, b, c] = triangles_[t];
       edges.insert({edge(a, b), edge(b, c)});
@@ -70,7 +72,7 @@ class FoldFree {
         edges.insert(edge(c, a));
         continue;
       }
-      // triangulate_polygon puts the four triangles in a row: 0 1 2, 0 2 3, 0 1 3, 1 2 3.
+      // The four triangles in a row: quad_splits.
       const int d = triangles_[t + 1][2];
       edges.insert({edge(c, d), edge(d, a)});
       t += 3;

@@ -5,17 +5,15 @@
 #include <numeric>
 
 #include "injective/descent.h"
+#include "quality/flips.h"
 
 namespace spectral_conformal {
 namespace {
 
 bool is_folded(const DistortionElement& element, const ComplexVector& z) {
-  // Of an image thinner than this, rounding decides on the sign.
-  constexpr double least_sine = 1e-13;
-  if (!element.measured) return false;
-  const Complex d1 = z[element.corners[1]] - z[element.corners[0]];
-  const Complex d2 = z[element.corners[2]] - z[element.corners[0]];
-  return !(std::imag(std::conj(d1) * d2) > least_sine * std::abs(d1) * std::abs(d2));
+  // The map is yet to be placed: turned and scaled, which rounds its coordinates. Sines of this size survive that.
+  constexpr FlipTolerance tolerance{1e-13, 0};
+  return element.measured && !is_positive(element.corners, z, tolerance);
 }
 
 /// The elements at each vertex.

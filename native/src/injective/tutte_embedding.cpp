@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mesh/boundary_loops.h"
+#include "quality/flips.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -117,14 +118,6 @@ class Equilibrium {
   bool analyzed_ = false;
 };
 
-int count_flipped(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& z) {
-  return static_cast<int>(std::count_if(triangles.begin(), triangles.end(), [&](const auto& triangle) {
-    const Complex d1 = z[triangle[1]] - z[triangle[0]];
-    const Complex d2 = z[triangle[2]] - z[triangle[0]];
-    return !(std::imag(std::conj(d1) * d2) > 0);
-  }));
-}
-
 /// The logarithm of every edge's length in the plane over that in 3D.
 std::vector<double> log_stretch(const std::vector<Spring>& springs, const ComplexVector& z) {
   constexpr double least = 1e-15;
@@ -199,7 +192,7 @@ Embedding spread_embedding(const std::vector<std::array<int, 3>>& triangles, std
     report(progress, static_cast<double>(round) / rounds, "embedding");
     equilibrium.solve(z);
     const std::vector<double> stretch = log_stretch(springs, z);
-    const int flipped = count_flipped(triangles, z);
+    const int flipped = static_cast<int>(non_positive_triangles(triangles, z).size());
     const double unevenness = variance(stretch);
     if (round == 0 || std::tie(flipped, unevenness) < std::tie(best.flipped, best.unevenness)) {
       best = {z, flipped, unevenness};

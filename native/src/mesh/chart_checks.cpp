@@ -13,32 +13,34 @@ std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " 
 
 }  // namespace
 
-std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
+std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
     if (!positions.row(v).allFinite()) {
       return "Vertex " + std::to_string(chart.vertices[v]) +
              " has a coordinate that is not finite; give it a valid position or delete it.";
     }
   }
-  if (!chart.orientable) return "The patch is one-sided, like a Moebius strip; cut it with a seam.";
+  if (!chart.orientable) return "The island is non-orientable, like a Moebius strip; cut it with a seam.";
   if (chart.boundary_loops.empty()) {
-    return "The patch is closed" + (chart.genus() > 0 ? ", with " + handles(chart.genus()) : std::string()) +
+    return "The island is closed" + (chart.genus() > 0 ? ", with " + handles(chart.genus()) : std::string()) +
            ": it has no boundary to unfold from; mark seams that cut it open.";
   }
   if (chart.genus() > 0) {
-    return "The patch has " + handles(chart.genus()) +
+    return "The island has " + handles(chart.genus()) +
            " and cannot lie flat without overlap; mark seams that cut the handles open.";
   }
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   const Eigen::RowVector3d high = positions.colwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
-  // Within these limits areas, and eigenvalues in the units of the input, are doubles too.
+  // Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal
+  // numbers too.
   if (!(extent > 1e-100 && extent < 1e100)) {
-    return "The patch has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
+    return "The island has no extent that double precision can hold: all of its vertices coincide or lie too far "
+           "apart; "
            "delete or rescale it.";
   }
   if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
-    return "The patch's border has two vertices only, between which no map can open; mark more seams.";
+    return "The island's boundary has two vertices only, between which no map can open; mark more seams.";
   }
   double area = 0;
   for (const auto& [a, b, c] : chart.triangles) {
@@ -46,11 +48,12 @@ std::string why_not_a_disk(const Chart& chart, const Eigen::Ref<const Positions>
     area += triangle_area(corner(a), corner(b), corner(c));
   }
   // Rounding alone gives collinear points an area of this size relative to the extent.
-  if (!(area > 1e-14)) return "The patch has no area: its vertices lie on one line; delete it or move them apart.";
+  constexpr double min_area = 1e-14;
+  if (!(area > min_area)) return "The island has no area: its vertices lie on one line; delete it or move them apart.";
   return "";
 }
 
-Chart single_patch(const PolygonMesh& mesh) {
+Chart single_chart(const PolygonMesh& mesh) {
   ChartDecomposition decomposition = build_charts(mesh);
   if (!decomposition.degenerate_faces.empty()) {
     throw InvalidMesh("Face " + std::to_string(decomposition.degenerate_faces.front()) +

@@ -1,47 +1,25 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "spectral_conformal/polygon_mesh.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-/// A polygon mesh in the caller's arrays. Nothing is owned.
-struct PolygonMesh {
-  const double* positions = nullptr;  ///< (n_vertices, 3)
-  int n_vertices = 0;
-  const int* face_offsets = nullptr;  ///< (n_faces + 1,): corners of face f are [face_offsets[f], face_offsets[f+1])
-  int n_faces = 0;
-  const int* corner_vertices = nullptr;            ///< (face_offsets[n_faces],)
-  const bool* selected_faces = nullptr;            ///< (n_faces,) or null for all
-  const std::array<int, 2>* seam_edges = nullptr;  ///< (n_seam_edges,) vertex pairs in any order
-  int n_seam_edges = 0;
-};
-
-/// The most vertices, faces, corners and seam edges, each, that an int can number together with what is made of them:
-/// a corner gives up to two triangles (one of them virtual), those six half-edges, and these six entries of a matrix.
-constexpr int size_limit = std::numeric_limits<int>::max() / 8;
-
-/// Throws InvalidMesh when the mesh is larger than size_limit, offsets decrease or an index is out of range.
-void validate(const PolygonMesh& mesh);
-
-/// A connected patch of faces, consistently wound, with vertices of its own.
+/// A connected set of faces, consistently wound, with vertices of its own.
 struct Chart {
   std::vector<int> faces;                     ///< in the mesh, ascending
   std::vector<int> vertices;                  ///< the mesh vertex of each chart vertex, ascending
   std::vector<std::array<int, 3>> triangles;  ///< chart vertices, counter-clockwise
-  std::vector<double> triangle_weights;       ///< per triangle: 1, or 1/2 where both splits of a quad are present
+  std::vector<double> triangle_weights;       ///< per triangle: 1, or 1/2 in a row of four: see quad_splits
   std::vector<int> triangle_face;             ///< per triangle: index into `faces`
   std::vector<BoundaryLoop> boundary_loops;   ///< chart vertices; unordered
   int euler_characteristic = 0;
   bool orientable = true;
   int self_intersecting_polygons = 0;  ///< n-gons whose projection has no simple triangulation
-  int reversed_faces = 0;              ///< faces that were turned to agree with the majority
+  int reversed_faces = 0;              ///< faces that were reoriented to agree with the majority
   std::vector<int> duplicates;         ///< faces left out because one of `faces` has the same vertices
 
   int n_vertices() const { return static_cast<int>(vertices.size()); }
@@ -62,8 +40,8 @@ struct ChartDecomposition {
 
 /// Cuts a polygon mesh into charts: connected over edges of exactly two selected faces that are no seams. A vertex gets
 /// one copy for each of its fans, which splits seams, edges with three or more faces and bow-tie vertices. Faces wound
-/// against the majority of their chart are turned; of several faces on the same vertices one is kept (the others take
-/// its corners' vertices). Polygons are triangulated by triangulate_polygon. Linear in the number of corners.
+/// against the majority of their chart are reoriented; of several faces on the same vertices one is kept (the others
+/// take its corners' vertices). Polygons are triangulated by triangulate_polygon. Linear in the number of corners.
 /// Throws InvalidMesh as validate does.
 ChartDecomposition build_charts(const PolygonMesh& mesh);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "geometry/polygon_normal.h"
 #include "geometry/polygon_triangulation.h"
 
 namespace spectral_conformal {
@@ -12,11 +13,12 @@ using Vector = Eigen::Vector3d;
 
 bool star_shaped(const Positions& corners, const Vector& centre) {
   const auto spoke = [&](Eigen::Index i) -> Vector { return corners.row(i % corners.rows()).transpose() - centre; };
-  Vector normal = Vector::Zero();
-  for (Eigen::Index i = 0; i < corners.rows(); ++i) normal += spoke(i).cross(spoke(i + 1));
-  const double least = 1e-6 * normal.squaredNorm() / static_cast<double>(corners.rows());
+  const Vector normal = polygon_normal(corners, centre);
+  // A spoke triangle below this fraction of the mean one would be a needle in the energy.
+  constexpr double min_fraction = 1e-6;
+  const double min_area = min_fraction * normal.squaredNorm() / static_cast<double>(corners.rows());
   for (Eigen::Index i = 0; i < corners.rows(); ++i) {
-    if (!(spoke(i).cross(spoke(i + 1)).dot(normal) > least)) return false;
+    if (!(spoke(i).cross(spoke(i + 1)).dot(normal) > min_area)) return false;
   }
   return true;
 }
@@ -30,7 +32,7 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
   PolygonTriangulation polygon;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (static_cast<int>(k) == outer || loops[k].size() < 3) continue;
-    // The patch is on the left of its loops, the hole on the other side.
+    // The chart is on the left of its loops, the hole on the other side.
     const BoundaryLoop loop(loops[k].rbegin(), loops[k].rend());
     const auto n = static_cast<Eigen::Index>(loop.size());
     Positions corners(n, 3);

@@ -7,10 +7,10 @@
 
 namespace spectral_conformal {
 
-/// Virtual triangles that close the inner boundary loops of a patch. They stiffen the holes; nothing measures them.
+/// Virtual triangles that close the inner boundary loops of a chart. They stiffen the holes; nothing measures them.
 struct HoleFilling {
   Positions centres;                          ///< (n, 3) positions of added vertices, numbered from V on
-  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise, like the patch's own
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise, like those of the chart
   std::vector<double> triangle_weights;       ///< per triangle
 };
 

@@ -4,14 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
 namespace spectral_conformal {
 namespace {
-
-bool selected(const PolygonMesh& mesh, int face) { return mesh.selected_faces == nullptr || mesh.selected_faces[face]; }
 
 /// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
 class NearbyVertices {
@@ -59,7 +57,7 @@ class NearbyVertices {
 std::vector<int> used_vertices(const PolygonMesh& mesh) {
   std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices), 0);
   for (int face = 0; face < mesh.n_faces; ++face) {
-    if (!selected(mesh, face)) continue;
+    if (!mesh.is_selected(face)) continue;
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) used[mesh.corner_vertices[c]] = 1;
   }
   std::vector<int> result;
@@ -75,15 +73,15 @@ class FaceTable {
  public:
   explicit FaceTable(const PolygonMesh& mesh) : mesh_(mesh) {
     for (int face = 0; face < mesh.n_faces; ++face) {
-      if (selected(mesh, face)) faces_.emplace_back(vertices(face), face);
+      if (mesh.is_selected(face)) faces_.emplace_back(vertices(face), face);
     }
     std::sort(faces_.begin(), faces_.end());
   }
   const std::vector<std::pair<std::vector<int>, int>>& faces() const { return faces_; }
   /// The face on these sorted vertices, the first of several, or -1.
   int find(const std::vector<int>& sorted) const {
-    const auto place = std::lower_bound(faces_.begin(), faces_.end(), std::make_pair(sorted, -1));
-    return place != faces_.end() && place->first == sorted ? place->second : -1;
+    const auto found = std::lower_bound(faces_.begin(), faces_.end(), std::make_pair(sorted, -1));
+    return found != faces_.end() && found->first == sorted ? found->second : -1;
   }
 
  private:
@@ -97,25 +95,86 @@ class FaceTable {
   std::vector<std::pair<std::vector<int>, int>> faces_;
 };
 
-/// The other vertices of the selected faces at a vertex.
-std::vector<std::vector<int>> face_mates(const PolygonMesh& mesh) {
-  std::vector<std::vector<int>> mates(static_cast<std::size_t>(mesh.n_vertices));
-  for (int face = 0; face < mesh.n_faces; ++face) {
-    if (!selected(mesh, face)) continue;
-    const int* first = mesh.corner_vertices + mesh.face_offsets[face];
-    const int* last = mesh.corner_vertices + mesh.face_offsets[face + 1];
-    for (const int* v = first; v != last; ++v) {
-      std::copy_if(first, last, std::back_inserter(mates[*v]), [&](int other) { return other != *v; });
+/// The selected faces of each vertex, once per corner.
+class VertexFaces {
+ public:
+  explicit VertexFaces(const PolygonMesh& mesh) : start_(static_cast<std::size_t>(mesh.n_vertices) + 1, 0) {
+    const auto each = [&](auto&& visit) {
+      for (int face = 0; face < mesh.n_faces; ++face) {
+        if (!mesh.is_selected(face)) continue;
+        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c)
+          visit(mesh.corner_vertices[c], face);
+      }
+    };
+    each([&](int vertex, int) { ++start_[vertex + 1]; });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    faces_.resize(static_cast<std::size_t>(start_.back()));
+    std::vector<int> fill(start_.begin(), start_.end() - 1);
+    each([&](int vertex, int face) { faces_[fill[vertex]++] = face; });
+  }
+  const int* begin(int vertex) const { return faces_.data() + start_[vertex]; }
+  const int* end(int vertex) const { return faces_.data() + start_[static_cast<std::size_t>(vertex) + 1]; }
+  bool share_a_face(int a, int b) const {
+    if (end(a) - begin(a) > end(b) - begin(b)) std::swap(a, b);
+    // Ascending, as they were entered.
+    return std::any_of(begin(a), end(a), [&](int face) { return std::binary_search(begin(b), end(b), face); });
+  }
+
+ private:
+  std::vector<int> start_;
+  std::vector<int> faces_;
+};
+
+/// Of several vertices near the mirror image of a vertex, the one whose faces have most vertices that are images of the
+/// own faces' vertices. Memory is linear in the corners, so that polygons may have any number of them.
+class AmbiguousMatch {
+ public:
+  /// image (V,): -1 where there is none yet.
+  AmbiguousMatch(const PolygonMesh& mesh, const VertexFaces& faces, const std::vector<int>& image)
+      : faces_(faces), image_(image), start_(static_cast<std::size_t>(mesh.n_faces) + 1, 0) {
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (mesh.is_selected(face)) {
+        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+          if (image[mesh.corner_vertices[c]] >= 0) matched_.push_back(mesh.corner_vertices[c]);
+        }
+      }
+      start_[static_cast<std::size_t>(face) + 1] = static_cast<int>(matched_.size());
     }
   }
-  for (auto& list : mates) std::sort(list.begin(), list.end());
-  return mates;
-}
+  /// The first of the best candidates.
+  int choose(int own, const std::vector<int>& candidates) const {
+    int best = candidates.front();
+    std::ptrdiff_t max_common = -1;
+    for (const int candidate : candidates) {
+      const std::ptrdiff_t n_common = common(own, candidate);
+      if (n_common <= max_common) continue;
+      max_common = n_common;
+      best = candidate;
+    }
+    return best;
+  }
 
-/// Matches the vertices across one plane. Of several in the same place the one counts whose faces have most vertices
-/// that are images of its own faces' vertices. Only pairs that name each other are kept.
-void match_vertices(const Positions& points, const std::vector<int>& used, const NearbyVertices& nearby,
-                    const std::vector<std::vector<int>>& mates, MirrorSymmetry& result) {
+ private:
+  std::ptrdiff_t common(int own, int candidate) const {
+    std::ptrdiff_t result = 0;
+    for (const int* face = faces_.begin(own); face != faces_.end(own); ++face) {
+      for (int i = start_[*face]; i < start_[*face + 1]; ++i) {
+        const int image = image_[matched_[i]];
+        result += matched_[i] != own && image != candidate && faces_.share_a_face(image, candidate) ? 1 : 0;
+      }
+    }
+    return result;
+  }
+
+  const VertexFaces& faces_;
+  const std::vector<int>& image_;
+  std::vector<int> start_;    ///< per face, into matched_
+  std::vector<int> matched_;  ///< the vertices of each face that have an image
+};
+
+/// Matches the vertices across one plane. Only pairs that name each other are kept.
+void match_vertices(const PolygonMesh& mesh, const Positions& points, const std::vector<int>& used,
+                    const NearbyVertices& nearby, const VertexFaces& faces, MirrorSymmetry& result) {
   std::vector<int> image(static_cast<std::size_t>(points.rows()), -1);
   std::vector<std::pair<int, std::vector<int>>> ambiguous;
   for (const int v : used) {
@@ -126,15 +185,8 @@ void match_vertices(const Positions& points, const std::vector<int>& used, const
     if (near.size() > 1) ambiguous.emplace_back(v, std::move(near));
   }
   std::vector<int> chosen;
-  for (const auto& [v, candidates] : ambiguous) {
-    const auto common = [&, own = v](int candidate) {
-      return std::count_if(mates[own].begin(), mates[own].end(), [&](int mate) {
-        return image[mate] >= 0 && std::binary_search(mates[candidate].begin(), mates[candidate].end(), image[mate]);
-      });
-    };
-    chosen.push_back(
-        *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) { return common(a) < common(b); }));
-  }
+  const AmbiguousMatch match(mesh, faces, image);
+  for (const auto& [v, candidates] : ambiguous) chosen.push_back(match.choose(v, candidates));
   for (std::size_t i = 0; i < chosen.size(); ++i) image[ambiguous[i].first] = chosen[i];
   result.vertex.assign(image.size(), -1);
   result.side.assign(image.size(), 0);
@@ -181,15 +233,15 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   Positions points = Positions::Zero(mesh.n_vertices, 3);
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
-  const std::vector<std::vector<int>> mates = face_mates(mesh);
+  const VertexFaces faces(mesh);
   const FaceTable table(mesh);
-  int most = 0;
+  int max_matched = 0;
   for (int axis = 0; axis < 3; ++axis) {
     MirrorSymmetry candidate{axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
-    match_vertices(points, used, nearby, mates, candidate);
+    match_vertices(mesh, points, used, nearby, faces, candidate);
     const int matched = match_faces(table, candidate);
-    if (matched <= most) continue;
-    most = matched;
+    if (matched <= max_matched) continue;
+    max_matched = matched;
     best = std::move(candidate);
   }
   return best;

@@ -102,7 +102,7 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
                const std::vector<TriangleMetric>& metric)
     : n_vertices_(chart.n_vertices()), options_(options) {
   Stopwatch watch(set_up_timings_);
-  const std::string problem = why_not_a_disk(chart, positions);
+  const std::string problem = why_not_parameterizable(chart, positions);
   if (!problem.empty()) throw InvalidMesh(problem);
   // Centred and scaled to extent 1, any coordinates give the same numbers.
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
@@ -335,7 +335,8 @@ Parameterization Solver::solve_with_remedies(const SolveOptions& options, const 
       const char* name;
     };
     const Remedy remedies[] = {
-        {energy_->weights(), options_.boundary, 1e-5, Fallback::clamped_triangles, "triangles thinner than 1e-5 of their length raised to that"},
+        {energy_->weights(), options_.boundary, 1e-5, Fallback::clamped_triangles,
+         "triangles thinner than 1e-5 of their length raised to that"},
         {energy_->weights(), by_length ? BoundaryMeasure::vertex : BoundaryMeasure::length, 0, Fallback::other_boundary,
          by_length ? "the boundary form 'vertex'" : "the boundary form 'length'"},
         {uniform ? Weights::inverse_area : Weights::uniform, options_.boundary, 0, Fallback::other_weights,
@@ -532,9 +533,9 @@ Parameterization Solver::solve_eigenvector(const SolveOptions& settings, const P
     result.timings.insert(result.timings.end(), timings.begin(), timings.end());
     return result;
   }
-  throw SolveFailure(why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",
-                     settings.has_forces() ? weaken_forces
-                                           : "add seams that make the patch flatter, or clean up degenerate faces.");
+  throw SolveFailure(
+      why + ", in " + std::to_string(std::size(attempts)) + " attempts with different shifts and starts",
+      settings.has_forces() ? weaken_forces : "add seams that make the patch flatter, or clean up degenerate faces.");
 }
 
 void Solver::blend_area(const Progress& progress) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "quality/overlap.h"
+#include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
 
@@ -23,57 +24,19 @@ std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& c
 
 namespace {
 
-/// Fills in mean_qc, max_qc, flipped and area of a solved chart. They are those of one triangulation: where the energy
-/// has both splits of a quad, of the one that does not fold, or else of the one that is distorted less (a symmetric map
-/// can collapse a triangle of the other).
+/// Fills in mean_qc, max_qc, flipped and area of a solved chart.
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
              UnwrappedChart& report) {
-  struct Triangle {
-    double qc = 1;
-    double area = 0;
-    double image = 0;
-  };
-  const auto measured = [&](std::size_t t) {
-    const auto& [a, b, c] = chart.triangles[t];
-    const TriangleShape& shape = energy.shapes()[t];
-    Triangle result;
-    if (shape.clamped) return result;
-    result.qc = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
-    result.area = shape.area();
-    result.image = 0.5 * std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
-    return result;
-  };
-  report.max_qc = 1;
-  double weighted = 0;
-  double area = 0;
+  const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
+  report.mean_qc = distortion.mean_qc;
+  report.max_qc = distortion.max_qc;
   int last_flipped = -1;
-  const auto take = [&](const Triangle& triangle, std::size_t t) {
-    weighted += triangle.area * triangle.qc;
-    area += triangle.area;
-    report.max_qc = std::max(report.max_qc, triangle.qc);
-    // The whole map is positively oriented (place), so a flipped triangle is a negative one.
-    if (triangle.image < 0 && chart.triangle_face[t] != last_flipped) {
-      last_flipped = chart.triangle_face[t];
-      ++report.flipped;
-    }
-  };
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    if (chart.triangle_weights[t] == 1.0) {
-      take(measured(t), t);
-      continue;
-    }
-    // triangulate_polygon puts the four triangles of the two splits in a row.
-    const std::array<Triangle, 4> splits{measured(t), measured(t + 1), measured(t + 2), measured(t + 3)};
-    const auto worst = [&](int first) {
-      const bool folds = splits[first].image < 0 || splits[first + 1].image < 0;
-      return std::pair<bool, double>(folds, std::max(splits[first].qc, splits[first + 1].qc));
-    };
-    const int better = worst(0) <= worst(2) ? 0 : 2;
-    take(splits[better], t);
-    take(splits[better + 1], t);
-    t += 3;
+  for (const int t : distortion.triangulation) {
+    const int face = chart.triangle_face[static_cast<std::size_t>(t)];
+    if (!distortion.flipped[static_cast<std::size_t>(t)] || face == last_flipped) continue;
+    last_flipped = face;
+    ++report.flipped;
   }
-  report.mean_qc = area > 0 ? weighted / area : 1;
   report.area = energy.area() * scale * scale;
 }
 
@@ -209,7 +172,7 @@ class ChartUnwrapper {
   Chart chart_;
   UnwrappedChart report_;  ///< before a solve
   Pins pins_;
-  SolveOptions options_;  ///< without forces
+  SolveOptions options_;                             ///< without forces
   std::unique_ptr<Solver> solver_;                   ///< null where the chart cannot be solved
   std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
 };

@@ -5,7 +5,8 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr int most_leaves_of_node = 4;
+/// Below this, testing the leaves one by one takes no longer than a level of nodes.
+constexpr int max_leaves = 4;
 
 }  // namespace
 
@@ -28,7 +29,7 @@ int BoxTree::build(int first, int last) {
   for (int i = first + 1; i < last; ++i) box.include(leaves_[static_cast<std::size_t>(i)].box);
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({box, first, last, 0});
-  if (last - first <= most_leaves_of_node) return node;
+  if (last - first <= max_leaves) return node;
   const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
   const int middle = first + (last - first) / 2;
   // Halves of the sum of both ends; the index makes the order the same everywhere.

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "geometry/quad_splits.h"
+#include "geometry/signed_area.h"
 #include "geometry/triangle_shape.h"
 #include "mesh/boundary_loops.h"
+#include "mesh/charts.h"
+#include "quality/flips.h"
 #include "quality/overlap.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
@@ -25,68 +28,67 @@ double percentile(std::vector<double>& values, double fraction) {
   return std::isinf(high) ? high : low + (position - static_cast<double>(below)) * (high - low);
 }
 
-struct Measures {
-  Distortion distortion;
-  std::vector<double> area;         ///< in 3D, times the triangle weight; 0 for clamped triangles
-  std::vector<double> signed_area;  ///< of the image
-};
-
-/// Everything that is measured triangle by triangle.
-Measures measure_triangles(const Eigen::Ref<const Positions>& positions,
-                           const std::vector<std::array<int, 3>>& triangles,
-                           const std::vector<double>& triangle_weights, const ComplexVector& z) {
-  const std::size_t n = triangles.size();
-  Measures result;
-  result.area.assign(n, 0);
-  result.signed_area.assign(n, 0);
-  Distortion& distortion = result.distortion;
-  distortion.qc = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(n));
-  distortion.log2_scale = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-  for (std::size_t t = 0; t < n; ++t) {
-    const auto& [a, b, c] = triangles[t];
-    const TriangleShape shape = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
-    if (shape.clamped) continue;
-    const Complex d1 = z[b] - z[a];
-    const Complex d2 = z[c] - z[a];
-    distortion.qc[static_cast<Eigen::Index>(t)] = shape.quasi_conformal_distortion(d1, d2);
-    const double share = triangle_weights.empty() ? 1.0 : triangle_weights[t];
-    result.area[t] = share * shape.area();
-    const double image = 0.5 * std::imag(std::conj(d1) * d2);
-    result.signed_area[t] = share * image;
-    distortion.log2_scale[static_cast<Eigen::Index>(t)] = 0.5 * std::log2(std::abs(image) / shape.area());
+std::vector<TriangleShape> frames_of(const Eigen::Ref<const Positions>& positions,
+                                     const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<TriangleShape> result;
+  result.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    result.push_back(local_isometric_frame(positions.row(a), positions.row(b), positions.row(c)));
   }
   return result;
 }
 
-void summarize(Measures& measures) {
-  Distortion& d = measures.distortion;
-  const auto n = d.qc.size();
-  if (n == 0) return;
-  const Eigen::Map<const Eigen::VectorXd> area(measures.area.data(), n);
-  const double total = area.sum();
+/// Everything that is measured triangle by triangle.
+Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std::vector<std::array<int, 3>>& triangles,
+                             const ComplexVector& z) {
+  const auto n = static_cast<Eigen::Index>(triangles.size());
+  Distortion result;
+  result.qc = Eigen::VectorXd::Ones(n);
+  result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index t = 0; t < n; ++t) {
+    const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
+    const TriangleShape& shape = shapes[static_cast<std::size_t>(t)];
+    if (shape.clamped) continue;
+    result.qc[t] = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
+    result.area[t] = shape.area();
+    result.image_area[t] = signed_area(z[a], z[b], z[c]);
+    result.log2_scale[t] = 0.5 * std::log2(std::abs(result.image_area[t]) / shape.area());
+  }
+  return result;
+}
+
+/// Fills in the numbers of the whole map, from those of the triangles in `triangulation`.
+void summarize(Distortion& d) {
+  if (d.triangulation.empty()) return;
+  std::vector<double> qc;
+  qc.reserve(d.triangulation.size());
+  double total = 0;
+  for (const int t : d.triangulation) {
+    qc.push_back(d.qc[t]);
+    total += d.area[t];
+  }
   if (total > 0) {
     d.mean_qc = 0;
     double mean_scale = 0;
-    for (Eigen::Index t = 0; t < n; ++t) {
-      if (area[t] == 0) continue;
-      d.mean_qc += area[t] / total * d.qc[t];
-      mean_scale += area[t] / total * d.log2_scale[t];
+    for (const int t : d.triangulation) {
+      if (d.area[t] == 0) continue;
+      d.mean_qc += d.area[t] / total * d.qc[t];
+      mean_scale += d.area[t] / total * d.log2_scale[t];
     }
     double variance = 0;
-    for (Eigen::Index t = 0; t < n; ++t) {
-      if (area[t] > 0) variance += area[t] / total * std::pow(d.log2_scale[t] - mean_scale, 2);
+    for (const int t : d.triangulation) {
+      if (d.area[t] > 0) variance += d.area[t] / total * std::pow(d.log2_scale[t] - mean_scale, 2);
     }
     d.log2_scale_deviation = std::isnan(variance) ? std::numeric_limits<double>::infinity() : std::sqrt(variance);
   }
-  d.max_qc = d.qc.maxCoeff();
-  std::vector<double> values(d.qc.data(), d.qc.data() + n);
-  d.p95_qc = percentile(values, 0.95);
-  d.p99_qc = percentile(values, 0.99);
+  d.max_qc = *std::max_element(qc.begin(), qc.end());
+  d.p95_qc = percentile(qc, 0.95);
+  d.p99_qc = percentile(qc, 0.99);
 }
 
 /// The exponent of the power of two next to the largest of some finite values; bounded, so that it has an inverse.
 int binary_exponent(double largest) {
-  constexpr int bound = 1000;
+  constexpr int bound = 1000;  // 2^1000 and its inverse are normal numbers
   int exponent = 0;
   std::frexp(largest, &exponent);
   return std::clamp(exponent, -bound, bound);
@@ -96,39 +98,52 @@ int binary_exponent(double largest) {
 struct InUnits {
   Positions positions;
   ComplexVector z;
-  double log2_unit_ratio = 0;  ///< log2 of the map's unit over the mesh's
+  int unit = 0;        ///< log2 of the mesh's unit
+  int image_unit = 0;  ///< log2 of the map's unit
   InUnits(const PolygonMesh& mesh, const ComplexVector& map)
       : positions(Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)), z(map) {
     double largest = 0;
     double largest_image = 0;
-    const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
-    for (int c = 0; c < n_corners; ++c) {
+    for (int c = 0; c < mesh.n_corners(); ++c) {
       const int v = mesh.corner_vertices[c];
       largest = std::max(largest, positions.row(v).cwiseAbs().maxCoeff());
       largest_image = std::max({largest_image, std::abs(z[v].real()), std::abs(z[v].imag())});
     }
-    const int unit = binary_exponent(largest);
-    const int image_unit = binary_exponent(largest_image);
+    unit = binary_exponent(largest);
+    image_unit = binary_exponent(largest_image);
     positions *= std::ldexp(1.0, -unit);
     z *= std::ldexp(1.0, -image_unit);
-    log2_unit_ratio = image_unit - unit;
+  }
+  /// Takes what was measured in these units to those of the input.
+  void restore(Distortion& d) const {
+    for (Eigen::Index t = 0; t < d.area.size(); ++t) {
+      if (d.area[t] > 0) d.log2_scale[t] += image_unit - unit;
+      d.area[t] = std::ldexp(d.area[t], 2 * unit);
+      d.image_area[t] = std::ldexp(d.image_area[t], 2 * image_unit);
+    }
   }
 };
 
 }  // namespace
 
+Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
+                              const std::vector<std::array<int, 3>>& triangles,
+                              const std::vector<double>& triangle_weights, const ComplexVector& z) {
+  Distortion result = measure_triangles(shapes, triangles, z);
+  const ComplexVector oriented = positively_oriented(triangles, triangle_weights, z);
+  result.triangulation = mapped_triangulation(triangles, triangle_weights, oriented);
+  summarize(result);
+  result.flipped.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    result.flipped[t] = !shapes[t].clamped && is_flipped(triangles[t], oriented);
+  }
+  return result;
+}
+
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<double>& triangle_weights, const ComplexVector& z) {
-  Measures measures = measure_triangles(positions, triangles, triangle_weights, z);
-  summarize(measures);
-  double total = 0;
-  for (const double area : measures.signed_area) total += area;
-  measures.distortion.flipped.resize(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    measures.distortion.flipped[t] = measures.signed_area[t] * (total < 0 ? -1 : 1) < 0;
-  }
-  return std::move(measures.distortion);
+  return measure_distortion(frames_of(positions, triangles), triangles, triangle_weights, z);
 }
 
 Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector& map) {
@@ -140,7 +155,7 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
   const ChartDecomposition decomposition = build_charts(mesh);
   std::vector<std::array<int, 3>> triangles(static_cast<std::size_t>(mesh.n_faces));
   for (int face = 0; face < mesh.n_faces; ++face) {
-    if (mesh.face_offsets[face + 1] != mesh.face_offsets[face] + 3) {
+    if (mesh.n_corners(face) != 3) {
       throw InvalidMesh("Face " + std::to_string(face) + " is no triangle.");
     }
     const int* v = mesh.corner_vertices + mesh.face_offsets[face];
@@ -153,23 +168,25 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
       }
     }
   }
-  Measures measures = measure_triangles(in_units.positions, triangles, {}, z);
-  summarize(measures);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (measures.area[t] > 0) measures.distortion.log2_scale[static_cast<Eigen::Index>(t)] += in_units.log2_unit_ratio;
-  }
-  Distortion& result = measures.distortion;
+  const std::vector<TriangleShape> shapes = frames_of(in_units.positions, triangles);
+  Distortion result = measure_triangles(shapes, triangles, z);
+  result.triangulation = mapped_triangulation(triangles, {}, z);
+  summarize(result);
   result.overlapping = overlapping_triangles(triangles, z);
   result.flipped.assign(triangles.size(), false);
   double largest = -1;
   for (const Chart& chart : decomposition.charts) {
     double area = 0;
-    double image = 0;
+    double image_area = 0;
     for (const int face : chart.faces) {
-      area += measures.area[face];
-      image += measures.signed_area[face];
+      area += result.area[face];
+      image_area += result.image_area[face];
     }
-    for (const int face : chart.faces) result.flipped[face] = measures.signed_area[face] * (image < 0 ? -1 : 1) < 0;
+    for (const int face : chart.faces) {
+      const auto& triangle = triangles[static_cast<std::size_t>(face)];
+      const bool against = image_area < 0 ? is_positive(triangle, z) : is_flipped(triangle, z);
+      result.flipped[static_cast<std::size_t>(face)] = !shapes[static_cast<std::size_t>(face)].clamped && against;
+    }
     if (area <= largest) continue;
     largest = area;
     result.turning_number = 0;
@@ -179,7 +196,8 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
     for (int v = 0; v < chart.n_vertices(); ++v) own[v] = z[chart.vertices[v]];
     result.turning_number = turning_number(chart.boundary_loops[outer], chart.triangles, chart.triangle_weights, own);
   }
-  return std::move(measures.distortion);
+  in_units.restore(result);
+  return result;
 }
 
 }  // namespace spectral_conformal

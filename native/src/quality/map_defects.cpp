@@ -5,25 +5,28 @@
 #include <cmath>
 #include <string>
 
-#include "quality/map_triangulation.h"
+#include "geometry/quad_splits.h"
+#include "mesh/charts.h"
+#include "quality/flips.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// Twice the rounding of a single precision coordinate, in both directions of the plane.
+/// UVs are stored in single precision: a coordinate is off by up to 2^-24 = 6e-8 of itself. Two points, each off in
+/// both directions of the plane, move a height by up to 1.7e-7; this leaves half as much again.
 constexpr double resolution = 2.5e-7;
 
 /// The mesh in the plane of its map: its vertices are the different images that mesh vertices have.
 class MapMesh {
  public:
   MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
-    const int n_corners = mesh.n_faces == 0 ? 0 : mesh.face_offsets[mesh.n_faces];
+    const int n_corners = mesh.n_corners();
     std::vector<Image> images;
     images.reserve(static_cast<std::size_t>(n_corners));
     for (int face = 0; face < mesh.n_faces; ++face) {
-      if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
+      if (!mesh.is_selected(face)) continue;
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
         const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
         if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
@@ -37,7 +40,7 @@ class MapMesh {
     vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
     for (std::size_t i = 0; i < images.size(); ++i) {
       const Image& image = images[i];
-      if (i == 0 || !images[i - 1].same_place(image)) positions_.insert(positions_.end(), {image.u, image.v, 0.0});
+      if (i == 0 || !images[i - 1].same_point(image)) positions_.insert(positions_.end(), {image.u, image.v, 0.0});
       vertex_of_corner_[image.corner] = n_vertices() - 1;
     }
     // Corners that are not selected refer to a vertex too.
@@ -66,7 +69,7 @@ class MapMesh {
       if (u != other.u) return u < other.u;
       return v != other.v ? v < other.v : corner < other.corner;
     }
-    bool same_place(const Image& other) const { return vertex == other.vertex && u == other.u && v == other.v; }
+    bool same_point(const Image& other) const { return vertex == other.vertex && u == other.u && v == other.v; }
   };
 
   int n_vertices() const { return static_cast<int>(positions_.size() / 3); }
@@ -86,21 +89,9 @@ ComplexVector map_of(const Chart& island, const PolygonMesh& mesh) {
   return z;
 }
 
-double twice_area(const std::array<int, 3>& triangle, const ComplexVector& z) {
-  const auto& [a, b, c] = triangle;
-  return std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a]));
-}
-
-/// Whether a triangle is wound clockwise, deeper than rounding.
-bool is_clockwise(const std::array<int, 3>& triangle, const ComplexVector& z) {
-  double longest = 0;
-  double reach = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Complex p = z[triangle[k]];
-    longest = std::max(longest, std::abs(z[triangle[(k + 1) % 3]] - p));
-    reach = std::max({reach, std::abs(p.real()), std::abs(p.imag())});
-  }
-  return twice_area(triangle, z) < -resolution * reach * longest;
+/// The mesh face of a triangle.
+int face_of(const Chart& island, int triangle) {
+  return island.faces[static_cast<std::size_t>(island.triangle_face[static_cast<std::size_t>(triangle)])];
 }
 
 /// The triangles of several islands in one map.
@@ -109,13 +100,13 @@ struct Layout {
   std::vector<int> face;  ///< of the mesh
   std::vector<Complex> z;
 
-  void add(const Chart& island, const ComplexVector& island_z) {
-    const MapTriangulation map = triangulate_map(island, island_z);
+  /// `oriented`: the map of the island or its mirror image, positively oriented.
+  void add(const Chart& island, const ComplexVector& island_z, const ComplexVector& oriented) {
     const int first = static_cast<int>(z.size());
-    for (std::size_t t = 0; t < map.triangles.size(); ++t) {
-      const auto& [a, b, c] = map.triangles[t];
+    for (const int t : mapped_triangulation(island.triangles, island.triangle_weights, oriented)) {
+      const auto& [a, b, c] = island.triangles[static_cast<std::size_t>(t)];
       triangles.push_back({first + a, first + b, first + c});
-      face.push_back(island.faces[static_cast<std::size_t>(map.face[t])]);
+      face.push_back(face_of(island, t));
     }
     z.insert(z.end(), island_z.begin(), island_z.end());
   }
@@ -129,13 +120,10 @@ struct Layout {
   }
 };
 
-void mark_flipped(const Chart& island, ComplexVector z, std::vector<bool>& faces) {
-  const MapTriangulation map = triangulate_map(island, z);
-  double area = 0;
-  for (const auto& triangle : map.triangles) area += twice_area(triangle, z);
-  if (area < 0) z = z.conjugate().eval();
-  for (std::size_t t = 0; t < map.triangles.size(); ++t) {
-    if (is_clockwise(map.triangles[t], z)) faces[island.faces[static_cast<std::size_t>(map.face[t])]] = true;
+void mark_flipped(const Chart& island, const ComplexVector& z, std::vector<bool>& faces) {
+  const FlipTolerance tolerance{0, resolution};
+  for (const int t : mapped_triangulation(island.triangles, island.triangle_weights, z)) {
+    if (is_flipped(island.triangles[static_cast<std::size_t>(t)], z, tolerance)) faces[face_of(island, t)] = true;
   }
 }
 
@@ -151,11 +139,12 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
   Layout layout;
   for (const Chart& island : build_charts(in_plane).charts) {
     const ComplexVector z = map_of(island, in_plane);
-    mark_flipped(island, z, result.flipped);
+    const ComplexVector oriented = positively_oriented(island.triangles, island.triangle_weights, z);
+    mark_flipped(island, oriented, result.flipped);
     if (between_islands) {
-      layout.add(island, z);
+      layout.add(island, z, oriented);
     } else {
-      for (const int face : overlapping_faces(island, z, resolution)) {
+      for (const int face : overlapping_faces(island, oriented, resolution)) {
         result.overlapping[island.faces[static_cast<std::size_t>(face)]] = true;
       }
     }

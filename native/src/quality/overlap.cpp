@@ -6,9 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/quad_splits.h"
 #include "quality/box_tree.h"
-#include "quality/injectivity.h"
-#include "quality/map_triangulation.h"
+#include "quality/flips.h"
+#include "quality/map_degree.h"
 
 namespace spectral_conformal {
 namespace {
@@ -69,23 +70,23 @@ class OverlapTest {
   const std::vector<bool>& among_all() {
     std::vector<int> all(triangles_.size());
     std::iota(all.begin(), all.end(), 0);
-    look_for(all, true);
+    find_overlaps(all, true);
     return overlapping_;
   }
 
-  /// Looks at pairs with one of these only.
+  /// Tests pairs with one of these only.
   const std::vector<bool>& with(std::vector<int> some) {
-    look_for(some, true);
+    find_overlaps(some, true);
     // Of these, what overlaps none of them may overlap others, which had found another of them first.
     some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlapping_[t]; }), some.end());
-    look_for(some, false);
+    find_overlaps(some, false);
     return overlapping_;
   }
 
  private:
   /// Asks every triangle which of `some` it overlaps; with `one_is_enough` only until there is one, so that faces which
   /// are stacked a thousandfold do not cost a million pairs.
-  void look_for(const std::vector<int>& some, bool one_is_enough) {
+  void find_overlaps(const std::vector<int>& some, bool one_is_enough) {
     if (z_.size() == 0) return;
     std::vector<PlaneTriangle> placed;
     std::vector<PlaneBox> boxes;
@@ -126,7 +127,10 @@ class OverlapTest {
   }
 
   bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {
-    const double tolerance = std::max(1e-9 * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
+    // Neighbours share an edge up to rounding of their heights, some 1e-16 of the coordinates; 1e-9 leaves room for
+    // triangles a millionth of the map's extent.
+    constexpr double contact = 1e-9;
+    const double tolerance = std::max(contact * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
     return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
   }
 
@@ -145,19 +149,24 @@ std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& t
 }
 
 std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, double resolution) {
-  const MapTriangulation map = triangulate_map(chart, z);
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> face;
+  for (const int t : mapped_triangulation(chart.triangles, chart.triangle_weights, z)) {
+    triangles.push_back(chart.triangles[static_cast<std::size_t>(t)]);
+    face.push_back(chart.triangle_face[static_cast<std::size_t>(t)]);
+  }
   std::vector<bool> overlapping;
-  // Without a consistent orientation the edges within the patch do not cancel.
+  // Without a consistent orientation the edges within the chart do not cancel.
   if (chart.orientable && has_degree_at_most_one(chart.boundary_loops, z)) {
-    std::vector<int> doubtful = doubtful_triangles(map.triangles, z);
-    if (doubtful.empty()) return {};
-    overlapping = OverlapTest(map.triangles, z, map.face, resolution).with(std::move(doubtful));
+    std::vector<int> non_positive = non_positive_triangles(triangles, z);
+    if (non_positive.empty()) return {};
+    overlapping = OverlapTest(triangles, z, face, resolution).with(std::move(non_positive));
   } else {
-    overlapping = OverlapTest(map.triangles, z, map.face, resolution).among_all();
+    overlapping = OverlapTest(triangles, z, face, resolution).among_all();
   }
   std::vector<int> result;
-  for (std::size_t t = 0; t < map.face.size(); ++t) {
-    if (overlapping[t] && (result.empty() || result.back() != map.face[t])) result.push_back(map.face[t]);
+  for (std::size_t t = 0; t < face.size(); ++t) {
+    if (overlapping[t] && (result.empty() || result.back() != face[t])) result.push_back(face[t]);
   }
   return result;
 }

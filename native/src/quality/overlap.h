@@ -7,7 +7,7 @@
 
 namespace spectral_conformal {
 
-/// For each triangle of a map, whether its interior meets that of another triangle, of another face where `face` tells
+/// For each triangle of a map, whether its interior meets that of another triangle, of another face where `face` names
 /// the face of each. Candidates come from a BoxTree, O(n log n) where boxes meet few others that do not overlap; a pair
 /// overlaps when no side of either separates them. Contacts do not count that are less deep than 1e-9 of the smaller
 /// triangle's size, or than `resolution` times the largest coordinate that the two have. map (V,) must be finite; face
@@ -16,8 +16,8 @@ std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& t
                                         const std::vector<int>& face = {}, double resolution = 0);
 
 /// The faces of a chart, as indices into its `faces`, ascending, whose images under z cover part of another face's.
-/// Triangulated as by triangulate_map. Where has_degree_at_most_one proves it enough, only pairs with one of the
-/// doubtful_triangles are looked at, so that a map without folds and overlaps costs next to nothing.
+/// Triangulated by mapped_triangulation. Where has_degree_at_most_one proves it enough, only pairs with one of the
+/// non_positive_triangles are tested, so that an injective map costs next to nothing. z (V,) positively oriented.
 std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, double resolution = 0);
 
 }  // namespace spectral_conformal

@@ -11,34 +11,34 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
   if (!(extent > 0)) return 0;
   const ComplexVector z = map / extent;
   constexpr double pi = 3.14159265358979323846;
-  std::vector<int> place_on_loop(static_cast<std::size_t>(z.size()), -1);
-  for (std::size_t i = 0; i < loop.size(); ++i) place_on_loop[loop[i]] = static_cast<int>(i);
+  std::vector<int> index_on_loop(static_cast<std::size_t>(z.size()), -1);
+  for (std::size_t i = 0; i < loop.size(); ++i) index_on_loop[loop[i]] = static_cast<int>(i);
   std::vector<double> interior(loop.size(), 0);
-  std::vector<char> folded(loop.size(), 0);
+  std::vector<char> flipped(loop.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int vertex = triangles[t][k];
-      const int place = place_on_loop[vertex];
-      if (place < 0) continue;
+      const int index = index_on_loop[vertex];
+      if (index < 0) continue;
       const Complex next = z[triangles[t][(k + 1) % 3]] - z[vertex];
       const Complex previous = z[triangles[t][(k + 2) % 3]] - z[vertex];
       const double angle = std::arg(std::conj(next) * previous);
-      interior[place] += triangle_weights[t] * angle;
-      if (angle < 0) folded[place] = 1;
+      interior[index] += triangle_weights[t] * angle;
+      if (angle < 0) flipped[index] = 1;
     }
   }
-  double turned = 0;
+  double turning = 0;
   Complex last = 0;  // the last edge with a length
   for (std::size_t i = loop.size(); i-- > 0 && last == 0.0;) last = z[loop[(i + 1) % loop.size()]] - z[loop[i]];
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Complex edge = z[loop[(i + 1) % loop.size()]] - z[loop[i]];
     if (edge == 0.0) continue;
     const double exterior = std::arg(std::conj(last) * edge);
-    // Equal to pi - interior up to full turns, which the triangles tell unless they are folded.
-    turned += folded[i] ? exterior : exterior + 2 * pi * std::round((pi - interior[i] - exterior) / (2 * pi));
+    // Equal to pi - interior up to full turns, which follow from the triangles unless one is flipped.
+    turning += flipped[i] ? exterior : exterior + 2 * pi * std::round((pi - interior[i] - exterior) / (2 * pi));
     last = edge;
   }
-  return static_cast<int>(std::lround(turned / (2 * pi)));
+  return static_cast<int>(std::lround(turning / (2 * pi)));
 }
 
 std::string describe_winding(int turning_number) {

@@ -7,16 +7,16 @@
 
 namespace spectral_conformal {
 
-/// How often the tangent of a boundary loop of a map turns round: the sum of its exterior angles over 2 pi. +1 for a
+/// The turning number of a boundary loop of a map: the sum of its exterior angles over 2 pi. +1 for a
 /// map that is locally injective on a disk and keeps the orientation, -1 for its mirror image. An exterior angle is pi
 /// - (sum of the image angles of the triangles at the vertex), which stays right where they go round by more than 2 pi;
-/// where one of them is folded over it is the angle between the two boundary edges, in (-pi, pi]. triangles
-/// counter-clockwise in 3D; triangle_weights per triangle. Edges without length are passed over; a map without
+/// where one of them is flipped it is the angle between the two boundary edges, in (-pi, pi]. triangles
+/// counter-clockwise in 3D; triangle_weights per triangle. Edges without length are skipped; a map without
 /// extent has 0.
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
                    const std::vector<double>& triangle_weights, const ComplexVector& map);
 
-/// What to say of a map whose turning number is neither 1 nor -1.
+/// The message about a map whose turning number is neither 1 nor -1.
 std::string describe_winding(int turning_number);
 
 }  // namespace spectral_conformal

@@ -22,8 +22,9 @@ constexpr double least_overlap_gain = 0.2;
 constexpr double distortion_for_overlap = 1.05;
 /// What a cut gains counts less by this factor where it makes an island.
 constexpr double island_penalty = 0.4;
-/// Cuts shorter than this part of the root of the area gain as if they were as long.
-constexpr double short_cut = 0.25;
+/// A cut is priced at its length and this fraction of the root of the area, what any cut costs: without it the gain for
+/// a length favours ever shorter cuts.
+constexpr double base_price = 0.25;
 /// Of larger pieces, which have fine edges, no cut shorter than this part of the root of the area is tried.
 constexpr double least_length = 0.05;
 /// Cuts with this part of the best one's gain are made together with it.
@@ -150,7 +151,7 @@ bool PieceCutter::is_small() const { return seams_.graph().n_vertices() <= small
 bool PieceCutter::makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
 
 double PieceCutter::price(const Trial& trial) const {
-  return seams_.length(trial.cut) + short_cut * std::sqrt(quality_.area);
+  return seams_.length(trial.cut) + base_price * std::sqrt(quality_.area);
 }
 
 SeamEdges PieceCutter::accept(Trial&& trial) {

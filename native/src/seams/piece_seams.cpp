@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mesh/boundary_loops.h"
-#include "seams/cut_graph.h"
+#include "seams/handle_cuts.h"
 
 namespace spectral_conformal {
 namespace {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "graph/adjacency.h"
 #include "mesh/charts.h"
 
 namespace spectral_conformal {
@@ -19,20 +20,14 @@ class SeamGraph {
     double cost;  ///< the length, lowered along sharp edges, most along concave ones, where seams are seen least
     bool cut;     ///< seam, or not between exactly two faces
   };
-  /// An edge as it leaves a vertex.
-  struct Arc {
-    int edge;
-    int to;
-  };
 
   /// Takes the selected faces and the seams of `mesh`. Coordinates must be finite.
   explicit SeamGraph(const PolygonMesh& mesh);
 
-  int n_vertices() const { return static_cast<int>(start_.size()) - 1; }
+  int n_vertices() const { return adjacency_.n_nodes(); }
   const std::vector<Edge>& edges() const { return edges_; }
-  /// The arcs [first_arc(v), first_arc(v + 1)) leave vertex v.
-  int first_arc(int vertex) const { return start_[vertex]; }
-  const Arc& arc(int index) const { return arcs_[index]; }
+  /// The vertices as nodes, with the numbers of the edges.
+  const Adjacency& adjacency() const { return adjacency_; }
   /// The edge between two vertices, or -1.
   int find_edge(int a, int b) const;
   void cut(int edge) { edges_[edge].cut = true; }
@@ -51,12 +46,11 @@ class SeamGraph {
  private:
   void collect_edges(const PolygonMesh& mesh);
   void price_edges(const PolygonMesh& mesh);
-  double turn_cost(int vertex, const Arc& in, const Arc& out) const;
+  double turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const;
 
   Positions positions_;
   std::vector<Edge> edges_;
-  std::vector<int> start_;
-  std::vector<Arc> arcs_;
+  Adjacency adjacency_;
 };
 
 }  // namespace spectral_conformal

@@ -1,12 +1,11 @@
 #include "seams/trial_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "geometry/triangle_shape.h"
+#include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
 namespace {
@@ -14,59 +13,24 @@ namespace {
 constexpr double greatest_log2_scale = 16;
 constexpr double greatest_qc = 1000;
 
-struct Triangle {
-  double qc = 1;
-  double area = 0;
-  double image = 0;
-};
-
-Triangle measure(const Eigen::Ref<const Positions>& positions, const std::array<int, 3>& triangle,
-                 const ComplexVector& z) {
-  const auto& [a, b, c] = triangle;
-  const TriangleShape shape = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
-  Triangle result;
-  if (shape.clamped) return result;
-  const Complex d1 = z[b] - z[a];
-  const Complex d2 = z[c] - z[a];
-  result.qc = std::min(shape.quasi_conformal_distortion(d1, d2), greatest_qc);
-  result.area = shape.area();
-  result.image = 0.5 * std::imag(std::conj(d1) * d2);
-  return result;
-}
-
-/// Sums the triangles [first, last) up to one face's values.
-void measure_face(const std::vector<Triangle>& triangles, std::size_t first, std::size_t last, MappedChart& result) {
-  double area = 0;
-  double image = 0;
-  double weighted = 0;
-  for (std::size_t t = first; t < last; ++t) {
-    area += triangles[t].area;
-    image += triangles[t].image;
-    weighted += triangles[t].area * triangles[t].qc;
-  }
-  const double scale = area > 0 ? 0.5 * std::log2(std::abs(image) / area) : 0;
-  result.area.push_back(area);
-  result.log2_scale.push_back(std::clamp(scale, -greatest_log2_scale, greatest_log2_scale));
-  result.qc.push_back(area > 0 ? weighted / area : 1);
-}
-
+/// Sums the triangles of each face up, of a quad those of one split.
 void measure_faces(const Eigen::Ref<const Positions>& positions, MappedChart& mapped) {
   const Chart& chart = mapped.chart;
-  std::vector<Triangle> triangles;
-  std::size_t t = 0;
-  for (int face = 0; t < chart.triangles.size(); ++face) {
-    triangles.clear();
-    const bool both_splits = chart.triangle_weights[t] != 1.0;
-    for (; t < chart.triangles.size() && chart.triangle_face[t] == face; ++t) {
-      triangles.push_back(measure(positions, chart.triangles[t], mapped.z));
-    }
-    std::size_t first = 0;
-    if (both_splits) {
-      // triangulate_polygon puts the four triangles of the two splits in a row.
-      const auto worst = [&](int split) { return std::max(triangles[split].qc, triangles[split + 1].qc); };
-      first = worst(0) <= worst(2) ? 0 : 2;
-    }
-    measure_face(triangles, first, both_splits ? first + 2 : triangles.size(), mapped);
+  const Distortion distortion = measure_distortion(positions, chart.triangles, chart.triangle_weights, mapped.z);
+  std::vector<double> image(chart.faces.size(), 0);
+  mapped.area.assign(chart.faces.size(), 0);
+  mapped.qc.assign(chart.faces.size(), 0);
+  for (const int t : distortion.triangulation) {
+    const int face = chart.triangle_face[static_cast<std::size_t>(t)];
+    mapped.area[face] += distortion.area[t];
+    image[face] += distortion.image_area[t];
+    mapped.qc[face] += distortion.area[t] * std::min(distortion.qc[t], greatest_qc);
+  }
+  for (std::size_t face = 0; face < chart.faces.size(); ++face) {
+    const double area = mapped.area[face];
+    const double scale = area > 0 ? 0.5 * std::log2(std::abs(image[face]) / area) : 0;
+    mapped.log2_scale.push_back(std::clamp(scale, -greatest_log2_scale, greatest_log2_scale));
+    mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
   }
 }
 

@@ -16,7 +16,7 @@ struct MappedChart {
   ComplexVector z;                 ///< (V,) as Solver::solve returns it: its area is that in 3D
   std::vector<double> area;        ///< per face of the chart, in 3D
   std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
-  std::vector<double> qc;          ///< per face, of a quad's two splits the less distorted one, at most 1000
+  std::vector<double> qc;          ///< per face, weighted by area, each triangle's at most 1000
 };
 
 /// Solves a chart of `mesh`. Where it cannot be solved, `solved` is false. Throws Cancelled.

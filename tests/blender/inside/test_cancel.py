@@ -13,11 +13,10 @@ import scenes
 core_options = importlib.import_module("spectral_unwrap.core.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
-adjusted_map = importlib.import_module("spectral_unwrap.extenders.adjusted_map")
+adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
 packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
-in_thread = importlib.import_module("spectral_unwrap.unwrapping.in_thread")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 worker = importlib.import_module("spectral_unwrap.core.worker")
 
@@ -65,8 +64,16 @@ def cancelling_at(monkeypatch, at):
     return reports
 
 
-def started(settings):
-    return in_thread.UnwrapInThread(settings, steps.read(bpy.context, settings))
+class Started:
+    """An unwrap that solves in a thread, as the operator's job does."""
+
+    def __init__(self, settings):
+        self.settings = settings
+        self.edit_meshes = steps.read(bpy.context, settings)
+        self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
+
+    def write(self):
+        return steps.write(bpy.context, self.settings, self.edit_meshes, self.worker.result())
 
 
 SETTINGS = {
@@ -84,17 +91,17 @@ def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
         grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
     with monkeypatch.context() as patch:
         reports = cancelling_at(patch, -1)
-        assert started(SETTINGS[name]).worker.wait(60.0)
+        assert Started(SETTINGS[name]).worker.wait(60.0)
     before = everything()
     for at in range(len(reports)):
         with monkeypatch.context() as patch:
             seen = cancelling_at(patch, at)
-            running = started(SETTINGS[name])
+            running = Started(SETTINGS[name])
             with pytest.raises(native.spectral_conformal().Cancelled):
-                running.write(bpy.context)
+                running.write()
         assert len(seen) == at + 1
         assert digest.changes(before, everything()) == []
-    assert started(SETTINGS[name]).write(bpy.context).summary.solved == 3
+    assert Started(SETTINGS[name]).write().summary.solved == 3
 
 
 def interrupting_at(at):

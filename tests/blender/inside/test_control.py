@@ -2,7 +2,6 @@
 """Extenders, hole rigidity, the blend from angles to areas and stretching, in the operator."""
 
 import sys
-from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -131,7 +130,7 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     settings = module("core.options").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("extenders.adjusted_map"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.adjusted_map"), "last_settings", lambda: settings)
     reports()
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
     assert any("without its Subdivision Surface" in text for _, text in reports()) == subdivide
@@ -194,103 +193,6 @@ def test_adjusting_a_mesh_without_map_makes_one():
     assert low.min() >= 0.0
     assert high.max() <= 1.0
     assert area(grid) > 0.1
-
-
-class Dragged:
-    """Drives the modal operator without a window."""
-
-    def __init__(self):
-        self.operator_class = module("operators.extender_adjust").MESH_OT_spectral_extender_adjust
-        # What a bpy operator instance would have.
-        self.operator = SimpleNamespace(index=-1, strength=1.0, reported=[])
-        self.operator.report = lambda levels, text: self.operator.reported.append(text)
-        for name in ("_adjusted", "_drag", "_type", "_show", "_keep", "_end", "cancel"):
-            function = getattr(self.operator_class, name)
-            setattr(self.operator, name, function.__get__(self.operator))
-        self.status = []
-        self.context = SimpleNamespace(
-            edit_object=bpy.context.edit_object,
-            mode="EDIT_MESH",
-            scene=bpy.context.scene,
-            area=None,
-            workspace=SimpleNamespace(status_text_set=self.status.append),
-            screen=SimpleNamespace(areas=[]),
-            window_manager=SimpleNamespace(modal_handler_add=lambda _operator: None),
-        )
-        self.x = 100
-        assert self.operator_class.invoke(self.operator, self.context, self.event()) == {"RUNNING_MODAL"}
-
-    def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
-        properties = {"type": kind, "value": value, "mouse_x": self.x, "shift": False, "ascii": "", **others}
-        return SimpleNamespace(**properties)
-
-    def send(self, *arguments, **others):
-        return self.operator_class.modal(self.operator, self.context, self.event(*arguments, **others))
-
-    def move(self, pixels, **others):
-        self.x += pixels
-        return self.send(**others)
-
-
-@pytest.fixture
-def dragged():
-    grid = hill()
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    add_extender(grid, 1, 140, 1.0)
-    return grid, scenes.read_uv(grid), Dragged()
-
-
-def test_dragging_changes_the_strength_and_the_map_follows(dragged):
-    grid, before, drag = dragged
-    assert drag.move(200) == {"RUNNING_MODAL"}
-    assert drag.operator.strength == pytest.approx(3.0)
-    drag.move(100, shift=True)
-    assert drag.operator.strength == pytest.approx(3.1)
-    assert "strength 3.100" in drag.status[-1]
-    assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
-    assert grid.data.spectral_extenders[0].strength == 1.0
-    assert drag.send("LEFTMOUSE", "PRESS") == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == pytest.approx(3.1)
-    assert drag.status[-1] is None
-
-
-def test_escape_restores_exactly(dragged):
-    grid, before, drag = dragged
-    drag.move(-150)
-    drag.move(700)
-    assert drag.send("ESC", "PRESS") == {"CANCELLED"}
-    np.testing.assert_array_equal(scenes.read_uv(grid), before)
-    assert grid.data.spectral_extenders[0].strength == 1.0
-    assert drag.status[-1] is None
-
-
-def test_a_number_can_be_typed(dragged):
-    grid, _, drag = dragged
-    for key, character in (("TWO", "2"), ("PERIOD", "."), ("FIVE", "5"), ("FIVE", "5"), ("BACK_SPACE", "")):
-        assert drag.send(key, "PRESS", ascii=character) == {"RUNNING_MODAL"}
-    assert drag.operator.strength == 2.5
-    assert "[2.5|]" in drag.status[-1]
-    drag.move(50)
-    assert drag.operator.strength == 2.5
-    assert drag.send("RET", "PRESS") == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == 2.5
-
-
-def test_where_the_map_cannot_follow_it_stays_and_the_reason_is_shown(dragged):
-    grid, _, drag = dragged
-    for key, character in (("MINUS", "-"), ("NINE", "9"), ("NINE", "9"), ("NINE", "9"), ("NINE", "9")):
-        drag.send(key, "PRESS", ascii=character)
-    shown = scenes.read_uv(grid)
-    assert np.isfinite(shown).all()
-    assert "weaken or remove extenders" in drag.status[-1]
-    assert drag.send("RET", "PRESS") == {"CANCELLED"}
-    assert grid.data.spectral_extenders[0].strength == 1.0
-
-
-def test_view_navigation_goes_on_while_dragging(dragged):
-    _, _, drag = dragged
-    assert drag.send("WHEELUPMOUSE", "PRESS") == {"PASS_THROUGH"}
-    assert drag.send("A", "PRESS", ascii="a") == {"RUNNING_MODAL"}
 
 
 def test_the_area_blend_evens_the_scale():

@@ -196,7 +196,7 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
     settings = module("core.options").Settings(keep_in_place=placement == "KEEP")
-    monkeypatch.setattr(module("live.following"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.seams"), "last_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
     other_uv = scenes.read_uv(other)
     turn_on()
@@ -234,12 +234,12 @@ def test_what_undo_changes_is_not_followed():
     grid = bumpy_grid()
     edit_with_pins(grid, [0, 8])
     turn_on()
-    live = module("live.following")
-    live._before_undo()
+    live, handlers = module("live.following"), module("handlers")
+    handlers._before_undo()
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.0))
     mark_seams(grid, [(4, 13)])
-    live._after_undo_or_load()
+    handlers._after_undo()
     live.look()
     others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
@@ -252,7 +252,7 @@ def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
     edit_with_pins(grid, [0, 8])
     turn_on()
     live = module("live.following")
-    monkeypatch.setattr(live, "_SLOW", -1.0)
+    monkeypatch.setattr(module("live.pins"), "_SLOW", -1.0)
     before = scenes.read_uv(grid)
     for _ in range(3):
         move(grid, 8, (0.1, 0.1))
@@ -290,10 +290,10 @@ def test_disabling_the_add_on_removes_handlers_and_property():
     for event in events:
         assert not [f for f in getattr(bpy.app.handlers, event) if "live" in f.__module__]
     assert not hasattr(bpy.context.scene, "spectral_unwrap_live")
-    assert "spectral_unwrap_live" not in bpy.context.scene
+    before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.0))
-    addon_utils.enable("spectral_unwrap", default_set=True)
-    assert not bpy.context.scene.spectral_unwrap_live
+    others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
+    np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
 
 
 def test_pins_that_an_unwrap_moves_are_not_followed():
@@ -329,3 +329,174 @@ def test_a_pin_at_no_place_takes_nothing_along(pins):
     others = np.array([loop.vert.index != pins[0] for face in scenes.edit_mesh(grid).faces for loop in face.loops])
     assert np.isfinite(scenes.read_uv(grid)[others]).all()
     assert not np.isfinite(scenes.read_uv(grid)[~others]).all()
+
+
+class Counted:
+    """Counts the calls of a function."""
+
+    def __init__(self, monkeypatch, owner, name):
+        self.calls = 0
+        function = getattr(owner, name)
+
+        def counting(*arguments, **options):
+            self.calls += 1
+            return function(*arguments, **options)
+
+        monkeypatch.setattr(owner, name, counting)
+
+
+def move_vertex(edited, vertex):
+    scenes.edit_mesh(edited).verts[vertex].co.z += 0.1
+    bmesh.update_edit_mesh(edited.data)
+    bpy.context.view_layer.update()
+
+
+def test_only_changed_meshes_are_seen_again_and_arrays_read_for_pins_only(monkeypatch):
+    pinned, *others = (bumpy_grid(name=name) for name in ("Pinned", "One", "Other"))
+    prepare_pins(pinned)
+    scenes.edit(pinned, *others)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    scenes.pin(pinned, [0])
+    bpy.context.view_layer.update()
+    look = module("live.following").look
+    seen = Counted(monkeypatch, module("live.snapshot"), "take")
+    read = Counted(monkeypatch, module("live.snapshot"), "read_mesh")
+    turn_on()
+    assert (seen.calls, read.calls) == (3, 1)
+    look()
+    assert (seen.calls, read.calls) == (3, 1)
+    move_vertex(others[0], 30)
+    look()
+    assert (seen.calls, read.calls) == (4, 1)
+    look()
+    assert (seen.calls, read.calls) == (4, 1)
+    move_vertex(pinned, 30)
+    look()
+    assert (seen.calls, read.calls) == (5, 2)
+    # A change of the selection is none.
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.context.view_layer.update()
+    look()
+    assert (seen.calls, read.calls) == (5, 2)
+
+
+def test_seams_whose_edges_are_gone_are_not_taken_for_cleared_ones():
+    grid = bumpy_grid()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    mark_seams(grid, [(4, 13)])
+    turn_on()
+    before = scenes.read_uv(grid)
+    bm = scenes.edit_mesh(grid)
+    # Turned within its two faces, the numbers of elements stay.
+    edge = bm.edges.get([bm.verts[4], bm.verts[13]])
+    bmesh.ops.rotate_edges(bm, edges=[edge], use_ccw=False)
+    bmesh.update_edit_mesh(grid.data)
+    bpy.context.view_layer.update()
+    module("live.following").look()
+    np.testing.assert_array_equal(np.sort(scenes.read_uv(grid), axis=0).shape, before.shape)
+    assert np.isin(np.round(scenes.read_uv(grid), 4), np.round(before, 4)).all()
+
+
+def test_nothing_is_seen_outside_edit_mode(monkeypatch):
+    grid = bumpy_grid()
+    scenes.edit(grid)
+    turn_on()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.view_layer.update()
+    handlers = module("handlers")
+
+    class NoUpdates:
+        @property
+        def updates(self):
+            raise AssertionError("the updates are looked through")
+
+    handlers._on_depsgraph_update(bpy.context.scene, NoUpdates())
+    assert module("live.following")._state.snapshots == {}
+    assert module("extenders.tracking")._tracks == {}
+
+
+def add_extender(edited, first, second, **options):
+    bm = scenes.edit_mesh(edited)
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    for vertex in (first, second):
+        bm.verts[vertex].select_set(True)
+    assert bpy.ops.mesh.spectral_extender_add(**options) == {"FINISHED"}
+    bpy.context.view_layer.update()
+
+
+def unwrapped_with(edited):
+    """Return what the map would be after an unwrap, without placing it."""
+    native = module("core.native").spectral_conformal()
+    polygons = module("edit_mesh.read").read_mesh(edited, all_visible=True).polygons
+    return native.unwrap(
+        polygons.vertices, polygons.face_offsets, polygons.corner_vertices, extenders=polygons.extenders
+    ).uv
+
+
+def shape(uv):
+    """Return distances between some corners, which a similarity scales by one factor."""
+    corners = uv[:: len(uv) // 20]
+    distances = np.linalg.norm(corners[:, None] - corners[None], axis=2)
+    return distances / distances.max()
+
+
+def test_without_live_unwrapping_an_added_extender_says_when_it_acts(reports):
+    grid = bumpy_grid()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    before = scenes.read_uv(grid)
+    reports()
+    add_extender(grid, 0, 62, strength=5.0)
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    ((level, text),) = reports()
+    assert level == "Info"
+    assert text.startswith("Added 1 extender, which will act on the next unwrap")
+
+
+def test_added_changed_and_removed_extenders_are_followed(reports):
+    grid = bumpy_grid()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    turn_on()
+    look = module("live.following").look
+    start = scenes.read_uv(grid)
+    reports()
+    add_extender(grid, 0, 62, strength=5.0)
+    # At once, in the undo step of the operator.
+    assert reports() == [("Info", "Added 1 extender")]
+    np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(unwrapped_with(grid)), atol=1e-5)
+    assert not np.allclose(shape(scenes.read_uv(grid)), shape(start), atol=1e-3)
+    np.testing.assert_allclose(scenes.read_uv(grid).mean(axis=0), start.mean(axis=0), atol=1e-5)
+    followed = scenes.read_uv(grid)
+    look()
+    np.testing.assert_array_equal(scenes.read_uv(grid), followed)
+
+    grid.data.spectral_extenders[0].strength = 0.1
+    look()
+    np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(unwrapped_with(grid)), atol=1e-5)
+    assert not np.allclose(shape(scenes.read_uv(grid)), shape(followed), atol=1e-3)
+
+    grid.data.spectral_extenders[0].use = False
+    look()
+    np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(start), atol=1e-5)
+
+    grid.data.spectral_extenders[0].use = True
+    look()
+    assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
+    np.testing.assert_allclose(scenes.read_uv(grid), start, atol=1e-4)
+
+
+def test_an_extender_that_cannot_be_followed_is_added_with_a_warning(reports):
+    grid = bumpy_grid(8, 6, seams=[(r * 9 + 4, r * 9 + 13) for r in range(6)])
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    turn_on()
+    before = scenes.read_uv(grid)
+    reports()
+    add_extender(grid, 0, 8)
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+    (warning,) = [text for level, text in reports() if level == "Warning"]
+    assert "no common island" in warning
+    assert len(grid.data.spectral_extenders) == 1

@@ -6,21 +6,16 @@ import re
 import time
 
 import bpy
+import jobs
 import numpy as np
 import pytest
 import scenes
 
 options = importlib.import_module("spectral_unwrap.core.options")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
-in_thread = importlib.import_module("spectral_unwrap.unwrapping.in_thread")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
+worker = importlib.import_module("spectral_unwrap.core.worker")
 native = importlib.import_module("spectral_unwrap.core.native")
-
-
-def started():
-    """Start to unwrap in a thread what is in edit mode."""
-    settings = options.Settings()
-    return in_thread.UnwrapInThread(settings, steps.read(bpy.context, settings))
 
 
 def printed(capfd):
@@ -63,44 +58,52 @@ def test_invoked_in_background_mode_the_operator_is_done_when_it_returns():
     assert not np.array_equal(scenes.read_uv(grid), before)
 
 
-def test_unwrap_in_a_thread_gives_what_the_operator_gives():
+def test_unwrap_in_a_thread_gives_what_the_operator_gives(monkeypatch):
     grid = scenes.grid(20, 20)
     scenes.edit(grid)
-    running = started()
-    assert running.worker.wait(60.0)
-    assert running.is_current(bpy.context)
-    assert running.write(bpy.context).summary.solved == 1
+    waiting = jobs.unwrap(monkeypatch)
+    assert waiting.result == {"RUNNING_MODAL"}
+    waiting.wait()
+    assert waiting.result == {"FINISHED"}
+    assert waiting.left_nothing()
+    assert waiting.reported[0][1].startswith("Unwrapped 1 island")
     threaded = scenes.read_uv(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), threaded)
 
 
-def test_cancelled_solve_changes_nothing():
+@pytest.mark.parametrize("key", ["ESC", "RIGHTMOUSE"])
+def test_cancelled_solve_changes_nothing(key, monkeypatch):
     grid = scenes.grid(100, 100)
     scenes.edit(grid)
     before, state = scenes.read_uv(grid), scenes.state(grid)
-    running = started()
-    running.worker.cancel()
-    assert running.worker.wait(60.0)
-    with pytest.raises(native.spectral_conformal().Cancelled):
-        running.write(bpy.context)
+    waiting = jobs.unwrap(monkeypatch)
+    solve = waiting.worker
+    assert waiting.send(key) == {"CANCELLED"}
+    assert waiting.reported == [("INFO", "Spectral Unwrap: Cancelled")]
+    assert waiting.left_nothing()
+    assert solve.wait(60.0)
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     assert scenes.state(grid) == state
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
 
 
-def test_error_in_the_thread_is_raised_on_writing(monkeypatch):
+@pytest.mark.parametrize("error", [native.NativeModuleError("not installed"), MemoryError("std::bad_alloc")])
+def test_error_in_the_thread_is_reported(error, monkeypatch):
     def fail(*_arguments):
-        raise native.NativeModuleError("not installed")
+        raise error
 
     monkeypatch.setattr(steps, "solve", fail)
     grid = scenes.grid(2, 2)
     scenes.edit(grid)
     before = scenes.read_uv(grid)
-    running = started()
-    assert running.worker.wait(60.0)
-    with pytest.raises(native.NativeModuleError, match="not installed"):
-        running.write(bpy.context)
+    waiting = jobs.unwrap(monkeypatch)
+    waiting.wait()
+    assert waiting.result == {"CANCELLED"}
+    ((level, text),) = waiting.reported
+    assert level == "ERROR"
+    assert text == "not installed" or text.startswith("Not enough memory")
+    assert waiting.left_nothing()
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
 
 
@@ -145,19 +148,33 @@ def _turn_face(grid):
 def test_changed_meshes_are_noticed(change):
     grid = scenes.grid(4, 4)
     scenes.edit(grid)
-    running = started()
-    assert running.worker.wait(60.0)
-    assert running.is_current(bpy.context)
+    settings = options.Settings()
+    edit_meshes = steps.read(bpy.context, settings)
+    assert steps.read_again(bpy.context, settings, edit_meshes) is not None
     change(grid)
-    assert not running.is_current(bpy.context)
+    assert steps.read_again(bpy.context, settings, edit_meshes) is None
 
 
-def test_operator_is_not_available_while_a_solve_runs(monkeypatch):
+def test_nothing_is_written_into_changed_meshes(monkeypatch):
+    grid = scenes.grid(4, 4)
+    scenes.edit(grid)
+    waiting = jobs.unwrap(monkeypatch)
+    _turn_face(grid)
+    before = scenes.read_uv(grid)
+    waiting.wait()
+    assert waiting.result == {"CANCELLED"}
+    assert waiting.reported[-1][0] == "WARNING"
+    assert waiting.left_nothing()
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
+
+
+def test_operators_are_not_available_while_a_solve_runs(monkeypatch):
     scenes.edit(scenes.grid(4, 4))
-    operator = importlib.import_module("spectral_unwrap.operators.unwrap").UV_OT_spectral_unwrap
-    running = started()
-    monkeypatch.setattr(operator, "_running", running)
-    monkeypatch.setattr(type(running.worker), "is_wanted", True)
-    assert not bpy.ops.uv.spectral_unwrap.poll()
-    monkeypatch.undo()
+    waiting = jobs.unwrap(monkeypatch)
+    with monkeypatch.context() as patch:
+        patch.setattr(worker.Worker, "is_wanted", True)
+        assert not bpy.ops.uv.spectral_unwrap.poll()
+        assert not bpy.ops.uv.spectral_suggest_seams.poll()
+    waiting.send("ESC")
     assert bpy.ops.uv.spectral_unwrap.poll()
+    assert bpy.ops.uv.spectral_suggest_seams.poll()

@@ -6,6 +6,7 @@ import sys
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import pytest
+import scenes
 
 ADDON = "spectral_unwrap"
 MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select")
@@ -115,6 +116,56 @@ def test_panels_and_extenders_come_and_go_with_the_add_on():
         for event in ("depsgraph_update_post", "undo_post", "redo_post", "load_pre", "load_post"):
             assert not any(f.__module__.startswith(ADDON) for f in getattr(bpy.app.handlers, event)), event
         addon_utils.enable(ADDON)
+
+
+@pytest.mark.parametrize("name", ["adjust", "remove", "select"])
+def test_what_panels_set_for_one_click_is_neither_shown_nor_remembered(name):
+    properties = getattr(bpy.ops.mesh, f"spectral_extender_{name}").get_rna_type().properties
+    for prop in properties:
+        if prop.identifier in {"index", "broken"}:
+            assert prop.is_hidden, prop.identifier
+            assert prop.is_skip_save, prop.identifier
+
+
+def test_values_stay_in_the_file_when_the_add_on_is_disabled():
+    scenes.edit(scenes.grid(2, 2), select=False)
+    for vertex in (0, 5):
+        scenes.edit_mesh(bpy.context.edit_object).verts[vertex].select_set(True)
+    assert bpy.ops.mesh.spectral_extender_add(strength=2.0) == {"FINISHED"}
+    bpy.context.scene.spectral_unwrap_live = True
+    addon_utils.disable(ADDON)
+    assert not hasattr(bpy.context.scene, "spectral_unwrap_live")
+    addon_utils.enable(ADDON)
+    assert bpy.context.scene.spectral_unwrap_live
+    assert [extender.strength for extender in bpy.context.edit_object.data.spectral_extenders] == [2.0]
+
+
+def _handlers():
+    """Return the add-on's handlers of all events, by event and name."""
+    events = {event: getattr(bpy.app.handlers, event) for event in dir(bpy.app.handlers)}
+    return [
+        (event, function.__name__)
+        for event, functions in events.items()
+        if isinstance(functions, list)
+        for function in functions
+        if function.__module__.startswith(ADDON)
+    ]
+
+
+def test_reload_scripts_leaves_one_of_everything():
+    bpy.context.scene.spectral_unwrap_live = True
+    before, entries = sorted(_handlers()), _entries()
+    # What Reload Scripts does to an add-on.
+    addon_utils.disable(ADDON)
+    assert _handlers() == []
+    addon_utils.enable(ADDON)
+    addon_utils.disable(ADDON)
+    addon_utils.enable(ADDON)
+    assert sorted(_handlers()) == before
+    assert len(before) == len(set(before))
+    assert _entries() == entries
+    scenes.edit(scenes.bumpy_grid())
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
 
 
 def test_module_is_found_in_the_layout_of_this_installation():

@@ -3,10 +3,10 @@
 
 import importlib
 import sys
-from types import SimpleNamespace
 
 import bmesh
 import bpy
+import jobs
 import numpy as np
 import pytest
 import scenes
@@ -330,71 +330,10 @@ def test_live_unwrap_does_not_follow():
     assert "UV_OT_spectral_suggest_seams" in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
 
 
-class Instance(SimpleNamespace):
-    """What stands for an instance of the operator."""
-
-
-class Previewed:
-    """Drives the modal operator without a window."""
-
-    def __init__(self, monkeypatch, is_waiting=True):
-        self.operator_class = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
-        defaults = {"size_variation": 2.0, "angle_distortion": 1.05, "max_length": 0.0, "cuts": 0, "unwrap": True}
-        # What a bpy operator instance would have.
-        self.operator = Instance(**defaults, reported=[])
-        self.operator.report = lambda levels, text: self.operator.reported.append((*levels, text))
-        for name, function in vars(self.operator_class).items():
-            if callable(function) and not name.startswith("__"):
-                setattr(self.operator, name, function.__get__(self.operator))
-        self.status = []
-        self.timers = []
-        manager = SimpleNamespace(
-            modal_handler_add=lambda _operator: None,
-            event_timer_add=self._add_timer,
-            event_timer_remove=self.timers.remove,
-            progress_begin=lambda _low, _high: None,
-            progress_update=lambda _value: None,
-            progress_end=lambda: None,
-        )
-        self.context = SimpleNamespace(
-            edit_object=bpy.context.edit_object,
-            mode="EDIT_MESH",
-            scene=bpy.context.scene,
-            area=None,
-            window=None,
-            objects_in_mode_unique_data=bpy.context.objects_in_mode_unique_data,
-            workspace=SimpleNamespace(status_text_set=self.status.append),
-            screen=SimpleNamespace(areas=[]),
-            temp_override=bpy.context.temp_override,
-            window_manager=manager,
-        )
-        # The package of a window: background mode would execute.
-        operators = module("operators.suggest_seams")
-        monkeypatch.setattr(operators, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), ops=bpy.ops))
-        self.result = self.operator_class.invoke(self.operator, self.context, self.event())
-        if is_waiting and self.result == {"RUNNING_MODAL"}:
-            self.wait()
-
-    def _add_timer(self, _seconds, window):
-        assert window is None
-        self.timers.append(object())
-        return self.timers[-1]
-
-    def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
-        return SimpleNamespace(**{"type": kind, "value": value, "ascii": "", "ctrl": False, **others})
-
-    def send(self, kind, value="PRESS", **others):
-        self.result = self.operator_class.modal(self.operator, self.context, self.event(kind, value, **others))
-        return self.result
-
-    def wait(self):
-        """Let the timer run until nothing is under way."""
-        while self.operator._preview is None and self.result <= {"RUNNING_MODAL", "PASS_THROUGH"}:
-            self.operator._worker.wait(60.0)
-            self.send("TIMER", "NOTHING")
-        if self.operator._preview is not None and self.operator._preview._measuring is not None:
-            self.operator._preview._measuring.wait(60.0)
-            self.send("TIMER", "NOTHING")
+def invoked(monkeypatch, is_waiting=True):
+    defaults = {"size_variation": 2.0, "angle_distortion": 1.05, "max_length": 0.0, "cuts": 0, "unwrap": True}
+    operator = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
+    return jobs.Invoked(monkeypatch, operator, is_waiting, **defaults)
 
 
 @pytest.fixture
@@ -402,7 +341,7 @@ def previewed(monkeypatch):
     head = suzanne()
     head.data.uv_layers.new(name="UVMap")
     scenes.edit(head)
-    return head, scenes.state(head), scenes.read_uv(head), Previewed(monkeypatch)
+    return head, scenes.state(head), scenes.read_uv(head), invoked(monkeypatch)
 
 
 def apply(preview):
@@ -416,7 +355,7 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     assert preview.result <= {"RUNNING_MODAL", "PASS_THROUGH"}
     assert scenes.state(head) == before
     np.testing.assert_array_equal(scenes.read_uv(head), uv)
-    total = preview.operator._preview.count
+    total = preview.choice.count
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
     assert "of the surface within 2 times the median scale, mean QC 1.0" in preview.status[-1]
 
@@ -430,40 +369,40 @@ def test_fewer_and_more_cuts_are_shown(previewed, more, fewer):
     def press(key):
         return preview.send("A", ascii=key) if len(key) == 1 else preview.send(key)
 
-    total = preview.operator._preview.count
+    total = preview.choice.count
     assert press(more) == {"RUNNING_MODAL"}
-    assert preview.operator._preview.count == total
+    assert preview.choice.count == total
     press(fewer)
-    assert preview.operator._preview.count == total - 1
+    assert preview.choice.count == total - 1
     assert f"{total - 1} of {total} cuts" in preview.status[-1]
     for _ in range(total + 2):
         press(fewer)
-    assert preview.operator._preview.count == 1
+    assert preview.choice.count == 1
     press(more)
-    assert preview.operator._preview.count == 2
+    assert preview.choice.count == 2
 
 
 def test_page_keys_leap_by_a_tenth(previewed):
     _, _, _, preview = previewed
-    total = preview.operator._preview.count
+    total = preview.choice.count
     assert total > 20
     preview.send("PAGE_DOWN")
-    assert preview.operator._preview.count == total - round(0.1 * total)
+    assert preview.choice.count == total - round(0.1 * total)
     preview.send("PAGE_UP")
-    assert preview.operator._preview.count == total
+    assert preview.choice.count == total
 
 
 def test_applying_marks_what_is_shown(previewed):
     head, _, uv, preview = previewed
     preview.send("WHEELDOWNMOUSE")
-    count = preview.operator._preview.count
+    count = preview.choice.count
     assert apply(preview) == {"FINISHED"}
     assert preview.operator.cuts == count
     shown, mapped = seams(head), scenes.read_uv(head)
     assert not np.array_equal(mapped, uv)
     assert preview.status[-1] is None
     assert preview.timers == []
-    assert preview.operator.reported[0][1].startswith(f"Marked {count} cuts of length ")
+    assert preview.reported[0][1].startswith(f"Marked {count} cuts of length ")
     # The same as without a window.
     for edge in scenes.edit_mesh(head).edges:
         edge.seam = False
@@ -492,7 +431,7 @@ def test_escape_leaves_everything(previewed, key):
 
 def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
     head, before, uv, preview = previewed
-    monkeypatch.setattr(module("operators.suggest_seams"), "_SECONDS_BEFORE_MODAL", -1.0)
+    monkeypatch.setattr(module("operators.job_operator"), "_SECONDS_BEFORE_MODAL", -1.0)
     worker = module("core.worker").Worker
     # A solve that has not ended when the event comes.
     monkeypatch.setattr(worker, "wait", lambda _self, _seconds: False)
@@ -514,7 +453,7 @@ def test_escape_during_the_search_leaves_everything(monkeypatch):
     # A search that has not ended when the events come.
     with monkeypatch.context() as patch:
         patch.setattr(worker, "wait", lambda _self, _seconds: False)
-        preview = Previewed(monkeypatch, is_waiting=False)
+        preview = invoked(monkeypatch, is_waiting=False)
         assert preview.result == {"RUNNING_MODAL"}
         assert preview.send("TIMER", "NOTHING") == {"PASS_THROUGH"}
         assert preview.status[-1].startswith("Suggest Seams: ")
@@ -532,7 +471,7 @@ def test_meshes_that_changed_meanwhile_are_left_alone(previewed):
     bmesh.update_edit_mesh(head.data)
     assert apply(preview) == {"CANCELLED"}
     assert not seams(head)
-    assert preview.operator.reported[-1][0] == "WARNING"
+    assert preview.reported[-1][0] == "WARNING"
 
 
 def test_view_navigation_goes_on(previewed):
@@ -556,8 +495,8 @@ def test_lines_lie_where_the_object_is(monkeypatch):
     cube.scale = (2.0, 2.0, 2.0)
     bpy.context.view_layer.update()
     scenes.edit(cube)
-    preview = Previewed(monkeypatch)
-    points = preview.operator._preview._lines.points(0, preview.operator._preview.count)
+    preview = invoked(monkeypatch)
+    points = preview.choice._lines.points(0, preview.choice.count)
     assert len(points) >= 2 * 5
     np.testing.assert_allclose(points.min(axis=0), [1.0, 2.0, 3.0], atol=1e-6)
     np.testing.assert_allclose(points.max(axis=0), [3.0, 4.0, 5.0], atol=1e-6)
@@ -566,6 +505,6 @@ def test_lines_lie_where_the_object_is(monkeypatch):
 
 def test_nothing_to_suggest_shows_no_preview(monkeypatch):
     scenes.edit(scenes.grid(4, 3))
-    preview = Previewed(monkeypatch)
+    preview = invoked(monkeypatch)
     assert preview.result == {"CANCELLED"}
-    assert preview.operator.reported[0][1].startswith("No seams to suggest")
+    assert preview.reported[0][1].startswith("No seams to suggest")

@@ -11,9 +11,9 @@
 namespace spectral_conformal::test {
 namespace {
 
-std::string message_of_single_patch(const Mesh& mesh) {
+std::string message_of_single_chart(const Mesh& mesh) {
   try {
-    single_patch(mesh.view());
+    single_chart(mesh.view());
   } catch (const InvalidMesh& problem) {
     return problem.what();
   }
@@ -26,7 +26,7 @@ std::string message_of_solver(const Mesh& mesh) {
   try {
     const Solver solver(patch.chart, patch.positions, PatchOptions{});
   } catch (const InvalidMesh& problem) {
-    CHECK(problem.what() == why_not_a_disk(patch.chart, patch.positions));
+    CHECK(problem.what() == why_not_parameterizable(patch.chart, patch.positions));
     return problem.what();
   }
   return "";
@@ -38,19 +38,19 @@ bool says(const std::string& message, const char* what) { return message.find(wh
 
 TEST_SUITE_BEGIN("chart_checks");
 
-TEST_CASE("what is not one disk-like patch is refused with its name") {
-  CHECK(says(message_of_single_patch({}), "no faces"));
+TEST_CASE("what is not one disk-like chart is refused with its name") {
+  CHECK(says(message_of_single_chart({}), "no faces"));
   Mesh degenerate = flat_grid(2, 2);
   degenerate.add({0, 1, 1});
-  CHECK(says(message_of_single_patch(degenerate), "fewer than three"));
+  CHECK(says(message_of_single_chart(degenerate), "fewer than three"));
   const Mesh fin({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  CHECK(says(message_of_single_patch(fin), "three or more faces"));
+  CHECK(says(message_of_single_chart(fin), "three or more faces"));
   Mesh two = flat_grid(2, 2);
   two.append(flat_grid(1, 1));
-  CHECK(says(message_of_single_patch(two), "2 components"));
-  CHECK(says(message_of_single_patch(pinched_ring()), "bow ties"));
+  CHECK(says(message_of_single_chart(two), "2 components"));
+  CHECK(says(message_of_single_chart(pinched_ring()), "bow ties"));
 
-  CHECK(says(message_of_solver(ring(9, 1)), "one-sided"));
+  CHECK(says(message_of_solver(ring(9, 1)), "non-orientable"));
   CHECK(says(message_of_solver(tetrahedron()), "closed"));
   CHECK(says(message_of_solver(torus(6, 5)), "closed, with 1 handle"));
   Mesh punctured = torus(6, 5);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/quad_splits.h"
 #include "geometry/triangle_shape.h"
 #include "meshes.h"
 #include "spectral_conformal/distortion.h"
@@ -73,27 +74,35 @@ TEST_CASE("a map that is linear on a flat patch has one qc and one scale") {
   CHECK(distortion.log2_scale_deviation < 1e-11);
 }
 
-TEST_CASE("means are weighted by area and triangle weight, percentiles interpolate over the triangles") {
+TEST_CASE("means are weighted by area, percentiles interpolate, and of a quad one split counts") {
   Mesh mesh = bumpy_grid(5, 4);
   mesh.add({29, 23, 30, 31});
   mesh.points.emplace_back(7, 3, 1);
   mesh.points.emplace_back(7, 4.5, 0);
   const Patch patch(mesh);
-  const Distortion distortion = measure(patch, bent(patch.positions));
-  const auto n = distortion.qc.size();
-  Eigen::VectorXd weight(n);
-  for (Eigen::Index t = 0; t < n; ++t) {
+  const ComplexVector z = bent(patch.positions);
+  const Distortion distortion = measure(patch, z);
+  REQUIRE(distortion.qc.size() == 44);
+  CHECK(distortion.triangulation == mapped_triangulation(patch.chart.triangles, patch.chart.triangle_weights, z));
+  const auto n = static_cast<Eigen::Index>(distortion.triangulation.size());
+  REQUIRE(n == 42);
+  Eigen::VectorXd weight(n), qc(n), log2_scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int t = distortion.triangulation[static_cast<std::size_t>(i)];
     const auto& [a, b, c] = patch.chart.triangles[static_cast<std::size_t>(t)];
-    weight[t] = patch.chart.triangle_weights[static_cast<std::size_t>(t)] *
-                triangle_area(patch.positions.row(a), patch.positions.row(b), patch.positions.row(c));
+    weight[i] = triangle_area(patch.positions.row(a), patch.positions.row(b), patch.positions.row(c));
+    CHECK(distortion.area[t] == doctest::Approx(weight[i]).epsilon(1e-13));
+    CHECK(distortion.image_area[t] == doctest::Approx(weight[i] * std::exp2(2 * distortion.log2_scale[t])));
+    qc[i] = distortion.qc[t];
+    log2_scale[i] = distortion.log2_scale[t];
   }
   weight /= weight.sum();
   REQUIRE(weight.minCoeff() < 0.5 * weight.maxCoeff());
-  CHECK(distortion.mean_qc == doctest::Approx(weight.dot(distortion.qc)).epsilon(1e-12));
-  CHECK(distortion.max_qc == distortion.qc.maxCoeff());
-  CHECK(distortion.p95_qc == doctest::Approx(percentile(distortion.qc, 0.95)).epsilon(1e-13));
-  CHECK(distortion.p99_qc == doctest::Approx(percentile(distortion.qc, 0.99)).epsilon(1e-13));
-  const Eigen::ArrayXd centred = distortion.log2_scale.array() - weight.dot(distortion.log2_scale);
+  CHECK(distortion.mean_qc == doctest::Approx(weight.dot(qc)).epsilon(1e-12));
+  CHECK(distortion.max_qc == qc.maxCoeff());
+  CHECK(distortion.p95_qc == doctest::Approx(percentile(qc, 0.95)).epsilon(1e-13));
+  CHECK(distortion.p99_qc == doctest::Approx(percentile(qc, 0.99)).epsilon(1e-13));
+  const Eigen::ArrayXd centred = log2_scale.array() - weight.dot(log2_scale);
   CHECK(distortion.log2_scale_deviation == doctest::Approx(std::sqrt(weight.dot(centred.square().matrix()))));
 }
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "meshes.h"
-#include "seams/cut_graph.h"
+#include "seams/cut_surface.h"
 #include "seams/piece_seams.h"
 
 namespace spectral_conformal::test {

@@ -1,34 +1,28 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-// Where a map of a triangulated patch can overlap, told from its boundary and the signs of its triangles alone.
+// Where a map of a triangulated chart can overlap, deduced from its boundary and the signs of its triangles alone.
 //
 // Let p be a point of the plane that is the image of no edge, and N+ and N- the numbers of counter-clockwise and
 // clockwise triangles over it. N+ - N- is the degree of the map at p, which is the sum of the winding numbers of the
-// boundary loops about p, because the edges within the patch cancel (Lipman 2014, "Bijective mappings of meshes with
+// boundary loops about p, because the edges within the chart cancel (Lipman 2014, "Bijective mappings of meshes with
 // boundary and the degree in mesh processing", SIAM J. Imaging Sci. 7). A simple polygon has winding number 0 outside
 // and, inside, 1 if it runs counter-clockwise and -1 if it runs clockwise. Hence:
 //  - Where the boundary loops are simple polygons and exactly one of them runs counter-clockwise, N+ - N- <= 1. More
 //    than one triangle lies over p only where a clockwise one does: what overlaps, overlaps a clockwise triangle.
 //  - If moreover no triangle is clockwise, N+ <= 1: nothing overlaps, the map is injective.
-//  - Conversely, if the loops are simple and disjoint and the map of a connected patch is injective, its image is a
+//  - Conversely, if the loops are simple and disjoint and the map of a connected chart is injective, its image is a
 //    connected domain whose boundary these loops are, so that exactly one runs counter-clockwise.
 // Interior vertices with angles of more than 2 pi need no care: they show at the boundary.
 
 /// Whether the boundary proves that the degree is 0 or 1 everywhere: all loops are simple, disjoint polygons, one of
-/// them counter-clockwise. False in doubt: where rounding may have changed a sign, where an edge has collapsed and
-/// where the boundary touches itself. loops: all of the patch, as in Chart; z (V,), finite. O(n log n) for n boundary
-/// edges.
+/// them counter-clockwise, by exact predicates. False where an edge has collapsed and where the boundary touches
+/// itself. loops: all of the chart's; z (V,), finite. O(n log n) for n boundary edges.
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
-
-/// The triangles, ascending, that are not certainly counter-clockwise in the map: clockwise, collapsed, or so thin that
-/// rounding may have changed the sign.
-std::vector<int> doubtful_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& z);
 
 }  // namespace spectral_conformal

@@ -1,4 +1,4 @@
-#include "seams/cut_graph.h"
+#include "seams/handle_cuts.h"
 
 #include <algorithm>
 #include <array>
@@ -6,31 +6,17 @@
 #include <set>
 #include <utility>
 
+#include "graph/disjoint_sets.h"
+#include "seams/cut_surface.h"
+
 namespace spectral_conformal {
 namespace {
 
-class DisjointSets {
- public:
-  explicit DisjointSets(int n) : parent_(static_cast<std::size_t>(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  bool unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
+/// Bases of the generator loops for a surface with one handle curve, fewer with more: several give shorter loops, and
+/// with many handles each base passes near enough.
+constexpr int max_bases = 8;
 
- private:
-  std::vector<int> parent_;
-};
-
-/// Edges by the number of times modulo two that they are on the ways from both ends of `edge` to the root, and `edge`.
+/// Edges by the number of times modulo two that they are on the paths from both ends of `edge` to the root, and `edge`.
 std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& parent, int edge) {
   std::set<int> loop{edge};
   for (int v : graph.edges()[edge].vertices) {
@@ -46,9 +32,17 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
   return result;
 }
 
-double cost_of(const SeamGraph& graph, const std::vector<int>& edges) {
-  return std::accumulate(edges.begin(), edges.end(), 0.0,
-                         [&](double sum, int edge) { return sum + graph.edges()[edge].cost; });
+/// Cheapest first; of equal cost in the order that they are in.
+void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) {
+  std::vector<std::pair<double, std::vector<int>>> costs;
+  costs.reserve(loops.size());
+  for (auto& loop : loops) {
+    double cost = 0;
+    for (const int edge : loop) cost += graph.edges()[edge].cost;
+    costs.emplace_back(cost, std::move(loop));
+  }
+  std::stable_sort(costs.begin(), costs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
 }
 
 /// Vertices far from each other, the first one far from vertex 0's component's start.
@@ -60,7 +54,8 @@ std::vector<int> spread_vertices(const SeamGraph& graph, int count) {
     const std::vector<double> distance = graph.distances(sources, everywhere);
     int farthest = sources.front();
     for (int v = 0; v < graph.n_vertices(); ++v) {
-      if (distance[v] > distance[farthest] && graph.first_arc(v) < graph.first_arc(v + 1)) farthest = v;
+      if (distance[v] > distance[farthest] && graph.adjacency().first_arc(v) < graph.adjacency().first_arc(v + 1))
+        farthest = v;
     }
     if (i == 0) sources.clear();
     sources.push_back(farthest);
@@ -93,48 +88,7 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
   return loops;
 }
 
-/// The mesh with more and more seams; tells how many handle curves are left.
-class Opening {
- public:
-  Opening(const PolygonMesh& mesh, const SeamGraph& graph)
-      : mesh_(mesh), graph_(graph), seams_(mesh.seam_edges, mesh.seam_edges + mesh.n_seam_edges) {
-    left_ = curves_left();
-  }
-  int left() const { return left_; }
-  /// Adds the edges when that leaves one chart with fewer handle curves.
-  bool try_cut(const std::vector<int>& edges) {
-    const std::size_t before = seams_.size();
-    for (const int edge : edges) seams_.push_back(graph_.edges()[edge].vertices);
-    const int left = curves_left();
-    if (left >= 0 && left < left_) {
-      left_ = left;
-      return true;
-    }
-    seams_.resize(before);
-    return false;
-  }
-
- private:
-  int curves_left() const {
-    PolygonMesh cut = mesh_;
-    cut.seam_edges = seams_.data();
-    cut.n_seam_edges = static_cast<int>(seams_.size());
-    const ChartDecomposition decomposition = build_charts(cut);
-    return decomposition.charts.size() == 1 ? handle_curves(decomposition.charts.front()) : -1;
-  }
-  PolygonMesh mesh_;
-  const SeamGraph& graph_;
-  std::vector<std::array<int, 2>> seams_;
-  int left_;
-};
-
 }  // namespace
-
-int handle_curves(const Chart& chart) {
-  // The loops of a one-sided chart are not chained reliably.
-  const int loops = chart.orientable ? static_cast<int>(chart.boundary_loops.size()) : 0;
-  return 2 - loops - chart.euler_characteristic;
-}
 
 std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_faces, int base) {
   const auto& edges = graph.edges();
@@ -180,27 +134,26 @@ std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_face
 
 std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGraph& graph,
                                           const std::function<int(int edge)>& mirror_edge) {
-  Opening opening(mesh, graph);
+  const ChartDecomposition decomposition = build_charts(mesh);
   std::vector<std::vector<int>> result;
-  if (opening.left() <= 0) return result;
+  if (decomposition.charts.size() != 1) return result;
+  CutSurface surface(mesh, graph, decomposition.charts.front());
+  if (surface.handle_curves() == 0) return result;
   std::vector<std::vector<int>> loops = self_mirrored_loops(graph, mirror_edge);
-  // Several bases give shorter loops; with many handles each base passes near enough.
-  constexpr int most_bases = 8;
-  for (const int base : spread_vertices(graph, std::max(1, most_bases / opening.left()))) {
+  for (const int base : spread_vertices(graph, std::max(1, max_bases / surface.handle_curves()))) {
     for (auto& loop : generator_loops(graph, mesh.n_faces, base)) loops.push_back(std::move(loop));
   }
-  std::stable_sort(loops.begin(), loops.end(),
-                   [&](const auto& a, const auto& b) { return cost_of(graph, a) < cost_of(graph, b); });
+  sort_by_cost(graph, loops);
   for (const bool mirrored : {true, false}) {
     for (const auto& loop : loops) {
-      if (opening.left() == 0) return result;
+      if (surface.handle_curves() == 0) return result;
       std::set<int> cut(loop.begin(), loop.end());
       for (const int edge : loop) {
         const int image = mirrored ? mirror_edge(edge) : -1;
         if (image >= 0) cut.insert(image);
       }
       std::vector<int> edges(cut.begin(), cut.end());
-      if (!edges.empty() && opening.try_cut(edges)) result.push_back(std::move(edges));
+      if (!edges.empty() && surface.try_cut(edges)) result.push_back(std::move(edges));
     }
   }
   return result;

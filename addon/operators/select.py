@@ -1,17 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that selects flipped and overlapping faces of the UV map."""
+"""The operators that select faces by what the unwrap, or the map, is like there."""
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty
 
 from .. import names
 from ..core import defects, texts
-from ..core.native import NativeModuleError
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
+from ..unwrapping import last_result
+from .reporting_operator import ReportingOperator
 
 
-class UV_OT_spectral_select_defects(bpy.types.Operator):
+class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
+    """Select the visible faces of the islands that failed when they were unwrapped last."""
+
+    bl_idname = names.SELECT_FAILED_OPERATOR
+    bl_label = texts.SELECT_FAILED_LABEL
+    bl_description = texts.SELECT_FAILED_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode."""
+        return context.mode == "EDIT_MESH"
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Select what is remembered; nothing is solved and nothing written."""
+        edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
+        if not edited:
+            self.report({"WARNING"}, texts.NO_RESULT_REMEMBERED)
+            return {"CANCELLED"}
+        faces, islands, changed = {}, 0, []
+        for edit_object in edited:
+            edit_mesh = read_mesh(edit_object, all_visible=True)
+            failed = last_result.failed_islands(edit_mesh)
+            if failed is None:
+                changed.append(edit_object.name)
+                continue
+            flags = (failed >= 0) & edit_mesh.polygons.selected_faces
+            islands += len(np.unique(failed[flags]))
+            faces[edit_mesh.mesh] = flags
+        if faces:
+            self.report({"INFO"}, texts.selected_failed(islands, sum(int(flags.sum()) for flags in faces.values())))
+        if changed:
+            self.report({"WARNING"}, texts.changed_since_unwrapped(changed))
+        if not islands:
+            return {"CANCELLED"}
+        selection.select_only(context, faces)
+        return {"FINISHED"}
+
+
+class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
     """Select the faces that are flipped or overlap others in the active UV map."""
 
     bl_idname = names.SELECT_DEFECTS_OPERATOR
@@ -51,7 +92,7 @@ class UV_OT_spectral_select_defects(bpy.types.Operator):
         row.prop(self, "between_islands")
         layout.prop(self, "extend")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
         """Look at the visible faces, in the UV editor at those shown there, and select the ones with defects."""
         if not (self.flipped or self.overlapping):
             self.report({"WARNING"}, texts.NO_DEFECT_CHOSEN)
@@ -65,11 +106,7 @@ class UV_OT_spectral_select_defects(bpy.types.Operator):
         if not edit_meshes:
             self.report({"WARNING"}, texts.NO_UV_MAP)
             return {"CANCELLED"}
-        try:
-            found = defects.find([edit_mesh.polygons for edit_mesh in edit_meshes], self.between_islands)
-        except NativeModuleError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        found = defects.find([edit_mesh.polygons for edit_mesh in edit_meshes], self.between_islands)
         chosen = [each.chosen(self.flipped, self.overlapping) for each in found]
         self.report({"INFO"}, texts.selected_defects(found, self.flipped, self.overlapping))
         if any(faces.any() for faces in chosen):

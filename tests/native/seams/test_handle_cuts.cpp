@@ -4,7 +4,8 @@
 
 #include "mesh/mirror_symmetry.h"
 #include "meshes.h"
-#include "seams/cut_graph.h"
+#include "seams/cut_surface.h"
+#include "seams/handle_cuts.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -26,7 +27,7 @@ Mesh with_cuts(Mesh mesh, const SeamGraph& graph, const std::vector<std::vector<
 
 }  // namespace
 
-TEST_SUITE_BEGIN("cut_graph");
+TEST_SUITE_BEGIN("handle_cuts");
 
 TEST_CASE("generator loops of known surfaces, and what is left when all are cut") {
   struct Known {

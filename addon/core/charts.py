@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which faces are one chart, before anything is solved, and the charts at edges and vertices.
+
+Edges are vertex pairs in any order; `faces` (F,) bool are those that count, the others are as if deleted.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .mesh import PolygonMesh
+
+
+def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
+    """Return the chart of every face, (F,) intp, -1 for faces that do not count; the numbers have gaps.
+
+    Charts end at seams and at edges that do not have two faces.
+    """
+    face = mesh.face_of_corner()
+    keys = _corner_edges(mesh)
+    usable = faces[face] & ~np.isin(keys, _keys(mesh, mesh.seam_edges))
+    order = np.flatnonzero(usable)
+    order = order[np.argsort(keys[order], kind="stable")]
+    _, first, count = np.unique(keys[order], return_index=True, return_counts=True)
+    first = first[count == 2]
+    a, b = face[order[first]], face[order[first + 1]]
+    chart = np.arange(len(faces))
+    while True:
+        low, high = np.minimum(chart[a], chart[b]), np.maximum(chart[a], chart[b])
+        if np.array_equal(low, high):
+            return np.where(faces, chart, -1)
+        np.minimum.at(chart, high, low)
+        while not np.array_equal(chart, chart[chart]):
+            chart = chart[chart]
+
+
+def faces_of_charts_at(mesh: PolygonMesh, faces: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Return which faces, (F,) bool, belong to a chart that has one of the `edges` (N, 2)."""
+    chart = chart_of_face(mesh, faces)
+    beside = np.zeros(len(faces), dtype=bool)
+    beside[mesh.face_of_corner()[np.isin(_corner_edges(mesh), _keys(mesh, edges))]] = True
+    return np.isin(chart, chart[beside & (chart >= 0)])
+
+
+def faces_of_charts_with(mesh: PolygonMesh, faces: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Return which faces, (F,) bool, belong to a chart that has both vertices of one of the `pairs`."""
+    chart = chart_of_face(mesh, faces)
+    chart_of_corner = chart[mesh.face_of_corner()]
+    chosen: set[int] = set()
+    for pair in pairs:
+        first, second = (set(chart_of_corner[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
+        chosen |= (first & second) - {-1}
+    return np.isin(chart, list(chosen))
+
+
+def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
+    """Return the key of the edge from every corner to the next one of its face, (C,)."""
+    return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
+
+
+def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
+    ends = np.sort(np.asarray(edges, dtype=np.int64).reshape(-1, 2), axis=1)
+    return ends[:, 0] * len(mesh.vertices) + ends[:, 1]

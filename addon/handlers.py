@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that the add-on does when Blender updates, undoes or loads: all handlers, in the order that matters.
+
+They run often, most of the time for nothing that concerns the add-on, and leave as early as possible then.
+"""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from . import operators
+from .extenders import storage, tracking
+from .live import adjusted_map, following
+
+
+@persistent
+def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    if bpy.context.mode != "EDIT_MESH":
+        tracking.forget_left()
+        following.forget_left()
+        return
+    meshes = _updated(depsgraph)
+    if meshes:
+        tracking.follow(meshes)
+        following.on_update(scene, meshes)
+
+
+@persistent
+def _before_undo(*_arguments: object) -> None:
+    # What is dragged is in no undo step; undoing would leave half of it.
+    adjusted_map.give_up()
+    following.before_undo()
+
+
+@persistent
+def _after_undo(*_arguments: object) -> None:
+    tracking.follow_after_undo(_edited())
+    following.after_undo()
+
+
+@persistent
+def _before_load(*_arguments: object) -> None:
+    operators.before_load()
+    following.forget()
+    tracking.forget()
+    storage.forget()
+
+
+@persistent
+def _after_load(*_arguments: object) -> None:
+    tracking.follow(_edited())
+    following.see()
+
+
+def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
+    """Return the meshes in edit mode, each once, of which more than the selection was updated."""
+    blocks = [update.id.original for update in depsgraph.updates if update.is_updated_geometry]
+    data = [block.data if isinstance(block, bpy.types.Object) else block for block in blocks]
+    meshes = {block.as_pointer(): block for block in data if isinstance(block, bpy.types.Mesh)}
+    return [mesh for mesh in meshes.values() if mesh.is_editmode]
+
+
+def _edited() -> list[bpy.types.Mesh]:
+    """Return the meshes in edit mode; none, without looking at any, in another mode."""
+    if bpy.context.mode != "EDIT_MESH":
+        return []
+    return [edit_object.data for edit_object in bpy.context.objects_in_mode_unique_data]
+
+
+_HANDLERS = (
+    ("depsgraph_update_post", _on_depsgraph_update),
+    ("undo_pre", _before_undo),
+    ("redo_pre", _before_undo),
+    ("undo_post", _after_undo),
+    ("redo_post", _after_undo),
+    ("load_pre", _before_load),
+    ("load_post", _after_load),
+)
+
+
+def register() -> None:
+    """Add the handlers."""
+    for event, handler in _HANDLERS:
+        getattr(bpy.app.handlers, event).append(handler)
+    following.start()
+
+
+def unregister() -> None:
+    """Remove the handlers and timers, and let all meshes go."""
+    for event, handler in _HANDLERS:
+        getattr(bpy.app.handlers, event).remove(handler)
+    following.stop()
+    tracking.forget()

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The islands of extenders that were added, changed or removed are solved again where they lie."""
+
+from collections.abc import Mapping
+
+import bpy
+import numpy as np
+
+from ..core import texts
+from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
+from ..edit_mesh import subsurf
+from ..edit_mesh.read import read_mesh
+from ..edit_mesh.write import write_uv
+from ..unwrapping.last_settings import last_settings
+
+
+def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]) -> str:
+    """Solve the islands that hold both vertices of an extender again; they keep their place and size.
+
+    `strengths` are those that changed, by vertices, 0 for extenders that are gone. Returns what the user should know;
+    may be empty.
+
+    Raises:
+        AdjustmentError: there is no such island, or it could not be solved; the map stays as it is.
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    settings = last_settings()
+    if settings.options.method != "spectral":
+        raise AdjustmentError(texts.EXTENDERS_NEED_SPECTRAL)
+    if not edit_object.data.uv_layers:
+        raise AdjustmentError(texts.NO_UV_MAP)
+    edit_mesh = read_mesh(edit_object, all_visible=True, correct_aspect=settings.correct_aspect)
+    adjustment = ExtenderAdjustment(edit_mesh.polygons, settings.options, list(strengths))
+    corners = np.zeros(len(edit_mesh.polygons.corner_vertices), dtype=bool)
+    corners[adjustment.corners] = True
+    uv = np.zeros((len(corners), 2))
+    uv[corners] = adjustment.map(list(strengths.values()), is_final=True)
+    write_uv(edit_mesh, uv, corners)
+    subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
+    return texts.ADJUSTED_WITHOUT_SUBSURF if subdivided else texts.unused_extenders(adjustment.unused)

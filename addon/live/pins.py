@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The charts of a mesh in edit mode follow while their pins are moved."""
+
+import time
+from dataclasses import dataclass, field
+from enum import Enum, auto
+from itertools import chain, compress
+
+import bmesh
+import bpy
+import numpy as np
+from bmesh.types import BMLayerItem, BMLoop
+
+from .. import compatibility
+from ..core.charts import chart_of_face
+from ..core.mesh import PolygonMesh
+from ..core.pinned_chart import PinnedChart
+from ..edit_mesh.read import active_uv_layer
+from ..edit_mesh.write import write_loops
+from . import last_operator
+
+# In seconds: a map that takes longer would hold the mouse up; it waits until the pins rest.
+_SLOW = 2.0
+
+
+class Followed(Enum):
+    """What became of the pins' movement."""
+
+    NOTHING_MOVED = auto()
+    WRITTEN = auto()
+    WRITTEN_TOO_LATE = auto()
+    """The transform has ended, so that the map is not in its undo step."""
+    WAITS = auto()
+    """The map takes long, and is to be solved when the pins rest."""
+
+
+@dataclass
+class _Chart:
+    """A chart whose pins are being moved; `free` are its corners without a pin, `loops` the same in Blender."""
+
+    pinned_chart: PinnedChart
+    free: np.ndarray
+    loops: list[BMLoop]
+
+
+@dataclass
+class _Drag:
+    """A movement of pins, from its start on; `charts` by number, None for those that move as a whole."""
+
+    operator: int
+    start: np.ndarray
+    chart_of_face: np.ndarray
+    charts: dict[int, _Chart | None] = field(default_factory=dict)
+    seconds: float = 0.0
+    last_motion: float = 0.0
+
+
+class PinnedMap:
+    """The UV map of a mesh in edit mode, with pins.
+
+    Attributes:
+        waits: whether the map has not yet followed the pins, because it takes long.
+    """
+
+    def __init__(self, mesh: bpy.types.Mesh, polygons: PolygonMesh) -> None:
+        """Take the mesh as it is now; the `selected_faces` of `polygons` are the visible ones."""
+        self.waits = False
+        self._mesh = mesh
+        self._polygons = polygons
+        self._pins = np.flatnonzero(polygons.pinned_corners)
+        self._bm, _ = active_uv_layer(mesh)
+        corners = chain.from_iterable(face.loops for face in self._bm.faces)
+        self._loops = list(compress(corners, polygons.pinned_corners.tolist()))
+        self._operator = last_operator.address()
+        self._drag: _Drag | None = None
+
+    @property
+    def is_valid(self) -> bool:
+        """Whether the pins can still be read."""
+        return self._bm.is_valid and all(loop.is_valid for loop in self._loops)
+
+    @property
+    def is_dragged(self) -> bool:
+        """Whether the pins have moved, and no operator has ended since."""
+        return self._drag is not None and self._drag.operator == last_operator.address()
+
+    @property
+    def seconds_of_rest(self) -> float:
+        """How long ago the pins have moved last."""
+        return time.perf_counter() - self._drag.last_motion
+
+    def goes_on_from(self, before: "PinnedMap") -> None:
+        """Take over the drag of the map `before`, if it is still the same drag of the same pins."""
+        drag = before._drag
+        if drag and drag.operator == self._operator and np.array_equal(before._pins, self._pins):
+            self._drag, self.waits = drag, before.waits
+
+    def note_operators(self) -> None:
+        """Note that whatever has ended until now has not moved the pins."""
+        self._operator = last_operator.address()
+
+    def follow(self, use_sync_selection: bool, is_resting: bool = False) -> Followed:
+        """Map the charts whose pins have moved since they were seen last; once they rest, also where it takes long."""
+        layer = self._bm.loops.layers.uv.active
+        places = np.array([loop[layer].uv for loop in self._loops], dtype=np.float64).reshape(-1, 2)
+        moved = (places != self._polygons.uv[self._pins]).any(axis=1)
+        if not moved.any() and not (is_resting and self.waits):
+            return Followed.NOTHING_MOVED
+        if not last_operator.moves_pins(self._operator):
+            self._polygons.uv[self._pins] = places
+            return Followed.NOTHING_MOVED
+        drag = self._drag
+        operator = last_operator.address()
+        if drag is None or drag.operator != self._operator:
+            charts = chart_of_face(self._polygons, self._polygons.selected_faces)
+            drag = self._drag = _Drag(self._operator, self._polygons.uv.copy(), charts)
+        self._polygons.uv[self._pins] = places
+        drag.last_motion = time.perf_counter()
+        self._add_charts(drag, self._pins[moved], layer, use_sync_selection)
+        if drag.seconds > _SLOW and not is_resting:
+            self.waits = True
+            return Followed.WAITS
+        start = time.perf_counter()
+        written = [self._write(drag, chart, layer) for chart in drag.charts.values() if chart]
+        self.waits = False
+        if any(written):
+            bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)
+        drag.seconds = time.perf_counter() - start
+        if not any(written):
+            return Followed.NOTHING_MOVED
+        return Followed.WRITTEN if operator == drag.operator else Followed.WRITTEN_TOO_LATE
+
+    def _add_charts(self, drag: _Drag, moved: np.ndarray, layer: BMLayerItem, use_sync_selection: bool) -> None:
+        """Add the charts of the `moved` corners to the drag."""
+        polygons = self._polygons
+        face = polygons.face_of_corner()
+        fresh = set(drag.chart_of_face[face[moved]].tolist()) - set(drag.charts) - {-1}
+        if not fresh:
+            return
+        selected = compatibility.selected_corners(self._bm, layer, use_sync_selection)
+        self._bm.faces.ensure_lookup_table()
+        for number in fresh:
+            faces = drag.chart_of_face == number
+            if selected[faces[face]].all():
+                drag.charts[number] = None
+                continue
+            loops = [loop for f in np.flatnonzero(faces).tolist() for loop in self._bm.faces[f].loops]
+            pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start)
+            free = ~pinned_chart.pinned
+            drag.charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
+
+    def _write(self, drag: _Drag, chart: _Chart, layer: BMLayerItem) -> bool:
+        """Write the map of a chart for its pins as they are now; return whether there is one."""
+        uv = chart.pinned_chart.map(drag.start, self._polygons.uv)
+        if uv is None:
+            return False
+        uv = uv[~chart.pinned_chart.pinned]
+        write_loops(layer, chart.loops, uv.tolist())
+        self._polygons.uv[chart.free] = uv.astype(np.float32)
+        return True

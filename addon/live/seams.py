@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The meshes in edit mode are unwrapped again after seams were marked or cleared."""
+
+from collections.abc import Mapping
+from contextlib import ExitStack
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.charts import faces_of_charts_at
+from ..edit_mesh import selection
+from ..unwrapping import steps
+from ..unwrapping.last_settings import last_settings
+
+
+def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> bool:
+    """Unwrap all visible faces and pack them, as Blender does; to keep islands in place, only those at changed seams.
+
+    `changed` are the edges, (N, 2), whose seam has changed. Returns whether any island was solved.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        PackingError: Blender's packer did not run; nothing changed.
+    """
+    settings = last_settings()
+    edit_meshes = steps.read(context, settings, all_visible=True)
+    if settings.keep_in_place:
+        edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.mesh in changed]
+        for edit_mesh in edit_meshes:
+            visible = edit_mesh.polygons.selected_faces
+            visible &= faces_of_charts_at(edit_mesh.polygons, visible, changed[edit_mesh.mesh])
+    solutions = steps.solve(edit_meshes, settings)
+    with ExitStack() as stack:
+        for edit_object in context.objects_in_mode_unique_data:
+            stack.enter_context(selection.visible_faces_selected(bmesh.from_edit_mesh(edit_object.data)))
+        outcome = steps.write(context, settings, edit_meshes, solutions)
+    return outcome.summary.solved > 0

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh in edit mode as live unwrapping saw it last.
+
+Blender tells only that a mesh has changed: what has changed is the difference from its snapshot. Taking one goes once
+over the edges and once over the corners; all arrays of the mesh, which take several times as long, are read only where
+it has pins, because the map before a movement of pins is not to be had afterwards.
+
+A snapshot keeps Blender's Python wrapper of the edit mesh alive, because making or freeing one moves the UVs in memory,
+to which a running transform holds pointers. So snapshots are taken in handlers and timers, never during a transform.
+"""
+
+from dataclasses import dataclass
+
+import bmesh
+import bpy
+import numpy as np
+from bmesh.types import BMesh
+
+from .. import compatibility
+from ..edit_mesh.read import read_mesh
+from ..extenders import storage
+from ..unwrapping.last_settings import last_settings
+from . import last_operator
+from .pins import PinnedMap
+
+Edge = tuple[int, int]
+
+
+@dataclass
+class Snapshot:
+    """A mesh in edit mode that has a UV map.
+
+    Attributes:
+        edit_object: an object of the mesh.
+        bm: its edit mesh.
+        layer: name of the active UV map.
+        counts: numbers of vertices, edges and faces.
+        seams: the edges that are seams, by their vertices, the lower index first.
+        strengths: strength of the extenders that act, by their vertices, the lower index first.
+        operator: `last_operator.address()` when it was taken.
+        pinned: the map, where it has pins.
+    """
+
+    edit_object: bpy.types.Object
+    bm: BMesh
+    layer: str
+    counts: tuple[int, int, int]
+    seams: set[Edge]
+    strengths: dict[Edge, float]
+    operator: int
+    pinned: PinnedMap | None
+
+    @property
+    def is_current(self) -> bool:
+        """Whether the mesh is still in edit mode, with the same number of elements and the same active UV map."""
+        if not self.bm.is_valid or _counts(self.bm) != self.counts:
+            return False
+        layer = self.bm.loops.layers.uv.active
+        return layer is not None and layer.name == self.layer and (self.pinned is None or self.pinned.is_valid)
+
+    def note_operators(self) -> None:
+        """Note that whatever has ended until now has changed nothing here."""
+        self.operator = last_operator.address()
+        if self.pinned is not None:
+            self.pinned.note_operators()
+
+    def changed_seams(self, later: "Snapshot") -> np.ndarray:
+        """Return the edges, (N, 2), marked or cleared until a `later` snapshot; none where the faces have changed.
+
+        Faces have changed where their number is another, or where an edge that was a seam is no edge any more.
+        """
+        changed = self.seams ^ later.seams
+        if not changed or self.counts != later.counts:
+            return np.empty((0, 2), dtype=np.int64)
+        later.bm.verts.ensure_lookup_table()
+        vertices = later.bm.verts
+        if any(later.bm.edges.get([vertices[v] for v in edge]) is None for edge in self.seams - later.seams):
+            return np.empty((0, 2), dtype=np.int64)
+        return np.array(sorted(changed))
+
+    def changed_strengths(self, later: "Snapshot") -> dict[Edge, float]:
+        """Return the strengths that changed until a `later` snapshot, 0 for extenders that act no longer."""
+        if self.counts != later.counts:
+            return {}
+        return {
+            pair: later.strengths.get(pair, 0.0)
+            for pair in self.strengths.keys() | later.strengths.keys()
+            if self.strengths.get(pair) != later.strengths.get(pair)
+        }
+
+
+def take(edit_object: bpy.types.Object) -> Snapshot | None:
+    """Return the mesh of an object in edit mode as it is now; None if it has no UV map."""
+    mesh = edit_object.data
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.loops.layers.uv.active
+    if layer is None:
+        return None
+    # The pinned map first: reading makes and frees wrappers.
+    pinned = _pinned_map(edit_object) if compatibility.has_pins(bm, layer) else None
+    seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
+    forces, _, _ = storage.resolve(bm, mesh)
+    strengths = {_sorted(first, second): strength for first, second, strength in forces}
+    return Snapshot(edit_object, bm, layer.name, _counts(bm), seams, strengths, last_operator.address(), pinned)
+
+
+def _pinned_map(edit_object: bpy.types.Object) -> PinnedMap | None:
+    polygons = read_mesh(edit_object, all_visible=True, correct_aspect=last_settings().correct_aspect).polygons
+    if not polygons.pinned_corners.any():
+        return None
+    return PinnedMap(edit_object.data, polygons)
+
+
+def _counts(bm: BMesh) -> tuple[int, int, int]:
+    return len(bm.verts), len(bm.edges), len(bm.faces)
+
+
+def _sorted(first: int, second: int) -> Edge:
+    return (first, second) if first < second else (second, first)

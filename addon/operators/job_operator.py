@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators that wait for work in a thread: timer, progress, cancelling, and cleaning up, whatever ends the job."""
+
+from collections.abc import Callable, Generator
+from contextlib import closing
+from dataclasses import dataclass
+from typing import Any, Protocol, Union
+
+import bpy
+
+from ..core import texts
+from ..core.progress import Progress
+from ..core.worker import Worker
+from ..ui import progress
+from ..ui.progress import WindowProgress
+from .reporting_operator import ReportingOperator
+
+# Work shorter than this ends within the click that started it: a progress display would only flash.
+_SECONDS_BEFORE_MODAL = 0.25
+# Twenty looks a second: the end of the work is felt at once, and they cost nothing.
+_TIMER_SECONDS = 0.05
+
+# What runs in a thread. It must not touch Blender.
+Work = Callable[[Progress], Any]
+
+
+class Choice(Protocol):
+    """Something that an artist is asked in the middle of a job, until the answer comes."""
+
+    @property
+    def answer(self) -> object:
+        """The answer as it is now."""
+
+    def begin(self, context: bpy.types.Context) -> None:
+        """Show what there is to choose."""
+
+    def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Return {"FINISHED"} once the answer is there, {"RUNNING_MODAL"} for an event taken, else {"PASS_THROUGH"}."""
+
+    def update(self, context: bpy.types.Context) -> None:
+        """Show what is known by now; called by a timer."""
+
+    def end(self, context: bpy.types.Context) -> None:
+        """Remove everything shown."""
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a job gets back for a `Work` or `Choice`.
+
+    Attributes:
+        context: the context in which it goes on.
+        result: what the work returned, or the answer.
+        is_late: whether Blender went on meanwhile, so that the meshes may have changed.
+    """
+
+    context: bpy.types.Context
+    result: Any
+    is_late: bool
+
+
+Job = Generator[Union[Work, Choice], Done, "set[str]"]
+
+
+class _Running:
+    """A job that a window waits for. `end` removes everything that belongs to it, whoever calls it, and once only."""
+
+    def __init__(self, label: str, job: Job) -> None:
+        self.label = label
+        self.job = job
+        self.is_late = False
+        self.is_ended = False
+        self.worker: Worker | None = None
+        self.choice: Choice | None = None
+        self._progress: WindowProgress | None = None
+        self._timer: bpy.types.Timer | None = None
+        self._window_manager: bpy.types.WindowManager | None = None
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether the thread goes on and nobody has cancelled it."""
+        return self.worker is not None and self.worker.is_wanted
+
+    def wait(self, context: bpy.types.Context, worker: Worker) -> None:
+        """Show the worker's progress, and let a timer wake the operator."""
+        self.worker = worker
+        self._progress = WindowProgress(context, self.label)
+        self._keep_awake(context)
+
+    def ask(self, context: bpy.types.Context, choice: Choice) -> None:
+        """Let a timer wake the operator while the artist is asked."""
+        self.choice = choice
+        choice.begin(context)
+        self._keep_awake(context)
+
+    def update(self, context: bpy.types.Context) -> None:
+        """Show how far the job is."""
+        if self._progress is not None:
+            self._progress.update(context, self.worker.fraction, self.worker.phase)
+        if self.choice is not None:
+            self.choice.update(context)
+
+    def hide(self, context: bpy.types.Context) -> None:
+        """Stop waiting for the worker or the artist."""
+        if self.worker is not None:
+            self.worker.cancel()
+        for shown in (self._progress, self.choice):
+            if shown is not None:
+                shown.end(context)
+        self.worker = self.choice = self._progress = None
+
+    def end(self, context: bpy.types.Context) -> None:
+        """End the job: the thread without result, and all that is shown."""
+        if self.is_ended:
+            return
+        self.is_ended = True
+        if JobOperator._running is self:
+            JobOperator._running = None
+        try:
+            self.hide(context)
+        finally:
+            if self._timer is not None:
+                self._window_manager.event_timer_remove(self._timer)
+            self.job.close()
+
+    def _keep_awake(self, context: bpy.types.Context) -> None:
+        self.is_late = True
+        if self._timer is None:
+            self._window_manager = context.window_manager
+            self._timer = self._window_manager.event_timer_add(_TIMER_SECONDS, window=context.window)
+
+
+class JobOperator(ReportingOperator):
+    """Mixin of an operator whose work is the generator `job`.
+
+    Executed, Blender waits for it. Invoked in a window, its work runs in a thread, so that Blender's windows live on
+    and Esc cancels; one job at a time.
+    """
+
+    # The job that a window waits for. An annotation makes bpy 4.2 and 4.5 crash on leaving Python.
+    _running = None
+
+    def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
+        """Yield every `Work`, and where `is_interactive` every `Choice`, take its `Done`, return the status.
+
+        Raises:
+            ReadableError: nothing was changed; the message says why.
+        """
+        raise NotImplementedError
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode, one job at a time."""
+        running = JobOperator._running
+        if running is not None and running.is_wanted:
+            cls.poll_message_set(texts.is_running(running.label))
+            return False
+        return context.mode == "EDIT_MESH"
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Do the whole job; Blender waits."""
+        with closing(self.job(context, is_interactive=False)) as job:
+            done = None
+            while True:
+                try:
+                    work = job.send(done)
+                except StopIteration as end:
+                    return end.value
+                with progress.blocking(context, self.bl_label) as report_progress:
+                    done = Done(context, work(report_progress), is_late=False)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Do the job in a thread, so that Blender's windows live on and Esc cancels."""
+        # Without a window, as for scripts and application timers, nobody would end the job.
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        if JobOperator._running is not None:
+            JobOperator._running.end(context)
+        self._job = JobOperator._running = _Running(self.bl_label, self.job(context, is_interactive=True))
+        status = self._ending(context, self._advance, None)
+        if "RUNNING_MODAL" in status:
+            context.window_manager.modal_handler_add(self)
+        return status
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Go on where the work has ended; let nothing but view navigation through."""
+        return self._ending(context, self._handle, event)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """End the job without result. Blender calls it when the window is closed, too."""
+        self._job.end(context)
+
+    def _ending(self, context: bpy.types.Context, function: Callable[..., set[str]], argument: object) -> set[str]:
+        """Return the status that `function` returns; whatever ends the operator ends its job."""
+        status = {"CANCELLED"}
+        try:
+            status = self.reporting(function, context, argument)
+        finally:
+            if not status & {"RUNNING_MODAL", "PASS_THROUGH"}:
+                self._job.end(context)
+        return status
+
+    def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        running = self._job
+        if running.is_ended:
+            return {"CANCELLED"}
+        if context.mode != "EDIT_MESH" or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
+            self.report({"INFO"}, texts.cancelled(self.bl_label))
+            return {"CANCELLED"}
+        if event.type == "TIMER":
+            if running.worker is not None and running.worker.wait(0.0):
+                worker = running.worker
+                running.hide(context)
+                return self._advance(context, Done(context, worker.result(), running.is_late))
+            running.update(context)
+            return {"PASS_THROUGH"}
+        if running.choice is not None:
+            status = running.choice.handle(context, event)
+            if "FINISHED" in status:
+                answer = running.choice.answer
+                running.hide(context)
+                return self._advance(context, Done(context, answer, running.is_late))
+            if "RUNNING_MODAL" in status:
+                return status
+        return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
+
+    def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:
+        """Let the job go on, at its start with None, until it ends or a window has to wait."""
+        running = self._job
+        while True:
+            try:
+                step = running.job.send(done)
+            except StopIteration as end:
+                return end.value
+            if not callable(step):
+                running.ask(context, step)
+                return {"RUNNING_MODAL"}
+            worker = Worker(step)
+            if not worker.wait(_SECONDS_BEFORE_MODAL):
+                running.wait(context, worker)
+                return {"RUNNING_MODAL"}
+            done = Done(context, worker.result(), running.is_late)
+
+
+def end_all() -> None:
+    """End the job that is under way, if there is one, from anywhere: nothing of it is left, shown or waiting."""
+    if JobOperator._running is not None:
+        JobOperator._running.end(bpy.context)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Suggested seams before they are marked: how many of them to take, and what they would bring."""
+
+import bpy
+
+from ..core import quality, seam_suggestion, texts
+from ..core.progress import Progress
+from ..core.quality import MapQuality
+from ..core.seam_suggestion import Suggestion
+from ..core.solve import solve_all
+from ..core.worker import Worker
+from ..overlay.seam_lines import SeamLines
+from ..ui.progress import clear_status
+from ..unwrapping.seams import Target
+
+# Keys that change the number of cuts, as in Blender's Loop Cut, by one or by a tenth of all.
+_STEPS = {
+    **dict.fromkeys(("WHEELUPMOUSE", "NUMPAD_PLUS", "EQUAL", "UP_ARROW"), 1),
+    **dict.fromkeys(("WHEELDOWNMOUSE", "NUMPAD_MINUS", "MINUS", "DOWN_ARROW"), -1),
+}
+_LEAPS = {"PAGE_UP": 1, "PAGE_DOWN": -1}
+_LEAP = 0.1
+_SIGNS = {"+": 1, "-": -1}
+_APPLY = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
+
+
+def length_text(context: bpy.types.Context, length: float) -> str:
+    """Return a length of object space as the scene shows lengths."""
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{length:.3f}"
+    return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
+
+
+class SeamPreview:
+    """Asks how many of the suggested cuts to take: shows them, and measures in a thread what they bring.
+
+    A `job_operator.Choice`.
+
+    Attributes:
+        count: how many cuts are shown, at least 1.
+    """
+
+    def __init__(self, target: Target, suggestion: Suggestion, count: int, factor: float) -> None:
+        """Begin with the first `count` cuts; `factor` is that of the scale within which the map counts as even."""
+        self.count = count
+        self._target = target
+        self._suggestion = suggestion
+        self._factor = factor
+        self._measured: dict[int, MapQuality] = {}
+        self._measuring: Worker[dict[int, MapQuality]] | None = None
+        self._lines = SeamLines(target.edit_meshes, suggestion)
+
+    @property
+    def answer(self) -> int:
+        """How many cuts to take."""
+        return self.count
+
+    def begin(self, context: bpy.types.Context) -> None:
+        """Show the cuts."""
+        self.change(context, 0)
+
+    def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Take the keys that change the number of cuts, and those that end the choice."""
+        if event.value != "PRESS":
+            return {"PASS_THROUGH"}
+        if event.type in _APPLY:
+            return {"FINISHED"}
+        step = self._step(event)
+        if step and not event.ctrl:
+            self.change(context, step)
+            return {"RUNNING_MODAL"}
+        # The wheel with Ctrl does what it does by itself elsewhere.
+        return {"RUNNING_MODAL"} if step and _zoom(context, event, step) else {"PASS_THROUGH"}
+
+    def change(self, context: bpy.types.Context, by: int) -> None:
+        """Show more cuts, or fewer where `by` is negative, as far as there are."""
+        self.count = min(max(self.count + by, 1), len(self._suggestion.cuts))
+        if self._measuring is not None:
+            self._measuring.cancel()
+            self._measuring = None
+        self._lines.show(context, self.count)
+        self.update(context)
+
+    def update(self, context: bpy.types.Context) -> None:
+        """Show in the status bar what is known by now."""
+        if self._measuring is not None and self._measuring.wait(0.0):
+            self._measured.update(self._measuring.result())
+            self._measuring = None
+        missing = {0, self.count} - set(self._measured)
+        if missing and self._measuring is None:
+            self._measuring = Worker(lambda progress: self._measure(sorted(missing), progress))
+        length, total = (
+            length_text(context, cuts.length) for cuts in (self._suggestion.part(0, self.count), self._suggestion)
+        )
+        parts = [texts.preview(self.count, len(self._suggestion.cuts), length, total)]
+        if not missing:
+            parts.append(texts.expected(self._measured[0], self._measured[self.count], self._factor))
+        context.workspace.status_text_set(texts.preview_status("; ".join(parts)))
+
+    def end(self, context: bpy.types.Context) -> None:
+        """Remove everything shown."""
+        if self._measuring is not None:
+            self._measuring.cancel()
+        self._lines.remove(context)
+        clear_status(context)
+
+    def _step(self, event: bpy.types.Event) -> int:
+        """Return by how many cuts a key changes their number, 0 for other keys."""
+        if event.type in _LEAPS:
+            return _LEAPS[event.type] * max(1, round(_LEAP * len(self._suggestion.cuts)))
+        return _STEPS.get(event.type, _SIGNS.get(event.ascii, 0))
+
+    def _measure(self, counts: list[int], progress: Progress) -> dict[int, MapQuality]:
+        """Return what the map is like after the first so many cuts; any thread may call it."""
+        measured = {}
+        for count in counts:
+            meshes = seam_suggestion.cut_open(self._target.polygons, self._suggestion.part(0, count))
+            solutions = solve_all(meshes, self._target.settings.options, progress)
+            measured[count] = quality.measure(meshes, solutions, self._factor)
+        return measured
+
+
+def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:
+    """Zoom the 3D viewport under the mouse, as the wheel does by itself; return whether there is one."""
+    for area in context.screen.areas:
+        for region in area.regions if area.type == "VIEW_3D" else ():
+            inside_x = region.x <= event.mouse_x < region.x + region.width
+            inside_y = region.y <= event.mouse_y < region.y + region.height
+            if region.type == "WINDOW" and inside_x and inside_y:
+                with context.temp_override(area=area, region=region):
+                    bpy.ops.view3d.zoom("EXEC_DEFAULT", delta=delta, use_cursor_init=False)
+                return True
+    return False

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which islands failed when they were unwrapped last, by mesh, as long as the file is open.
+
+Faces are known by their index, so a result holds for the topology that the mesh had then, and holds again once an undo
+brings that back. Meshes are known by name: pointers change with undo.
+"""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..core.mesh import PolygonMesh
+from ..core.solve import Solution
+from ..edit_mesh.read import EditMesh
+
+
+@dataclass(frozen=True)
+class _Result:
+    """The failed island of every face, (F,) intp, -1 for the others, and a digest of the topology they belong to."""
+
+    failed_islands: np.ndarray
+    topology: bytes
+
+
+_results: dict[str, _Result] = {}
+
+
+def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> None:
+    """Remember what failed. Faces that were not unwrapped this time keep what is remembered of them."""
+    for edit_mesh, solution in zip(edit_meshes, solutions):
+        polygons = edit_mesh.polygons
+        topology, name = _digest(polygons), edit_mesh.mesh.name_full
+        failed = solution.failed_islands.copy()
+        before = _results.get(name)
+        if before is not None and before.topology == topology:
+            kept = ~polygons.selected_faces & (before.failed_islands >= 0)
+            failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
+        _results[name] = _Result(failed, topology)
+
+
+def is_remembered(mesh: bpy.types.Mesh) -> bool:
+    """Return whether a mesh was unwrapped since the file was opened, whether it has changed or not."""
+    return mesh.name_full in _results
+
+
+def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
+    """Return the failed island of every face, (F,) intp, -1 for others; None if the topology was another then."""
+    result = _results[edit_mesh.mesh.name_full]
+    return result.failed_islands if result.topology == _digest(edit_mesh.polygons) else None
+
+
+def forget() -> None:
+    """Forget everything, as names mean other meshes in another file."""
+    _results.clear()
+
+
+def _digest(polygons: PolygonMesh) -> bytes:
+    digest = hashlib.blake2b(repr(polygons.face_offsets.shape).encode())
+    for array in (polygons.face_offsets, polygons.corner_vertices):
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.digest()

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+namespace spectral_conformal {
+
+/// A polygon mesh in the caller's arrays. Nothing is owned.
+struct PolygonMesh {
+  const double* positions = nullptr;  ///< (n_vertices, 3)
+  int n_vertices = 0;
+  const int* face_offsets = nullptr;  ///< (n_faces + 1,): corners of face f are [face_offsets[f], face_offsets[f+1])
+  int n_faces = 0;
+  const int* corner_vertices = nullptr;            ///< (face_offsets[n_faces],)
+  const bool* selected_faces = nullptr;            ///< (n_faces,) or null for all
+  const std::array<int, 2>* seam_edges = nullptr;  ///< (n_seam_edges,) vertex pairs in any order
+  int n_seam_edges = 0;
+
+  int n_corners() const { return n_faces == 0 ? 0 : face_offsets[n_faces]; }
+  int n_corners(int face) const { return face_offsets[face + 1] - face_offsets[face]; }
+  bool is_selected(int face) const { return selected_faces == nullptr || selected_faces[face]; }
+};
+
+/// The most vertices, faces, corners and seam edges, each, that an int can number together with what is made of them:
+/// a corner gives up to two triangles (one of them virtual), those six half-edges, and these six entries of a matrix.
+constexpr int size_limit = std::numeric_limits<int>::max() / 8;
+
+/// Throws InvalidMesh when the mesh is larger than size_limit, offsets decrease or an index is out of range.
+void validate(const PolygonMesh& mesh);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,46 @@
+#include "geometry/quad_splits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Both splits of a parallelogram or trapezoid have equal smaller areas: what differs by less than this fraction of the
+/// quad's area differs by rounding (some 1e-16) or by nothing that a measure could tell.
+constexpr double equal_areas = 1e-9;
+
+/// `area` of the four triangles.
+bool second_split_is_better(const std::array<double, 4>& area) {
+  const double first = std::min(area[0], area[1]);
+  const double second = std::min(area[2], area[3]);
+  if ((first < 0) != (second < 0)) return first < 0;
+  return second - first > equal_areas * std::abs(area[0] + area[1]);
+}
+
+}  // namespace
+
+std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,
+                                      const std::vector<double>& triangle_weights, const ComplexVector& z) {
+  std::vector<int> result;
+  result.reserve(triangles.size());
+  const auto area = [&](std::size_t t) {
+    const auto& [a, b, c] = triangles[t];
+    return signed_area(z[a], z[b], z[c]);
+  };
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (triangle_weights.empty() || !begins_quad(triangle_weights[t])) {
+      result.push_back(static_cast<int>(t));
+      continue;
+    }
+    const bool second = second_split_is_better({area(t), area(t + 1), area(t + 2), area(t + 3)});
+    const int chosen = static_cast<int>(t) + (second ? 2 : 0);
+    result.insert(result.end(), {chosen, chosen + 1});
+    t += 3;
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal

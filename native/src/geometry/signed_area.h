@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The determinant of two plane vectors, Im(conj(a) b): the signed area of their parallelogram, positive where b lies
+/// counter-clockwise from a.
+inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
+
+/// Signed area of the triangle a b c, positive when it runs counter-clockwise.
+inline double signed_area(Complex a, Complex b, Complex c) { return 0.5 * cross(b - a, c - a); }
+
+/// Signed area of a map z (V,): that of its triangles, times their weights, summed up. triangle_weights (F,) or empty
+/// for 1.
+double signed_area(const std::vector<std::array<int, 3>>& triangles, const std::vector<double>& triangle_weights,
+                   const ComplexVector& z);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,157 @@
+#include "mesh/half_edges.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+/// Fewer than three different vertices, or a vertex twice in a row.
+bool is_degenerate(const int* vertices, int size, std::vector<int>& sorted) {
+  if (size < 3) return true;
+  for (int i = 0; i < size; ++i) {
+    if (vertices[i] == vertices[(i + 1) % size]) return true;
+  }
+  if (size == 3) return false;
+  sorted.assign(vertices, vertices + size);
+  std::sort(sorted.begin(), sorted.end());
+  return std::unique(sorted.begin(), sorted.end()) - sorted.begin() < 3;
+}
+
+/// The half-edges of used faces, and the seams, of every edge, grouped by the edge's smaller vertex.
+class EdgeTable {
+ public:
+  struct Entry {
+    int larger;     ///< the edge's larger vertex
+    int half_edge;  ///< corner, or -1 for a seam
+    bool operator<(const Entry& other) const {
+      return larger != other.larger ? larger < other.larger : half_edge < other.half_edge;
+    }
+  };
+
+  EdgeTable(const PolygonMesh& mesh, const HalfEdges& half_edges)
+      : start_(static_cast<std::size_t>(mesh.n_vertices) + 1, 0) {
+    const auto each = [&](auto&& visit) {
+      for (int c = 0; c < half_edges.n_corners(); ++c) {
+        if (!half_edges.is_used(half_edges.face(c))) continue;
+        const int a = half_edges.from(c);
+        const int b = half_edges.to(c);
+        visit(std::min(a, b), Entry{std::max(a, b), c});
+      }
+      for (int i = 0; i < mesh.n_seam_edges; ++i) {
+        const auto& seam = mesh.seam_edges[i];
+        visit(std::min(seam[0], seam[1]), Entry{std::max(seam[0], seam[1]), -1});
+      }
+    };
+    each([&](int smaller, const Entry&) { ++start_[smaller + 1]; });
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    entries_.resize(static_cast<std::size_t>(start_.back()));
+    std::vector<int> fill(start_.begin(), start_.end() - 1);
+    each([&](int smaller, const Entry& entry) { entries_[fill[smaller]++] = entry; });
+    for (int v = 0; v < mesh.n_vertices; ++v) {
+      std::sort(entries_.begin() + start_[v], entries_.begin() + start_[v + 1]);
+    }
+  }
+
+  /// Calls visit(first, last) for the run of entries of each edge; a seam's entry comes first.
+  template <class Visit>
+  void for_each_edge(Visit&& visit) const {
+    for (std::size_t v = 0; v + 1 < start_.size(); ++v) {
+      const Entry* entry = entries_.data() + start_[v];
+      const Entry* const end = entries_.data() + start_[v + 1];
+      while (entry != end) {
+        const Entry* last = entry;
+        while (last != end && last->larger == entry->larger) ++last;
+        visit(entry, last);
+        entry = last;
+      }
+    }
+  }
+
+ private:
+  std::vector<int> start_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+HalfEdges::HalfEdges(const PolygonMesh& mesh) : mesh_(mesh) {
+  face_of_corner_.assign(static_cast<std::size_t>(mesh.n_corners()), -1);
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) face_of_corner_[c] = face;
+  }
+  classify_faces();
+  find_twins();
+}
+
+void HalfEdges::classify_faces() {
+  state_.assign(static_cast<std::size_t>(mesh_.n_faces), FaceState::unselected);
+  std::vector<int> sorted;
+  for (int face = 0; face < mesh_.n_faces; ++face) {
+    if (!mesh_.is_selected(face)) continue;
+    const int* vertices = mesh_.corner_vertices + mesh_.face_offsets[face];
+    state_[face] = is_degenerate(vertices, mesh_.n_corners(face), sorted) ? FaceState::degenerate : FaceState::used;
+  }
+}
+
+void HalfEdges::find_twins() {
+  // Twice where there are duplicates: without them their edges have fewer faces.
+  for (int pass = 0; pass < 2; ++pass) {
+    twin_.assign(face_of_corner_.size(), -1);
+    non_manifold_edges_ = 0;
+    // Duplicates lie on an edge of three or more faces, or they are two triangles alone on the same three vertices.
+    // (Two larger polygons alone are a closed surface.)
+    std::vector<int> suspects;
+    const EdgeTable table(mesh_, *this);
+    table.for_each_edge([&](const EdgeTable::Entry* first, const EdgeTable::Entry* last) {
+      bool seam = false;
+      while (first != last && first->half_edge < 0) {
+        seam = true;
+        ++first;
+      }
+      if (last - first > 2) {
+        ++non_manifold_edges_;
+        for (auto entry = first; entry != last; ++entry) suspects.push_back(face(entry->half_edge));
+      } else if (last - first == 2) {
+        const int a = first[0].half_edge;
+        const int b = first[1].half_edge;
+        if (face(a) == face(b)) return;
+        if (mesh_.n_corners(face(a)) == 3 && mesh_.n_corners(face(b)) == 3 && to(next(a)) == to(next(b))) {
+          suspects.push_back(face(a));
+          suspects.push_back(face(b));
+        }
+        if (seam) return;
+        twin_[a] = b;
+        twin_[b] = a;
+      }
+    });
+    if (pass == 1 || suspects.empty()) return;
+    mark_duplicates(std::move(suspects));
+    if (std::find(state_.begin(), state_.end(), FaceState::duplicate) == state_.end()) return;
+  }
+}
+
+/// Marks every face but the first of those with the same set of vertices among the candidates.
+void HalfEdges::mark_duplicates(std::vector<int> candidates) {
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::vector<std::pair<std::vector<int>, int>> keys;
+  keys.reserve(candidates.size());
+  for (const int face : candidates) {
+    std::vector<int> key(mesh_.corner_vertices + mesh_.face_offsets[face],
+                         mesh_.corner_vertices + mesh_.face_offsets[face + 1]);
+    std::sort(key.begin(), key.end());
+    keys.emplace_back(std::move(key), face);
+  }
+  std::sort(keys.begin(), keys.end());
+  original_.assign(static_cast<std::size_t>(mesh_.n_faces), -1);
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    if (keys[i].first != keys[i - 1].first) continue;
+    const int original = original_[keys[i - 1].second];
+    original_[keys[i].second] = original < 0 ? keys[i - 1].second : original;
+    state_[keys[i].second] = FaceState::duplicate;
+  }
+}
+
+}  // namespace spectral_conformal

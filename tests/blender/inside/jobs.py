@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drives operators that wait for a thread, without a window."""
+
+import importlib
+from types import SimpleNamespace
+
+import bpy
+
+job_operator = importlib.import_module("spectral_unwrap.operators.job_operator")
+worker = importlib.import_module("spectral_unwrap.core.worker")
+
+
+class Instance(SimpleNamespace):
+    """What stands for an instance of the operator."""
+
+
+class Invoked:
+    """An operator invoked in a window that is none, and the events that are sent to it.
+
+    Attributes:
+        result: the status that the operator returned last.
+        reported: (level, text) of its reports.
+        status: what was shown in the status bar, None where it was given back.
+        timers: the timers that run.
+    """
+
+    def __init__(self, monkeypatch, operator_class, is_waiting=True, has_window=True, **properties):
+        self.reported, self.status, self.timers, self.handlers = [], [], [], []
+        self.operator = Instance(**properties, bl_label=operator_class.bl_label)
+        self.operator.report = lambda levels, text: self.reported.append((*levels, text))
+        for cls in reversed(operator_class.__mro__[:-1]):
+            for name, function in vars(cls).items():
+                if type(function).__name__ == "function" and not name.startswith("__"):
+                    setattr(self.operator, name, function.__get__(self.operator))
+        screen = SimpleNamespace(areas=[])
+        window = SimpleNamespace(screen=screen) if has_window else None
+        manager = SimpleNamespace(
+            windows=[window] if has_window else [],
+            modal_handler_add=self.handlers.append,
+            event_timer_add=self._add_timer,
+            event_timer_remove=self.timers.remove,
+            progress_begin=lambda _low, _high: None,
+            progress_update=lambda _value: None,
+            progress_end=lambda: None,
+        )
+        self.context = SimpleNamespace(
+            edit_object=bpy.context.edit_object,
+            mode="EDIT_MESH",
+            scene=bpy.context.scene,
+            area=None,
+            window=window,
+            objects_in_mode_unique_data=bpy.context.objects_in_mode_unique_data,
+            workspace=SimpleNamespace(status_text_set=self.status.append),
+            screen=screen,
+            temp_override=bpy.context.temp_override,
+            window_manager=manager,
+        )
+        # In background mode it would execute.
+        in_window = SimpleNamespace(app=SimpleNamespace(background=False), context=self.context)
+        monkeypatch.setattr(job_operator, "bpy", in_window)
+        self.result = self.operator.invoke(self.context, self.event())
+        if is_waiting:
+            self.wait()
+
+    def _add_timer(self, _seconds, window):
+        assert window is self.context.window
+        self.timers.append(object())
+        return self.timers[-1]
+
+    @property
+    def is_running(self):
+        return self.result <= {"RUNNING_MODAL", "PASS_THROUGH"}
+
+    @property
+    def worker(self):
+        return self.operator._job.worker
+
+    @property
+    def choice(self):
+        return self.operator._job.choice
+
+    def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
+        return SimpleNamespace(**{"type": kind, "value": value, "ascii": "", "ctrl": False, **others})
+
+    def send(self, kind, value="PRESS", **others):
+        self.result = self.operator.modal(self.context, self.event(kind, value, **others))
+        return self.result
+
+    def wait(self):
+        """Let the timer run until the operator has ended or asks something of which all is known."""
+        while self.is_running and self.worker is not None:
+            self.worker.wait(60.0)
+            self.send("TIMER", "NOTHING")
+        if self.is_running and self.choice._measuring is not None:
+            self.choice._measuring.wait(60.0)
+            self.send("TIMER", "NOTHING")
+
+    def left_nothing(self):
+        """Return whether nothing of the job is left."""
+        shown = self.status and self.status[-1] is not None
+        return not (shown or self.timers or job_operator.JobOperator._running is not None)
+
+
+def defaults(operator):
+    """Return the default of every property of an operator, such as `bpy.ops.uv.spectral_unwrap`."""
+    properties = operator.get_rna_type().properties
+    return {p.identifier: p.default for p in properties if p.identifier != "rna_type"}
+
+
+def unwrap(monkeypatch, **properties):
+    """Invoke Spectral Unwrap; it waits for its thread however short that takes."""
+    return _waiting(monkeypatch, "operators.unwrap", "UV_OT_spectral_unwrap", bpy.ops.uv.spectral_unwrap, properties)
+
+
+def suggest_seams(monkeypatch, **properties):
+    """Invoke Suggest Seams; it waits for its thread however short that takes."""
+    operator = bpy.ops.uv.spectral_suggest_seams
+    return _waiting(monkeypatch, "operators.suggest_seams", "UV_OT_spectral_suggest_seams", operator, properties)
+
+
+def _waiting(monkeypatch, module, name, operator, properties):
+    operator_class = getattr(importlib.import_module(f"spectral_unwrap.{module}"), name)
+    with monkeypatch.context() as patch:
+        patch.setattr(worker.Worker, "wait", lambda _self, _seconds: False)
+        return Invoked(monkeypatch, operator_class, is_waiting=False, **{**defaults(operator), **properties})
