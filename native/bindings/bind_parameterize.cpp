@@ -15,6 +15,7 @@
 #include "bindings/space_metric.h"
 #include "bindings/turns.h"
 #include "mesh/chart_checks.h"
+#include "parameterization/chart_metric.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/unwrap.h"
 
