@@ -6,11 +6,10 @@ import sys
 
 import bmesh
 import bpy
-import jobs
 import numpy as np
 import pytest
 
-from tests.blender.inside import scenes
+from tests.blender.inside import jobs, scenes
 
 names = importlib.import_module("spectral_unwrap.names")
 
