@@ -8,30 +8,23 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from . import native
 from .mesh import PolygonMesh
 
 
 def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
-    """Return the chart of every face, (F,) intp, -1 for faces that do not count; the numbers have gaps.
+    """Return the chart of every face, (F,) int, as the solver cuts them; -1 for faces that are in none.
 
-    Charts end at seams and at edges that do not have two faces.
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    face = mesh.face_of_corner()
-    keys = _corner_edges(mesh)
-    usable = faces[face] & ~np.isin(keys, _keys(mesh, mesh.seam_edges))
-    order = np.flatnonzero(usable)
-    order = order[np.argsort(keys[order], kind="stable")]
-    _, first, count = np.unique(keys[order], return_index=True, return_counts=True)
-    first = first[count == 2]
-    a, b = face[order[first]], face[order[first + 1]]
-    chart = np.arange(len(faces))
-    while True:
-        low, high = np.minimum(chart[a], chart[b]), np.maximum(chart[a], chart[b])
-        if np.array_equal(low, high):
-            return np.where(faces, chart, -1)
-        np.minimum.at(chart, high, low)
-        while not np.array_equal(chart, chart[chart]):
-            chart = chart[chart]
+    return native.spectral_conformal().chart_of_face(
+        mesh.vertices,
+        mesh.face_offsets,
+        mesh.corner_vertices,
+        seam_edges=mesh.seam_edges,
+        selected_faces=faces,
+    )
 
 
 def faces_of_charts_at(mesh: PolygonMesh, faces: np.ndarray, edges: np.ndarray) -> np.ndarray:

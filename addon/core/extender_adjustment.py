@@ -38,7 +38,10 @@ class ExtenderAdjustment:
             AdjustmentError: no chart holds both vertices of a pair.
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
-        faces = charts.faces_of_charts_with(mesh, mesh.selected_faces, pairs)
+        try:
+            faces = charts.faces_of_charts_with(mesh, mesh.selected_faces, pairs)
+        except ValueError as error:
+            raise AdjustmentError(str(error)) from error
         if not faces.any():
             raise AdjustmentError(
                 "The extender has no effect: its vertices lie in no common island; remove the seams between them"

@@ -9,6 +9,7 @@ namespace spectral_conformal::python {
 void bind_errors(pybind11::module_& module);
 void bind_build(pybind11::module_& module);
 void bind_parameterize(pybind11::module_& module);
+void bind_charts(pybind11::module_& module);
 void bind_unwrap(pybind11::module_& module);
 void bind_quality(pybind11::module_& module);
 void bind_metric(pybind11::module_& module);

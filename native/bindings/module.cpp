@@ -7,6 +7,7 @@ PYBIND11_MODULE(_native, module) {
   bind_errors(module);
   bind_build(module);
   bind_parameterize(module);
+  bind_charts(module);
   bind_unwrap(module);
   bind_quality(module);
   bind_metric(module);

@@ -9,10 +9,11 @@ import itertools
 import warnings
 
 import numpy as np
-import random_arguments
 import spectral_conformal as sc
-from random_arguments import Interrupted
-from random_meshes import random_mesh, random_patch
+
+from tests.fuzz import random_arguments
+from tests.fuzz.random_arguments import Interrupted
+from tests.fuzz.random_meshes import random_mesh, random_patch
 
 # What may come out of a call; anything else, TypeError and warnings included, is a finding.
 EXPECTED = (ValueError, sc.SolveError, sc.Cancelled, MemoryError, Interrupted)

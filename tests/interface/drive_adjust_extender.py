@@ -4,26 +4,25 @@
 blender --factory-startup --python drive_adjust_extender.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import sys
-from pathlib import Path
-
+import addon_utils
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import (  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import (
     ADD,
     ADJUST,
+    TAB,
     click_sidebar,
     click_vertices,
     listed,
     open_grid,
     pairs,
+    press,
+    type_strength,
 )
-from session import VERDICT, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface.session import VERDICT, override, point_at, screenshot, uv, xdotool
 
 
 def raise_a_hill():
@@ -66,7 +65,9 @@ def drag_and_confirm():
     yield from drag(300)
     assert np.abs(uv() - before).max() > 0.005
     screenshot("extender_dragged")
-    assert listed() == start
+    # The list shows the strength that is dragged.
+    assert listed()[0] == start[0]
+    assert listed()[1][1] > 2.0, listed()
     xdotool("click", 1)
     yield
     yield
@@ -87,6 +88,61 @@ def drag_and_give_up():
     yield
     np.testing.assert_array_equal(uv(), before)
     assert listed() == start
+
+
+def drag_and_disable():
+    """Disable the add-on in the middle of a drag, as a script may, and enable it again."""
+    before, start = uv(), listed()
+    yield from drag(200)
+    assert not np.array_equal(uv(), before)
+    addon_utils.disable("spectral_unwrap")
+    np.testing.assert_array_equal(uv(), before)
+    yield
+    yield
+    screenshot("extender_disabled")
+    addon_utils.enable("spectral_unwrap", default_set=True)
+    yield
+    yield
+    assert listed() == start
+    # The mouse is free, and the sidebar is there again.
+    yield from click_sidebar(TAB)
+    yield from drag(-150)
+    assert not np.array_equal(uv(), before)
+    assert listed()[1][1] < 0.0, listed()
+    screenshot("extender_enabled_again")
+    xdotool("key", "Escape")
+    yield
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    assert listed() == start
+
+
+def add_and_type_live():
+    """With live unwrapping on, the map follows extenders that are added or changed in the list, and undo knows it."""
+    bpy.context.scene.spectral_unwrap_live = True
+    before, start = uv(), listed()
+    yield from click_vertices(3, 38)
+    yield from click_sidebar(ADD)
+    yield
+    added = uv()
+    assert len(listed()) == len(start) + 1
+    assert np.abs(added - before).max() > 1e-4, "the map does not follow the extender"
+    screenshot("extender_added_live")
+    yield from check_map_undo_and_redo(before, added)
+    yield from type_strength(len(start), "9")
+    for _ in range(3):
+        yield
+    typed = uv()
+    assert np.abs(typed - added).max() > 1e-4, "the map does not follow the strength"
+    screenshot("extender_typed_live")
+    yield from press("ctrl+z", "ctrl+z")
+    yield
+    np.testing.assert_array_equal(uv(), added)
+    yield from press("ctrl+z")
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    assert listed() == start
+    bpy.context.scene.spectral_unwrap_live = False
 
 
 def type_a_number():
@@ -122,6 +178,8 @@ def steps():
     yield from make_two()
     yield from drag_and_confirm()
     yield from drag_and_give_up()
+    yield from drag_and_disable()
+    yield from add_and_type_live()
     yield from type_a_number()
     yield from save_and_reopen()
 

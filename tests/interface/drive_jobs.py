@@ -7,16 +7,13 @@ blender --factory-startup --python drive_jobs.py -- <folder for the screenshots>
 import sys
 import threading
 import time
-from pathlib import Path
 
 import addon_utils
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 
 def solve_until_cancelled(_edit_meshes, _settings, progress):

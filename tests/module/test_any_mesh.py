@@ -1,10 +1,10 @@
 """Degenerate triangles that the rest must not notice, extreme shrinkage, and maps without folds."""
 
-import degenerate
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import degenerate, meshes
 
 KINDS = {"caps": degenerate.caps, "needles": degenerate.needles, "points": degenerate.points}
 

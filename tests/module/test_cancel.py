@@ -3,10 +3,11 @@
 
 import copy
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 
 def two_patches():

@@ -1,11 +1,11 @@
 """Extenders and hole rigidity (section 4.2)."""
 
-import meshes
 import numpy as np
 import pytest
-import reference
 import scipy.linalg
 import spectral_conformal as sc
+
+from tests.module import meshes, reference
 
 
 def cap(n, height=1.2):

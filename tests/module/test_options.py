@@ -5,10 +5,11 @@ import dataclasses
 import inspect
 import pydoc
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 TAKE_OPTIONS = {
     "parameterize": sc.parameterize,

@@ -1,8 +1,8 @@
-import meshes
 import numpy as np
 import pytest
-import reference
 import spectral_conformal as sc
+
+from tests.module import meshes, reference
 
 OPTIONS = [(w, b) for w in ("uniform", "inverse_area") for b in ("length", "vertex")]
 

@@ -1,11 +1,11 @@
 """Pins: held by pinned LSCM, one that only moves the map, soft ones; of vertices and of corners."""
 
 import igl
-import meshes
 import numpy as np
 import pytest
-import reference
 import spectral_conformal as sc
+
+from tests.module import meshes, reference
 
 
 def test_lscm_holds_pins_exactly_and_minimises():

@@ -1,9 +1,10 @@
 """Patches that have no conformal map to the plane, and maps that cannot be right: errors, never results."""
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 
 def square():

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 

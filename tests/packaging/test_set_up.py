@@ -2,11 +2,9 @@
 """The set-up behind build_addon.py: what it asks for, and that a failed or changed step runs again."""
 
 import sys
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from tools import environment, steps
 
 

@@ -21,6 +21,7 @@ on results.
 
 from ._arguments import Extenders, Pins, Progress
 from ._build import build_info
+from ._charts import chart_of_face
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
@@ -50,6 +51,7 @@ __all__ = [
     "Unwrapper",
     "blend_metric",
     "build_info",
+    "chart_of_face",
     "distortion",
     "map_defects",
     "metric_from_direction",

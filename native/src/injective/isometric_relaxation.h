@@ -7,18 +7,10 @@
 #include "geometry/triangle_shape.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
+#include "spectral_conformal/relaxation_status.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-enum class RelaxationStatus {
-  converged,            ///< a step with a fresh factor took away less than IsometryOptions::tolerance
-  factorization_limit,  ///< IsometryOptions::max_factorizations came first: more of them would lower the energy further
-  stalled,              ///< the gradient promises more, but flips or rounding leave (almost) no step along it
-  indefinite_form,      ///< the quadratic form of the direction is not positive definite in double precision
-  no_image_area,        ///< no triangle of the given map has image area to measure: it is returned as it is
-  rejected              ///< the descent left more flipped triangles, or overflowed: the given map is returned
-};
 
 struct IsometryOptions {
   /// Stop when a step with a fresh factor takes away less than this fraction of the energy above that of an isometry.

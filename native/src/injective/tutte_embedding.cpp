@@ -217,11 +217,11 @@ ComplexVector tutte_embedding(const std::vector<std::array<int, 3>>& triangles, 
   const Eigen::Index n = positions.rows() + static_cast<Eigen::Index>(loops.size()) - 1;
   ComplexVector z = ComplexVector::Zero(n);
   map_to_circle(circle, positions, z);
-  TutteSystem system(edges, circle, n, backend);
-  Embedding best = reweighted_embedding(triangles, edges, system, z, part(progress, 0, 0.5));
+  TutteSystem equations(edges, circle, n, backend);
+  Embedding best = reweighted_embedding(triangles, edges, equations, z, part(progress, 0, 0.5));
   if (best.flipped > 0) {
     weaken_rings(edges, circle, n);
-    Embedding other = reweighted_embedding(triangles, edges, system, z, part(progress, 0.5, 1));
+    Embedding other = reweighted_embedding(triangles, edges, equations, z, part(progress, 0.5, 1));
     if (other.flipped < best.flipped) best = std::move(other);
   }
   return best.z.head(positions.rows());

@@ -9,7 +9,7 @@
 
 namespace spectral_conformal {
 
-/// The edges of a polygon mesh as ways that a seam can take. Edges between two faces are free unless they are seams;
+/// The edges of a polygon mesh as paths that a seam can take. Edges between two faces are free unless they are seams;
 /// all others are cut already.
 class SeamGraph {
  public:
@@ -33,12 +33,12 @@ class SeamGraph {
   void cut(int edge) { edges_[edge].cut = true; }
   void scale_cost(int edge, double factor) { edges_[edge].cost *= factor; }
 
-  /// Cost of the cheapest way of every vertex to a source along `allowed` edges, cut ones being free; infinite where
-  /// there is no way. With `parent`, the edge by which each vertex is reached from its source, or -1.
+  /// Cost of the cheapest path from every vertex to a source along `allowed` edges, cut ones being free; infinite where
+  /// there is no path. With `parent`, the edge by which each vertex is reached from its source, or -1.
   std::vector<double> distances(const std::vector<int>& sources, const std::function<bool(int edge)>& allowed,
                                 std::vector<int>* parent = nullptr) const;
-  /// The cheapest way from a vertex to the nearest target, as edges in order; empty where there is none or the start is
-  /// a target. Turns cost too, so that of the many shortest ways over a grid a straight one is taken; cut edges are
+  /// The cheapest path from a vertex to the nearest target, as edges in order; empty where there is none or the start
+  /// is a target. Turns cost too, so that of the many shortest paths over a grid a straight one is taken; cut edges are
   /// free. `allowed(edge, from)` says whether an edge may be walked from a vertex.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;

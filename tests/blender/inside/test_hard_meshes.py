@@ -4,11 +4,10 @@
 import importlib
 
 import bpy
-import digest
-import hard_meshes
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import digest, hard_meshes, scenes
 
 options = importlib.import_module("spectral_unwrap.core.options")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")

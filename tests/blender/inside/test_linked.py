@@ -6,7 +6,8 @@ import contextlib
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 OPERATORS = ("spectral_unwrap", "spectral_suggest_seams", "spectral_select_failed", "spectral_select_defects")
 

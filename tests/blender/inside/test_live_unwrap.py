@@ -7,7 +7,8 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def module(name):
@@ -500,3 +501,16 @@ def test_an_extender_that_cannot_be_followed_is_added_with_a_warning(reports):
     (warning,) = [text for level, text in reports() if level == "Warning"]
     assert "no common island" in warning
     assert len(grid.data.spectral_extenders) == 1
+
+
+def test_a_doubled_face_does_not_split_its_island():
+    # The solver joins the faces around a doubled one; an island that followed without it would be torn there.
+    grid = bumpy_grid()
+    mesh = grid.data
+    faces = [tuple(polygon.vertices) for polygon in mesh.polygons]
+    positions = [tuple(vertex.co) for vertex in mesh.vertices]
+    doubled = scenes.new_object(positions, [*faces, faces[20]], name="Doubled")
+    edit_with_pins(doubled, [0, 8, 62])
+    turn_on()
+    move(doubled, 8, (0.1, 0.2))
+    np.testing.assert_allclose(scenes.read_uv(doubled), directly_pinned(doubled, [0, 8, 62]), atol=2e-5)

@@ -4,7 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def test_objects_in_edit_mode_are_packed_together_to_one_scale():

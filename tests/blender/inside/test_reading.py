@@ -6,7 +6,8 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 read = importlib.import_module("spectral_unwrap.edit_mesh.read")
 

@@ -3,13 +3,14 @@
 
 import importlib
 import sys
+from types import SimpleNamespace
 
 import bmesh
 import bpy
-import jobs
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import jobs, scenes
 
 names = importlib.import_module("spectral_unwrap.names")
 
@@ -327,8 +328,26 @@ def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
     np.testing.assert_array_equal(scenes.read_uv(cube), uv)
 
 
-def test_live_unwrap_does_not_follow():
-    assert "UV_OT_spectral_suggest_seams" in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
+@pytest.mark.parametrize("is_ours", [True, False])
+def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
+    """Seams that Suggest Seams marks come with their map; those that Mark Seam marks get a new one."""
+    ours = module("operators.suggest_seams").UV_OT_spectral_suggest_seams.__name__
+    # Background mode keeps no list of the operators that ended.
+    ended = SimpleNamespace(bl_idname=ours if is_ours else "MESH_OT_mark_seam", as_pointer=lambda: 1)
+    last_operator = module("live.last_operator")
+    monkeypatch.setattr(last_operator, "_last", lambda: None)
+    cylinder = scenes.cylinder(closed_seam=False)
+    scenes.edit(cylinder)
+    bpy.context.scene.spectral_unwrap_live = True
+    before = scenes.read_uv(cylinder)
+    bm = scenes.edit_mesh(cylinder)
+    for row in range(6):
+        bm.edges.get([bm.verts[24 * row], bm.verts[24 * (row + 1)]]).seam = True
+    monkeypatch.setattr(last_operator, "_last", lambda: ended)
+    bmesh.update_edit_mesh(cylinder.data)
+    bpy.context.view_layer.update()
+    module("live.following").look()
+    assert np.array_equal(scenes.read_uv(cylinder), before) == is_ours
 
 
 def invoked(monkeypatch, is_waiting=True):

@@ -237,6 +237,40 @@ TEST_CASE("an attraction that makes the map wind twice fails and says what to do
   const Unwrap result = unwrapped(mesh, options);
   CHECK_FALSE(result.charts[0].solved);
   CHECK(says(result.charts[0].message, "weaken or remove extenders"));
+  // As a solver of the patch does.
+  const Patch patch(mesh);
+  SolveOptions solve;
+  solve.extenders = {{{20}, {60}, -1000}};
+  Solver solver(patch.chart, patch.positions, {});
+  CHECK_THROWS_WITH_AS(solver.solve(solve, {}), result.charts[0].message.c_str(), SolveFailure);
+}
+
+TEST_CASE("hard pins are held by pinned LSCM where the method is spectral, and fail the methods that hold none") {
+  const Mesh mesh = bumpy_grid(6, 5);
+  const Pins pins{{0, {0, 0}}, {6, {6, 0}}, {41, {6, 5}}};
+  CHECK(unwrapped(mesh, {}, pins).charts[0].method == Method::lscm);
+  CHECK(unwrapped(mesh, {}, pins).charts[0].eigenvalue_of == EigenvalueOf::map);
+  for (const auto method : {Method::fiedler, Method::area}) {
+    UnwrapOptions options;
+    options.solve.method = method;
+    const UnwrappedChart chart = unwrapped(mesh, options, pins).charts[0];
+    CHECK_FALSE(chart.solved);
+    const Patch patch(mesh);
+    Solver solver(patch.chart, patch.positions, {});
+    CHECK_THROWS_WITH_AS(solver.solve({method}, pins), chart.message.c_str(), InvalidMesh);
+  }
+}
+
+TEST_CASE("a chart says what was solved, and fails where a fallback is forbidden") {
+  const Mesh mesh = rounded_grid(20, 0.5);
+  UnwrapOptions options;
+  const UnwrappedChart chart = unwrapped(mesh, options).charts[0];
+  CHECK((chart.solved && chart.fallback == Fallback::other_boundary && chart.boundary == BoundaryMeasure::vertex));
+  CHECK(chart.attempts > 2);
+  options.solve.fallbacks = false;
+  const UnwrappedChart failed = unwrapped(mesh, options).charts[0];
+  CHECK_FALSE(failed.solved);
+  CHECK(failed.boundary == BoundaryMeasure::length);
 }
 
 TEST_CASE("a metric of faces is that of their triangles, whichever way they are wound") {

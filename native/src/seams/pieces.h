@@ -9,7 +9,7 @@
 namespace spectral_conformal {
 
 /// One chart as a mesh of its own, whose vertices are the chart's: what was cut around it is its border.
-struct SeamPiece {
+struct Piece {
   Positions positions;                    ///< (V, 3)
   std::vector<int> face_offsets{0};       ///< (F + 1,)
   std::vector<int> corner_vertices;       ///< (C,)
@@ -23,7 +23,7 @@ struct SeamPiece {
 };
 
 /// The pieces of a mesh, one per chart, in the charts' order.
-std::vector<SeamPiece> seam_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition);
+std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition);
 
 /// What a mirror symmetry of the mesh does to a piece.
 struct PieceMirror {
@@ -34,6 +34,6 @@ struct PieceMirror {
 
 /// Per piece. The image is one piece with the same cuts, or there is none.
 std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
-                                       const std::vector<SeamPiece>& pieces, const MirrorSymmetry& symmetry);
+                                       const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry);
 
 }  // namespace spectral_conformal

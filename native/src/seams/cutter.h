@@ -1,29 +1,21 @@
 #pragma once
 
-#include <limits>
-#include <memory>
 #include <vector>
 
-#include "seams/distorted_regions.h"
+#include "seams/cut_candidates.h"
 #include "seams/piece_seams.h"
 #include "seams/trial_map.h"
 #include "spectral_conformal/progress.h"
+#include "spectral_conformal/seam_suggestion.h"
 
 namespace spectral_conformal {
 
-struct SeamSuggestionOptions {
-  double max_length =
-      std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
-  double scale_limit = 2;  ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
-  double qc_limit = 1.05;  ///< enough when the mean QC, weighted by area, is not above it; at least 1
-  PatchOptions map;        ///< of the maps whose distortion counts
-};
-
-/// Finds cut after cut for one piece, each of which is solved before it is taken.
-class PieceCutter {
+/// The greedy search for the cuts of one piece: what CutCandidates proposes is solved, and taken if the maps gain
+/// enough for the length of the cut. Each step makes the cuts whose gain for their length is highest.
+class Cutter {
  public:
   /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
-  PieceCutter(PieceSeams seams, const SeamSuggestionOptions& options);
+  Cutter(PieceSeams seams, const SeamSuggestionOptions& options);
 
   /// Solves the piece with the seams that it has. Throws Cancelled.
   void solve(const Progress& progress);
@@ -36,28 +28,16 @@ class PieceCutter {
   const MapQuality& quality() const { return quality_; }
 
  private:
-  using MappedCharts = std::vector<std::shared_ptr<const MappedChart>>;
-  struct Place : DistortedPlace {
-    int chart;
-  };
   struct Trial {
     SeamEdges cut;
-    MappedCharts charts;
+    TrialMaps charts;
     MapQuality quality;
   };
-  enum class Kind { scale, angle };
 
   bool good_enough() const;
   bool is_small() const;
-  MappedCharts map_charts(const SeamEdges& more, const Progress& progress) const;
-  std::vector<int> chart_of_face() const;
-  std::vector<Place> places(Kind kind, const std::vector<int>& chart_of_face) const;
-  SeamEdges cut_to(const Place& place, const std::vector<int>& chart_of_face) const;
-  SeamEdges cut_around(const Place& place, const std::vector<int>& chart_of_face) const;
-  std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& overlapping,
-                                      const std::vector<int>& chart_of_face) const;
-  std::vector<SeamEdges> halves(const std::vector<int>& chart_of_face) const;
-  SeparableFaces separable(int chart) const;
+  TrialMaps map_charts(const SeamEdges& more, const Progress& progress) const;
+  CutCandidates candidates() const { return {seams_, charts_, quality_}; }
 
   Trial attempt(SeamEdges cut, const Progress& progress) const;
   bool makes_islands(const Trial& trial) const;
@@ -75,7 +55,7 @@ class PieceCutter {
 
   PieceSeams seams_;
   const SeamSuggestionOptions& options_;
-  MappedCharts charts_;
+  TrialMaps charts_;
   MapQuality quality_;
   bool finished_ = false;
   int blind_cuts_ = 0;

@@ -1,4 +1,4 @@
-#include "seams/seam_piece.h"
+#include "seams/pieces.h"
 
 #include <algorithm>
 #include <utility>
@@ -19,9 +19,9 @@ std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
 }
 
 /// Matches the corners of a piece's faces with those of their images. False when that is no map of the pieces.
-bool match_corners(const SeamPiece& piece, const std::vector<SeamPiece>& pieces, const std::vector<int>& face_in_piece,
+bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const std::vector<int>& face_in_piece,
                    const MirrorSymmetry& symmetry, PieceMirror& mirror) {
-  const SeamPiece& image = pieces[mirror.image];
+  const Piece& image = pieces[mirror.image];
   if (image.faces.size() != piece.faces.size() || image.vertices.size() != piece.vertices.size()) return false;
   mirror.vertex.assign(piece.vertices.size(), -1);
   mirror.face.assign(piece.faces.size(), -1);
@@ -52,7 +52,7 @@ bool match_corners(const SeamPiece& piece, const std::vector<SeamPiece>& pieces,
 
 }  // namespace
 
-PolygonMesh SeamPiece::view() const {
+PolygonMesh Piece::view() const {
   PolygonMesh mesh;
   mesh.positions = positions.data();
   mesh.n_vertices = static_cast<int>(positions.rows());
@@ -64,11 +64,11 @@ PolygonMesh SeamPiece::view() const {
   return mesh;
 }
 
-std::vector<SeamPiece> seam_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition) {
+std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition) {
   const std::vector<std::array<int, 2>> seams = sorted_seams(mesh);
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   for (const Chart& chart : decomposition.charts) {
-    SeamPiece piece;
+    Piece piece;
     piece.positions = chart.positions(mesh);
     piece.vertices = chart.vertices;
     piece.faces = chart.faces;
@@ -92,14 +92,14 @@ std::vector<SeamPiece> seam_pieces(const PolygonMesh& mesh, const ChartDecomposi
 }
 
 std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
-                                       const std::vector<SeamPiece>& pieces, const MirrorSymmetry& symmetry) {
+                                       const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry) {
   std::vector<int> face_in_piece(static_cast<std::size_t>(mesh.n_faces), -1);
-  for (const SeamPiece& piece : pieces) {
+  for (const Piece& piece : pieces) {
     for (int f = 0; f < piece.n_faces(); ++f) face_in_piece[piece.faces[f]] = f;
   }
   std::vector<PieceMirror> mirrors(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const SeamPiece& piece = pieces[i];
+    const Piece& piece = pieces[i];
     const auto image_of = [&](int face) {
       const int image = symmetry.face[face];
       return image < 0 || face_in_piece[image] < 0 ? -1 : decomposition.chart_of_face[image];

@@ -1,25 +1,25 @@
 #include <doctest/doctest.h>
 
 #include "meshes.h"
-#include "seams/seam_piece.h"
+#include "seams/pieces.h"
 
 namespace spectral_conformal::test {
 namespace {
 
 struct Pieces {
   ChartDecomposition decomposition;
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   std::vector<PieceMirror> mirrors;
 
   explicit Pieces(const Mesh& mesh) : decomposition(build_charts(mesh.view())) {
-    pieces = seam_pieces(mesh.view(), decomposition);
+    pieces = split_into_pieces(mesh.view(), decomposition);
     mirrors = mirror_pieces(mesh.view(), decomposition, pieces, find_mirror_symmetry(mesh.view()));
   }
 };
 
 }  // namespace
 
-TEST_SUITE_BEGIN("seam_piece");
+TEST_SUITE_BEGIN("pieces");
 
 TEST_CASE("a piece is its chart as a mesh of its own, cut as the chart was") {
   Mesh mesh = quad_grid(6, 3);

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "meshes.h"
-#include "seams/piece_cutter.h"
+#include "seams/cutter.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
@@ -9,9 +9,9 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-PieceSeams opened(const Mesh& mesh, std::vector<SeamPiece>& pieces) {
+PieceSeams opened(const Mesh& mesh, std::vector<Piece>& pieces) {
   const ChartDecomposition decomposition = build_charts(mesh.view());
-  pieces = seam_pieces(mesh.view(), decomposition);
+  pieces = split_into_pieces(mesh.view(), decomposition);
   const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
   PieceSeams seams(pieces[0], 0, mirror_pieces(mesh.view(), decomposition, pieces, symmetry)[0], symmetry);
   seams.open();
@@ -20,13 +20,13 @@ PieceSeams opened(const Mesh& mesh, std::vector<SeamPiece>& pieces) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("piece_cutter");
+TEST_SUITE_BEGIN("cutter");
 
 TEST_CASE("every step lowers the distortion, until the limits are met") {
   for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(24, 12)}) {
-    std::vector<SeamPiece> pieces;
+    std::vector<Piece> pieces;
     const SeamSuggestionOptions options;
-    PieceCutter cutter(opened(mesh, pieces), options);
+    Cutter cutter(opened(mesh, pieces), options);
     cutter.solve({});
     int steps = 0;
     double before = cutter.quality().distortion();
@@ -45,16 +45,16 @@ TEST_CASE("every step lowers the distortion, until the limits are met") {
 }
 
 TEST_CASE("no step is longer than allowed") {
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   const Mesh mesh = spiky_grid(2, 8);
-  PieceCutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options);
   cutter.solve({});
   const double before = cutter.quality().distortion();
   CHECK(cutter.step(0.5, {}).empty());
   CHECK(cutter.finished());
   CHECK(cutter.quality().distortion() == before);
-  PieceCutter other(opened(mesh, pieces), options);
+  Cutter other(opened(mesh, pieces), options);
   other.solve({});
   for (SeamEdges cut = other.step(20, {}); !cut.empty(); cut = other.step(20, {})) {
     CHECK(other.seams().length(cut) <= 20);
@@ -62,10 +62,10 @@ TEST_CASE("no step is longer than allowed") {
 }
 
 TEST_CASE("a good map is left alone") {
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   const Mesh mesh = bumpy_grid(6, 6);
-  PieceCutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options);
   cutter.solve({});
   CHECK(cutter.step(unlimited, {}).empty());
 }
@@ -74,9 +74,9 @@ TEST_CASE("where the first map fails the surface is cut further") {
   // A tall closed tower, slit along its foot only: its map shrinks beyond what double precision resolves.
   Mesh mesh = cell_surface(60, [](int i, int j, int k) { return i < 2 && j < 2 && k < 60; });
   mesh.seams = {{0, 1}};
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
-  PieceCutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options);
   cutter.solve({});
   while (!cutter.step(unlimited, {}).empty()) {
   }
@@ -85,10 +85,10 @@ TEST_CASE("where the first map fails the surface is cut further") {
 }
 
 TEST_CASE("cancelling passes through") {
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   const Mesh mesh = spiky_grid(2, 8);
-  PieceCutter cutter(opened(mesh, pieces), options);
+  Cutter cutter(opened(mesh, pieces), options);
   cutter.solve({});
   CHECK_THROWS_AS(cutter.step(unlimited, [](double, const char*) { return false; }), Cancelled);
 }

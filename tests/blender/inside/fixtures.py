@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A fresh Blender with the add-on enabled for every test, and what the operator reported."""
+"""A fresh Blender with the add-on enabled for every test, and what the operator reported.
+
+A plugin and no conftest.py, which the pytest outside of Blender would import.
+"""
 
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils

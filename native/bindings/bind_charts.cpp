@@ -1,0 +1,33 @@
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bindings/arrays.h"
+#include "bindings/bind.h"
+#include "mesh/charts.h"
+
+namespace spectral_conformal::python {
+
+namespace {
+
+py::array_t<int> chart_of_face(const Array<double>& vertices, const Array<int>& face_offsets,
+                               const Array<int>& corner_vertices, std::optional<Array<int>> seam_edges,
+                               std::optional<Array<bool>> selected_faces) {
+  const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
+  const PolygonMesh mesh = arrays.view();
+  std::vector<int> charts;
+  {
+    const py::gil_scoped_release unlocked;
+    charts = build_charts(mesh).chart_of_face;
+  }
+  return copy(charts);
+}
+
+}  // namespace
+
+void bind_charts(py::module_& module) { module.def("chart_of_face", &chart_of_face); }
+
+}  // namespace spectral_conformal::python
