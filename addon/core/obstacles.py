@@ -14,8 +14,9 @@ from .mesh import PolygonMesh
 
 # Cells along a side of the tile: gaps between packed islands and obstacles are known to 1.6 % of it.
 _CELLS = 64
-# A free square below half of the tile's side holds less than a quarter of its pixels; a tile of its own is better.
-_MIN_SIDE = 0.5
+# A smaller free square holds less than a sixteenth of the tile's pixels; a tile of its own is better. That of a cube's
+# cross, as Blender's own cube has it, is 0.375.
+_MIN_SIDE = 0.25
 # A face larger than this fraction of the tile, in width and height, is as Blender fills a map that nobody has made.
 _WHOLE_TILE = 0.9
 

@@ -28,6 +28,12 @@ constexpr Name<Fallback> fallbacks[] = {{"clamped_triangles", Fallback::clamped_
                                         {"other_boundary", Fallback::other_boundary},
                                         {"other_weights", Fallback::other_weights},
                                         {"tutte_embedding", Fallback::tutte_embedding}};
+constexpr Name<RelaxationStatus> relaxations[] = {{"converged", RelaxationStatus::converged},
+                                                  {"factorization_limit", RelaxationStatus::factorization_limit},
+                                                  {"stalled", RelaxationStatus::stalled},
+                                                  {"indefinite_form", RelaxationStatus::indefinite_form},
+                                                  {"no_image_area", RelaxationStatus::no_image_area},
+                                                  {"rejected", RelaxationStatus::rejected}};
 constexpr Name<EigenvalueOf> eigenvalue_owners[] = {{"eigenvector", EigenvalueOf::eigenvector},
                                                     {"map", EigenvalueOf::map}};
 
@@ -104,6 +110,11 @@ const char* name_of(EigenvalueOf eigenvalue_of) { return name_in(eigenvalue_owne
 py::object name_of(Fallback fallback) {
   if (fallback == Fallback::none) return py::none();
   return py::str(name_in(fallbacks, fallback));
+}
+
+py::object name_of(std::optional<RelaxationStatus> relaxation) {
+  if (!relaxation) return py::none();
+  return py::str(name_in(relaxations, *relaxation));
 }
 
 }  // namespace spectral_conformal::python

@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -33,5 +34,7 @@ const char* name_of(BoundaryMeasure boundary);
 const char* name_of(EigenvalueOf eigenvalue_of);
 /// None for Fallback::none.
 pybind11::object name_of(Fallback fallback);
+/// None where there was no relaxation.
+pybind11::object name_of(std::optional<RelaxationStatus> relaxation);
 
 }  // namespace spectral_conformal::python

@@ -22,6 +22,9 @@ pybind11::dict solve_record(const Result& result) {
   record["boundary"] = name_of(result.boundary);
   record["fallback"] = name_of(result.fallback);
   record["clamped_triangles"] = result.clamped_triangles;
+  record["relaxation"] = name_of(result.relaxation);
+  record["scale_deviation_before"] = result.scale_deviation_before;
+  record["scale_deviation"] = result.scale_deviation;
   record["unfolded"] = result.unfolded;
   record["is_embedding"] = result.is_embedding;
   record["mean_qc_before"] = result.mean_qc_before;

@@ -30,15 +30,15 @@ class InsideFile(pytest.File):
         for blender in blenders.all_blenders():
             for function in functions_of(self.path):
                 name = f"{function}[{blender.name}]"
-                yield InsideTest.from_parent(self, name=name, function=function, blender=blender)
+                yield InsideTest.from_parent(self, name=name, inner=function, blender=blender)
 
 
 class InsideTest(pytest.Item):
     """A function of such a file, in one Blender."""
 
-    def __init__(self, *, function, blender, **rest):
+    def __init__(self, *, inner, blender, **rest):
         super().__init__(**rest)
-        self.function = function
+        self.inner = inner
         self.blender = blender
 
     def runtest(self):
@@ -46,10 +46,10 @@ class InsideTest(pytest.Item):
         key = (self.path, self.blender.name)
         if key not in known:
             inside = (item for item in self.session.items if isinstance(item, InsideTest))
-            functions = [item.function for item in inside if (item.path, item.blender.name) == key]
+            functions = [item.inner for item in inside if (item.path, item.blender.name) == key]
             known[key] = run(self.path, functions, self.blender)
-        if known[key][self.function]:
-            pytest.fail(known[key][self.function], pytrace=False)
+        if known[key][self.inner]:
+            pytest.fail(known[key][self.inner], pytrace=False)
 
     def reportinfo(self):
         return self.path, None, f"{self.path.stem}.{self.name}"

@@ -103,3 +103,12 @@ def test_maps_that_are_no_eigenvectors_say_so():
     for options in ({"fold_free": True}, {"method": "lscm"}, {"method": "lscm", "pins": {0: (0, 0), 9: (1, 0)}}):
         solution = sc.parameterize(vertices, triangles, **options)
         assert solution.eigenvalue_of == "map"
+
+
+def test_an_area_blend_says_how_its_relaxation_ended():
+    vertices, triangles = meshes.bumpy_disk(300)
+    assert sc.parameterize(vertices, triangles).relaxation is None
+    blended = sc.parameterize(vertices, triangles, area_blend=1.0)
+    assert blended.relaxation == "converged"
+    (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles), area_blend=1.0).charts
+    assert chart.relaxation == blended.relaxation

@@ -80,6 +80,12 @@ def test_the_scan_sees_an_upward_include():
     ]
 
 
+@pytest.mark.parametrize("path", PUBLIC_HEADERS, ids=relative)
+def test_public_headers_include_public_headers_only(path):
+    private = [h for h in includes(path) if floor_of_header(h) and not h.startswith("spectral_conformal/")]
+    assert not private, f"{relative(path)} shows its reader {', '.join(private)}"
+
+
 def test_every_floor_is_known_and_used():
     folders = {path.name for path in (NATIVE / "src").iterdir() if path.is_dir()}
     assert folders <= set(FLOORS)

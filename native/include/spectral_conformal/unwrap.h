@@ -5,9 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "mesh/charts.h"
-#include "mesh/corner_pins.h"
 #include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal {
 

@@ -18,6 +18,13 @@ embedding."""
 EigenvalueOf = Literal["eigenvector", "map"]
 """What an eigenvalue belongs to: the "eigenvector" of the problem that was solved, or a "map" that is none (pinned,
 unfolded, replaced), of which it is the quotient z*Lz / z*Bz of Eq. 5."""
+Relaxation = Optional[
+    Literal["converged", "factorization_limit", "stalled", "indefinite_form", "no_image_area", "rejected"]
+]
+"""How the relaxation towards an isometry that `area_blend` asks for ended; None without it. "converged"; at the
+"factorization_limit", more would change the map further; "stalled": flips or rounding leave no step; "indefinite_form":
+the form of the descent is not positive definite in double precision. Nothing was blended where the conformal map has
+"no_image_area", or the relaxed map was "rejected" because it had more flipped triangles or overflowed."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +58,12 @@ class Parameterization:
     """Eigenproblems, or pinned systems, solved until one passed the checks, fallbacks included."""
     turning_number: int
     """Of the longest boundary loop: 1 for a map that does not wind round itself, -1 if that loop is a hole of it."""
+    relaxation: Relaxation
+    """How the relaxation that `area_blend` asks for ended; None without it."""
+    scale_deviation_before: float
+    """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise not a number."""
+    scale_deviation: float
+    """With `area_blend`: the same of this map. Otherwise not a number."""
     unfolded: int
     """Flipped triangles that `fold_free` has unfolded."""
     is_embedding: bool
@@ -130,6 +143,11 @@ class Chart:
     """Faces with a flipped triangle."""
     overlapping: int
     """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
+    relaxation: Relaxation
+    """See `Parameterization`."""
+    scale_deviation_before: float
+    """See `Parameterization`; so is the next."""
+    scale_deviation: float
     unfolded: int
     """Flipped triangles that `fold_free` has unfolded."""
     is_embedding: bool

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "conformal/conformal_energy.h"
+#include "mesh/charts.h"
+#include "mesh/corner_pins.h"
 #include "parameterization/chart_metric.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/distortion.h"

@@ -6,11 +6,10 @@ import threading
 
 import addon_utils
 import bpy
-import jobs
 import numpy as np
 import pytest
 
-from tests.blender.inside import scenes
+from tests.blender.inside import jobs, scenes
 
 native = importlib.import_module("spectral_unwrap.core.native")
 

@@ -6,11 +6,10 @@ import re
 import time
 
 import bpy
-import jobs
 import numpy as np
 import pytest
 
-from tests.blender.inside import scenes
+from tests.blender.inside import jobs, scenes
 
 options = importlib.import_module("spectral_unwrap.core.options")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
