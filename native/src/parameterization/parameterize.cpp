@@ -113,7 +113,11 @@ SpectralMap Solver::State::factorize(const Progress& progress) {
 /// Pins are held exactly; a single one is left to the caller.
 std::optional<SolveFailure> Solver::State::solve_pinned(const SolveOptions& settings, const Pins& pins,
                                                         const Progress& progress, Parameterization& result) {
-  blend(part(progress, 0.0, 0.5));
+  try {
+    blend(part(progress, 0.0, 0.5));
+  } catch (const SolveFailure& failure) {
+    return failure;
+  }
   result.timings = timings;
   SpectralMap map = spectral_conformal::solve_pinned(
       spectral, pins, part(progress, options.area_blend > 0 ? 0.5 : 0.0, 1.0), result.timings);
@@ -130,34 +134,45 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
   const bool own_factor = settings.method == Method::fiedler;
   const double begun = own_factor ? 0.3 : 0.6;
   SpectralMap map;
-  if (own_factor) {
-    blend(part(progress, 0.0, begun));
-  } else {
-    map = factorize(part(progress, 0.0, begun));
+  std::optional<SolveFailure> failed_blend;
+  try {
+    if (own_factor) {
+      blend(part(progress, 0.0, begun));
+    } else {
+      map = factorize(part(progress, 0.0, begun));
+    }
+  } catch (const SolveFailure& failure) {
+    failed_blend = failure;
   }
   result.timings = timings;
-  if (map.rejection == Rejection::none) {
+  if (!failed_blend && map.rejection == Rejection::none) {
     map = spectral.solve(settings, attractors, part(progress, begun, 0.95), result.timings);
   }
-  result.attempts = map.attempts;
-  if (map.rejection == Rejection::none) {
+  result.attempts = failed_blend ? 1 : map.attempts;
+  if (!failed_blend && map.rejection == Rejection::none) {
     result.message = describe_attempts(map, settings);
     take(std::move(map), result);
     return std::nullopt;
   }
-  SolveFailure failure = failure_of(map, settings);
+  SolveFailure failure = failed_blend ? *failed_blend : failure_of(map, settings);
   // With soft constraints, these are what to change.
   if (settings.method != Method::spectral || settings.has_forces() || !settings.fallbacks) return failure;
   // The fraction done only rises: the failed attempts have used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
+  const double not_blended = is_blended ? 0 : options.area_blend;
   std::optional<FallbackMap> other =
-      solve_fallback(spectral, settings, attractors, rest, result.timings, result.attempts);
+      solve_fallback(spectral, settings, attractors, not_blended, rest, result.timings, result.attempts);
   if (!other) return failure;
   result.fallback = other->fallback;
   result.weights = other->weights;
   result.boundary = other->boundary;
   result.clamped_triangles = other->clamped_triangles;
   result.message = describe_fallback(*other, failure) + describe_attempts(other->map, settings);
+  if (other->blend) {
+    result.relaxation = other->blend->relaxed.status;
+    result.scale_deviation_before = other->blend->scale_deviation_before;
+    result.message += describe_relaxation(other->blend->relaxed);
+  }
   take(std::move(other->map), result);
   return std::nullopt;
 }
@@ -212,8 +227,11 @@ Parameterization Solver::State::solve(const SolveOptions& given, const Pins& pin
   if (relaxation) {
     result.relaxation = relaxation;
     result.scale_deviation_before = scale_deviation_before;
+  }
+  if (result.relaxation) {
     result.scale_deviation = chart_distortion(patch, result.z).log2_scale_deviation;
-    result.message += describe_blend(options.area_blend, *relaxation, scale_deviation_before, result.scale_deviation);
+    result.message +=
+        describe_blend(options.area_blend, *result.relaxation, result.scale_deviation_before, result.scale_deviation);
   }
   if (pinned && pins.size() == 1) move_onto_pin(pins, result.z);
   if (!pinned && !pins.empty() && !fit_to_pins(result.z, pins)) {

@@ -17,7 +17,7 @@ TEST_CASE("a patch that is thin to a point is solved with clamped triangles") {
   Timings timings;
   CHECK(solver.solve({}, {}, {}, timings).rejection == Rejection::unresolved);
   int attempts = 2;
-  const std::optional<FallbackMap> other = solve_fallback(solver, {}, {}, {}, timings, attempts);
+  const std::optional<FallbackMap> other = solve_fallback(solver, {}, {}, 0, {}, timings, attempts);
   REQUIRE(other);
   CHECK(other->fallback == Fallback::clamped_triangles);
   CHECK((other->clamped_triangles > 0 && attempts > 2));
@@ -32,7 +32,7 @@ TEST_CASE("a map that winds twice gives way to the one of the other boundary for
   Timings timings;
   CHECK(solver.solve({}, {}, {}, timings).rejection == Rejection::winding);
   int attempts = 0;
-  const std::optional<FallbackMap> other = solve_fallback(solver, {}, {}, {}, timings, attempts);
+  const std::optional<FallbackMap> other = solve_fallback(solver, {}, {}, 0, {}, timings, attempts);
   REQUIRE(other);
   CHECK(other->fallback == Fallback::other_boundary);
   CHECK(other->boundary == BoundaryMeasure::vertex);
@@ -50,7 +50,7 @@ TEST_CASE("without any map there is no fallback") {
   const SpectralSolver solver(empty, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
   Timings timings;
   int attempts = 0;
-  CHECK_FALSE(solve_fallback(solver, {}, {}, {}, timings, attempts));
+  CHECK_FALSE(solve_fallback(solver, {}, {}, 0, {}, timings, attempts));
   CHECK(attempts > 0);
 }
 

@@ -308,6 +308,19 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
   CHECK_THROWS_AS(Solver(patch.chart, patch.positions, options).solve({}, {}, stop), Cancelled);
 }
 
+TEST_CASE("the area blend of a patch that needs a fallback is that of the fallback") {
+  const Patch patch(rounded_grid(26, 1.0 / 16));
+  PatchOptions options;
+  options.area_blend = 0.5;
+  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  CHECK(map.fallback == Fallback::clamped_triangles);
+  CHECK(map.relaxation);
+  options.fold_free = true;
+  SolveOptions strict;
+  strict.fallbacks = false;
+  CHECK(Solver(patch.chart, patch.positions, options).solve(strict, {}).is_embedding);
+}
+
 TEST_CASE("the area blend with filled holes") {
   const Patch patch(perforated_grid(10, 10));
   PatchOptions options;
