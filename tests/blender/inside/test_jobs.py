@@ -78,7 +78,7 @@ def test_without_a_window_the_operator_is_done_when_it_returns(name, monkeypatch
     scenes.edit(head)
     before = scenes.read_uv(head)
     # However long it takes.
-    monkeypatch.setattr(jobs.job_operator, "_SECONDS_BEFORE_MODAL", -1.0)
+    monkeypatch.setattr(jobs.worker.Worker, "wait", lambda _self, _seconds: False)
     module = importlib.import_module(f"spectral_unwrap.operators.{name}")
     operator = getattr(bpy.ops.uv, f"spectral_{name}")
     properties = jobs.defaults(operator)
