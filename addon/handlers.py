@@ -66,6 +66,12 @@ def _edited() -> list[bpy.types.Mesh]:
     return [edit_object.data for edit_object in bpy.context.objects_in_mode_unique_data]
 
 
+def _begin() -> None:
+    """Take up the meshes that are in edit mode already, where the add-on is enabled in the middle of it."""
+    tracking.follow(_edited())
+    following.see()
+
+
 _HANDLERS = (
     ("depsgraph_update_post", _on_depsgraph_update),
     ("undo_pre", _before_undo),
@@ -81,12 +87,16 @@ def register() -> None:
     """Add the handlers."""
     for event, handler in _HANDLERS:
         getattr(bpy.app.handlers, event).append(handler)
-    following.start()
+    # While add-ons are enabled Blender does not let them see its data.
+    if not bpy.app.background:
+        bpy.app.timers.register(_begin, first_interval=0.0)
 
 
 def unregister() -> None:
     """Remove the handlers and timers, and let all meshes go."""
     for event, handler in _HANDLERS:
         getattr(bpy.app.handlers, event).remove(handler)
+    if bpy.app.timers.is_registered(_begin):
+        bpy.app.timers.unregister(_begin)
     following.stop()
     tracking.forget()

@@ -122,16 +122,11 @@ def toggled() -> None:
     see()
 
 
-def start() -> None:
-    """Begin with what there is as soon as Blender lets the add-on see it."""
-    _call_after(see, 0.0)
-
-
 def stop() -> None:
     """Let go of everything: meshes and timers."""
     _state.is_undoing = False
     forget()
-    for timer in (see, look, _rest, _push_undo_step):
+    for timer in (look, _rest, _push_undo_step):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)
 
