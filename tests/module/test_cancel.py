@@ -97,6 +97,7 @@ ERRORS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", ERRORS.values(), ids=ERRORS)
 @pytest.mark.parametrize("name", CALLS)
 def test_stopped_at_every_report(name, error):

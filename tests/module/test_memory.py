@@ -87,6 +87,7 @@ LOOPS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", ["cholmod", "eigen"])
 @pytest.mark.parametrize("name", LOOPS)
 def test_memory_does_not_grow_over_a_thousand_solves(name, backend):
