@@ -105,7 +105,7 @@ class TutteSystem {
     analyzed_ = true;
     if (!factorization_->factorize(matrix)) {
       throw SolveFailure("The embedding into a circle could not be solved in double precision",
-                         "add seams that make the patch flatter.");
+                         "add seams that make the island flatter.");
     }
     ComplexVector solution;
     factorization_->solve(right_side, solution);

@@ -60,9 +60,9 @@ std::string advice_for(const SpectralMap& map, const SolveOptions& options) {
   }
   if (options.has_forces()) return "weaken or remove extenders, or lower the hole rigidity.";
   if (map.rejection == Rejection::not_factorized) {
-    return "the patch has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces.";
+    return "the island has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces.";
   }
-  return "add seams that make the patch flatter, or clean up degenerate faces.";
+  return "add seams that make the island flatter, or clean up degenerate faces.";
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ std::string describe_unfolding(const FoldFreeMap& map, const std::string& failur
   if (map.folded > 0) {
     text += count(map.folded, "triangle", "triangles") +
             (held ? " could not be unfolded between the pins; move or remove pins. "
-                  : " could not be unfolded in double precision; add seams that make the patch flatter. ");
+                  : " could not be unfolded in double precision; add seams that make the island flatter. ");
   } else if (!map.is_locally_injective) {
     text += std::abs(turning_number) == 1 ? "The map goes round an inner vertex more than once"
                                           : describe_winding(turning_number);
@@ -184,7 +184,7 @@ std::string describe_unresolved(const ConformalEnergy& energy, const ComplexVect
   }
   if (unresolved_triangles == 0) return "";
   return count(unresolved_triangles, "triangle shrinks", "triangles shrink") +
-         " below what double precision resolves; add seams that make the patch flatter. ";
+         " below what double precision resolves; add seams that make the island flatter. ";
 }
 
 }  // namespace spectral_conformal

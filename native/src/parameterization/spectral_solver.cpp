@@ -58,7 +58,7 @@ SpectralSolver::SpectralSolver(const NormalizedPatch& patch, Weights weights, Bo
                                                 patch.n_virtual)),    // Eq. 3
       form_(boundary_form(patch.outer, patch.positions, boundary)) {  // Eq. 5
   if (form_.vertices.size() < 2) {
-    throw InvalidMesh("The patch's longest boundary loop has no length; clean up its coincident vertices.");
+    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
   }
 }
 

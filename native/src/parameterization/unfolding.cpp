@@ -36,7 +36,7 @@ UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const Complex
   result.mean_qc = result.mean_qc_before;
   if (!result.changed) return result;
   if (held.empty() && !place(map.z, energy, patch.outer, patch.surface(), energy.area() * patch.scale * patch.scale)) {
-    throw SolveFailure("The map has no positive area", "add seams that make the patch flatter.");
+    throw SolveFailure("The map has no positive area", "add seams that make the island flatter.");
   }
   const ComplexVector whole = with_virtual_vertices(patch, map.z);
   result.turning_number = turning_number(patch.outer, patch.triangles, patch.triangle_weights, whole);

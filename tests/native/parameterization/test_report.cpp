@@ -33,7 +33,7 @@ TEST_CASE("failures name their reason and what to do, with soft constraints thes
   map.attempts = 2;
   CHECK(failure_of(map, {}).what() ==
         std::string("The triangles differ so much in size or shape that double precision does not resolve the map, in "
-                    "2 attempts with different shifts and starts: add seams that make the patch flatter, or clean up "
+                    "2 attempts with different shifts and starts: add seams that make the island flatter, or clean up "
                     "degenerate faces."));
   map.rejection = Rejection::winding;
   map.turning_number = 2;
@@ -130,7 +130,7 @@ TEST_CASE("triangles below the digits of the coordinates are counted, wherever t
   z[1] = z[0] + Complex(0, 1e-14);
   z[5] = z[0] - 1e-14;
   CHECK(describe_unresolved(energy, z) ==
-        "2 triangles shrink below what double precision resolves; add seams that make the patch flatter. ");
+        "2 triangles shrink below what double precision resolves; add seams that make the island flatter. ");
 }
 
 TEST_SUITE_END();
