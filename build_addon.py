@@ -21,7 +21,8 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     commands = parser.add_subparsers(dest="command", required=True)
     command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
     command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; Suzanne when left out")
-    commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
+    command = commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
+    command.add_argument("--quick", action="store_true", help="in under two minutes what needs no Blender")
     command = commands.add_parser(
         "fuzz", help="call the module at random; further arguments: --cases, --seed, --case", add_help=False
     )
@@ -51,14 +52,17 @@ def main() -> int:
             environment.set_up("build", "bpy", "demo")
             return demo.run(mesh)
         if options.command == "test":
-            environment.set_up("build", "bpy", "demo", "package", "fuzz", "test")
+            if options.quick:
+                environment.set_up("build", "quick")
+                return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
+            environment.set_up("build", "bpy", "demo", "package", "fuzz", "quick", "test")
             return environment.run_pytest(options.further_arguments)
         if options.command == "fuzz":
             environment.set_up("build", "fuzz")
             return environment.run_fuzzing(options.further_arguments, native=options.native)
         if options.command == "fuzz-scenes":
-            environment.set_up("build", "bpy", "test")
-            return environment.run_python("tests/fuzz/scenes_run.py", *options.further_arguments)
+            environment.set_up("build", "bpy", "quick", "test")
+            return environment.run_python("-m", "tests.fuzz.scenes_run", *options.further_arguments)
         if options.wheels:
             environment.set_up("bpy", native=False)
             return packaging.run_with_wheels(options.wheels)

@@ -17,20 +17,6 @@ EXTENDERS_PROPERTY = "spectral_extenders"
 ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
 EXTENDER_LAYER_PROPERTY = "spectral_extenders_layer"
 EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
-EXTENDER_STRENGTH_LIMIT = 1e4
-# Arguments of the property, wherever it stands.
-EXTENDER_STRENGTH = {
-    "name": "Strength",
-    "description": (
-        "How strongly the two vertices are pushed apart, or below 0 pulled together, as a fraction of the boundary's "
-        "total mass"
-    ),
-    "default": 1.0,
-    "min": -EXTENDER_STRENGTH_LIMIT,
-    "max": EXTENDER_STRENGTH_LIMIT,
-    "soft_min": -10.0,
-    "soft_max": 10.0,
-}
 
 ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
 REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"

@@ -14,6 +14,7 @@ from bpy.utils import register_class, unregister_class
 from . import names
 from .core import texts
 from .extenders import storage
+from .extenders.strength import STRENGTH
 from .live import following
 
 
@@ -33,20 +34,18 @@ def _on_toggle(_scene: Scene, _context: Context) -> None:
 class SpectralExtender(PropertyGroup):
     """One extender of a mesh."""
 
-    name: StringProperty(name="Name", description="Name of the extender", update=_on_rename)
-    strength: FloatProperty(**names.EXTENDER_STRENGTH, update=_on_change)
-    use: BoolProperty(
-        name="Use", description="Let the extender act on the next unwrap", default=True, update=_on_change
-    )
-    first_id: IntProperty(name="First Vertex", description="Identifier of its first vertex", options={"HIDDEN"})
-    second_id: IntProperty(name="Second Vertex", description="Identifier of its second vertex", options={"HIDDEN"})
+    name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, update=_on_rename)
+    strength: FloatProperty(**STRENGTH, update=_on_change)
+    use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, default=True, update=_on_change)
+    first_id: IntProperty(**texts.FIRST_VERTEX_PROPERTY, options={"HIDDEN"})
+    second_id: IntProperty(**texts.SECOND_VERTEX_PROPERTY, options={"HIDDEN"})
 
 
 def register() -> None:
     """Add the properties."""
     register_class(SpectralExtender)
     setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
-    active = IntProperty(name="Active Extender", description="The extender chosen in the panel", min=0)
+    active = IntProperty(**texts.ACTIVE_EXTENDER_PROPERTY, min=0)
     setattr(Mesh, names.ACTIVE_EXTENDER_PROPERTY, active)
     setattr(Mesh, names.EXTENDER_LAYER_PROPERTY, StringProperty(options={"HIDDEN"}))
     live = BoolProperty(name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle)

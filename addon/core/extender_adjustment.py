@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import charts, native, placement, solve
+from . import charts, native, placement, solve, texts
 from .errors import ReadableError
 from .mesh import PolygonMesh
 from .options import Options
@@ -43,9 +43,7 @@ class ExtenderAdjustment:
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
         if not faces.any():
-            raise AdjustmentError(
-                "The extender has no effect: its vertices lie in no common island; remove the seams between them"
-            )
+            raise AdjustmentError(texts.NO_COMMON_ISLAND)
         self._mesh = replace(mesh, selected_faces=faces)
         self._options = options
         self._pairs = list(pairs)
@@ -86,7 +84,7 @@ class ExtenderAdjustment:
             raise AdjustmentError(failed[0])
         self.unused = int(np.count_nonzero(result.unused_extenders[len(self._others) :]))
         if self.unused == len(self._pairs):
-            raise AdjustmentError("The extender has no effect: pins hold its island; unpin it or use soft pins")
+            raise AdjustmentError(texts.HELD_BY_PINS)
         if self._shown is None:
             self._chart = result.chart_of_face[self._mesh.face_of_corner()]
             self._shown, self._scale = self._start(result.uv, self._chart, np.array([c.area for c in result.charts]))

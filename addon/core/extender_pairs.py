@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import texts
 from .errors import ReadableError
 
 # Identifiers lie below: Blender interpolates the integers of vertices in single precision, which holds these exactly.
@@ -83,16 +84,13 @@ def pairs_in_order(selected: Sequence[int], ordered: Sequence[int]) -> list[tupl
         SelectionError: the vertices make no pairs.
     """
     if len(selected) < 2:
-        raise SelectionError("Select two vertices, or several, one after the other")
+        raise SelectionError(texts.SELECT_PAIR)
     if len(selected) == 2:
         vertices = ordered if len(ordered) == 2 else selected
     elif len(ordered) < len(selected):
-        raise SelectionError(
-            f"{len(selected)} vertices are selected, {len(selected) - len(ordered)} of them in no order; "
-            "select them one after the other with Shift and click, or use Add to Active"
-        )
+        raise SelectionError(texts.without_order(len(selected), len(ordered)))
     elif len(selected) % 2:
-        raise SelectionError(f"{len(selected)} vertices are selected, so one has no partner; select an even number")
+        raise SelectionError(texts.without_partner(len(selected)))
     else:
         vertices = ordered
     return list(zip(vertices[::2], vertices[1::2]))
@@ -105,11 +103,9 @@ def pairs_to_active(selected: Sequence[int], active: int | None) -> list[tuple[i
         SelectionError: no vertex is active, or it is the only one selected.
     """
     if len(selected) < 2:
-        raise SelectionError("Select the vertices to connect, last the one to connect them with")
+        raise SelectionError(texts.SELECT_WITH_ACTIVE)
     if active is None:
-        raise SelectionError(
-            "No vertex is active; select the one to connect the others with last, with Shift and click"
-        )
+        raise SelectionError(texts.NO_ACTIVE_VERTEX)
     return [(vertex, active) for vertex in selected if vertex != active]
 
 

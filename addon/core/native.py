@@ -5,6 +5,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
 
+from . import texts
 from .errors import ReadableError
 
 _TOP_LEVEL = "spectral_conformal"
@@ -26,7 +27,4 @@ def spectral_conformal() -> ModuleType:
     try:
         return import_module(_BUNDLED if find_spec(_BUNDLED) else _TOP_LEVEL)
     except ImportError as error:
-        raise NativeModuleError(
-            "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made "
-            f"for this platform and this version of Blender ({error})"
-        ) from error
+        raise NativeModuleError(texts.no_module(error)) from error

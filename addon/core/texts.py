@@ -46,6 +46,108 @@ SELECT_EXTENDER_LABEL = "Select Extender Vertices"
 SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
 SIDEBAR_TAB = "Spectral"
 EXTENDERS_LABEL = "Extenders"
+ADD_TO_ACTIVE_LABEL = "Add to Active"
+VERTEX_GONE_LABEL = "Vertex gone"
+
+# Name and description of the operators' properties, by the property's identifier.
+METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
+WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
+BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
+PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
+FILL_HOLES_PROPERTY = {
+    "name": "Fill Holes",
+    "description": "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
+}
+HOLE_RIGIDITY_PROPERTY = {
+    "name": "Hole Rigidity",
+    "description": "How strongly holes are kept from shrinking to a point, at 1 they count like the island's border",
+}
+AREA_BLEND_PROPERTY = {
+    "name": "Angle to Area",
+    "description": "0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",
+}
+FOLD_FREE_PROPERTY = {
+    "name": "Fold-Free",
+    "description": (
+        "Leave no flipped faces: unfold those of the conformal map, at some cost in angles. Islands that "
+        "cannot be unfolded where they are get another map, which takes longer"
+    ),
+}
+STRETCH_PROPERTY = {
+    "name": "Edge Stretch",
+    "description": "How much longer the islands get along the direction of the active edge than across it",
+}
+USE_SUBSURF_DATA_PROPERTY = {
+    "name": "Use Subdivision Surface",
+    "description": "Map UVs taking vertex position after Subdivision Surface modifier has been applied",
+}
+SOFT_PINS_PROPERTY = {
+    "name": "Soft Pins",
+    "description": "Let pinned UVs attract the islands of the spectral method instead of holding them",
+}
+SOFT_PIN_STRENGTH_PROPERTY = {
+    "name": "Strength",
+    "description": "How strongly soft pins attract, 1000 nearly as if they were held",
+}
+CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
+MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "What the margin is measured by"}
+MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
+SIZE_VARIATION_PROPERTY = {
+    "name": "Size Variation",
+    "description": "Factor within which the scale of 95 % of the surface is to lie; a larger one takes fewer seams",
+}
+ANGLE_DISTORTION_PROPERTY = {
+    "name": "Angle Distortion",
+    "description": (
+        "Mean quasi-conformal distortion that is not to be exceeded, 1 where all angles are kept; a larger "
+        "one takes fewer seams on coarse meshes"
+    ),
+}
+MAX_LENGTH_PROPERTY = {
+    "name": "Maximum Length",
+    "description": (
+        "Limit of the length of all new seams of a mesh, without the object's scale, 0 for none; cuts that "
+        "closed islands and handles need are made in any case"
+    ),
+}
+CUTS_PROPERTY = {
+    "name": "Cuts",
+    "description": "Number of the suggested cuts to mark, the most useful first, 0 for all",
+}
+UNWRAP_PROPERTY = {
+    "name": "Unwrap",
+    "description": f"Unwrap the faces afterwards, with the settings with which {UNWRAP_LABEL} was used last",
+}
+FLIPPED_PROPERTY = {
+    "name": "Flipped",
+    "description": "Select faces that lie the other way round than most of their island",
+}
+OVERLAPPING_PROPERTY = {
+    "name": "Overlapping",
+    "description": "Select faces that cover part of another face of their island",
+}
+BETWEEN_ISLANDS_PROPERTY = {
+    "name": "Between Islands",
+    "description": "Also select faces that cover part of another island, of any mesh in edit mode",
+}
+EXTEND_PROPERTY = {"name": "Extend", "description": "Add to the selection instead of replacing it"}
+
+PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices make a pair"}
+STRENGTH_PROPERTY = {
+    "name": "Strength",
+    "description": (
+        "How strongly the two vertices are pushed apart, or below 0 pulled together, as a fraction of the boundary's "
+        "total mass"
+    ),
+}
+INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active extender"}
+BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all extenders with a vertex that is gone instead"}
+# The same of the properties of an extender, and of a mesh that has extenders.
+EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name of the extender"}
+EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Let the extender act on the next unwrap"}
+FIRST_VERTEX_PROPERTY = {"name": "First Vertex", "description": "Identifier of its first vertex"}
+SECOND_VERTEX_PROPERTY = {"name": "Second Vertex", "description": "Identifier of its second vertex"}
+ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The extender chosen in the panel"}
 
 # Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
 # spectral_conformal.unwrap.
@@ -86,6 +188,12 @@ EXTENDER_PAIRS_ITEMS = (
     (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
 )
 
+SELECT_PAIR = "Select two vertices, or several, one after the other"
+SELECT_WITH_ACTIVE = "Select the vertices to connect, last the one to connect them with"
+NO_ACTIVE_VERTEX = "No vertex is active; select the one to connect the others with last, with Shift and click"
+NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in no common island; remove the seams between them"
+HELD_BY_PINS = "The extender has no effect: pins hold its island; unpin it or use soft pins"
+PACKER_WAS_CANCELLED = "it was cancelled"
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
 NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
@@ -105,6 +213,9 @@ MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; 
 OUT_OF_MEMORY = (
     "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
     "levels"
+)
+PACKED_BESIDE_FAILED = (
+    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it"
 )
 NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
@@ -352,6 +463,42 @@ def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
 def _percent(part: float) -> str:
     # Rounded down, so that only the whole is 100 %.
     return f"{int(100.0 * part + 1e-9)} %"
+
+
+def no_module(reason: object) -> str:
+    """Return what to do where the compiled module cannot be imported."""
+    return (
+        "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made for "
+        f"this platform and this version of Blender ({reason})"
+    )
+
+
+def not_packed(reason: str) -> str:
+    """Return what to do where Blender's packer did not run."""
+    return f"Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand"
+
+
+def no_margin(margin: float) -> str:
+    """Return what is wrong with a margin that is not finite."""
+    return f"The margin must be a number, not {margin}"
+
+
+def unnamed_extender() -> str:
+    """Return what to call an extender without a name."""
+    return f"{EXTENDER_NAME} without a name"
+
+
+def without_order(selected: int, ordered: int) -> str:
+    """Return what to do where the order of only some of the selected vertices is known."""
+    return (
+        f"{selected} vertices are selected, {selected - ordered} of them in no order; select them one after the other "
+        f"with Shift and click, or use {ADD_TO_ACTIVE_LABEL}"
+    )
+
+
+def without_partner(selected: int) -> str:
+    """Return what to do where an odd number of vertices is selected."""
+    return f"{selected} vertices are selected, so one has no partner; select an even number"
 
 
 def without_bounds(count: int) -> str:

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from .. import compatibility
+from ..core import texts
 from ..core.errors import ReadableError
 from ..core.options import Margin
 from .read import EditMesh, active_uv_layer
@@ -44,19 +45,17 @@ def pack(
 def _run_packer(margin: Margin) -> None:
     # A script may give any number, and Blender would pack to places that are none.
     if not np.isfinite(margin.size):
-        raise PackingError(f"The margin must be a number, not {margin.size}")
+        raise PackingError(texts.no_margin(margin.size))
     try:
         # Rotating, the packer looks at pixels of the active image, and skews islands where that is not square.
         status = bpy.ops.uv.pack_islands(
             "EXEC_DEFAULT", margin=margin.size, rotate=False, **compatibility.packing_options(margin.method)
         )
-        reason = "it was cancelled"
+        reason = texts.PACKER_WAS_CANCELLED
     except (RuntimeError, TypeError) as error:
         status, reason = set(), str(error).strip()
     if "FINISHED" not in status:
-        raise PackingError(
-            f"Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand"
-        )
+        raise PackingError(texts.not_packed(reason))
 
 
 @contextmanager

@@ -65,7 +65,8 @@ def read_mesh(
             polygons = replace(polygons, aspect=image_aspect.aspect(edit_object, bm))
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
-        bpy.data.meshes.remove(copy)
+        # Nothing refers to it, so that nothing needs to be searched for references, nor redrawn.
+        bpy.data.meshes.remove(copy, do_unlink=False, do_ui_user=False)
     return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), tuple(without_strength))
 
 
@@ -111,6 +112,15 @@ def _read_arrays(mesh: bpy.types.Mesh, all_visible: bool = False) -> PolygonMesh
         & ~attribute(mesh.polygons, "hide", bool),
         uv=None if uv_map is None else attribute(uv_map.data, "uv", np.float32, 2).astype(np.float64),
     )
+
+
+def read_uv(edit_mesh: EditMesh) -> np.ndarray:
+    """Return the active UV map as it is now, (C, 2) float64."""
+    bm, layer = active_uv_layer(edit_mesh.mesh)
+    uv = np.empty((len(edit_mesh.polygons.corner_vertices), 2))
+    for corner, loop in enumerate(loop for face in bm.faces for loop in face.loops):
+        uv[corner] = loop[layer].uv
+    return uv
 
 
 def active_uv_layer(mesh: bpy.types.Mesh) -> tuple[BMesh, BMLayerItem]:

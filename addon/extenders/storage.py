@@ -20,6 +20,7 @@ from .. import names
 from ..core import extender_pairs as core
 from ..core import texts
 from ..core.extender_pairs import Extender
+from .strength import STRENGTH_LIMIT
 
 
 @dataclass
@@ -115,7 +116,7 @@ def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float
             continue
         if first < 0 or second < 0:
             broken.append(label(extender))
-        elif not abs(extender.strength) <= names.EXTENDER_STRENGTH_LIMIT:
+        elif not abs(extender.strength) <= STRENGTH_LIMIT:
             without_strength.append(label(extender))
         elif extender.strength != 0.0:
             forces.append((first, second, extender.strength))
@@ -124,7 +125,7 @@ def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float
 
 def label(extender: bpy.types.PropertyGroup) -> str:
     """Return what to call an extender in a message; a file may have one without a name."""
-    return extender.name or f"{texts.EXTENDER_NAME} without a name"
+    return extender.name or texts.unnamed_extender()
 
 
 def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float) -> list[tuple[int, int]]:

@@ -11,13 +11,13 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLoop
 
-from .. import names
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_loops
 from ..extenders import storage
+from ..extenders.strength import STRENGTH_LIMIT
 from ..unwrapping.last_settings import last_settings
 from . import following
 
@@ -52,7 +52,7 @@ class AdjustedMap:
         extender = storage.of(self.mesh)[index]
         self._strength_before = extender.strength
         # A file may have a strength that is no number, from which no drag could start.
-        self.start = extender.strength if abs(extender.strength) <= names.EXTENDER_STRENGTH_LIMIT else 0.0
+        self.start = extender.strength if abs(extender.strength) <= STRENGTH_LIMIT else 0.0
         self._paused = ExitStack()
         self._bm = bmesh.from_edit_mesh(self.mesh)
         ends = storage.ends(self._bm, self.mesh)[index]

@@ -11,6 +11,7 @@ from .. import names
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError
 from ..core.typed_number import TypedNumber
+from ..extenders.strength import STRENGTH, STRENGTH_LIMIT
 from ..live import adjusted_map
 from ..live.adjusted_map import AdjustedMap
 from ..ui import progress
@@ -31,7 +32,7 @@ class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
     index: IntProperty(**INDEX)
-    strength: FloatProperty(**names.EXTENDER_STRENGTH)
+    strength: FloatProperty(**STRENGTH)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Set the strength and solve the island again."""
@@ -102,7 +103,7 @@ class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
 
     def _drag(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         moved, self._mouse_x = event.mouse_x - self._mouse_x, event.mouse_x
-        limit = names.EXTENDER_STRENGTH_LIMIT
+        limit = STRENGTH_LIMIT
         step = _STEP * (_PRECISION if event.shift else 1.0)
         self._dragged = min(max(self._dragged + step * moved, -limit), limit)
         if moved and not self._typed.text:

@@ -13,6 +13,7 @@ from ..core.errors import ReadableError
 from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
 from ..edit_mesh import selection
 from ..extenders import storage
+from ..extenders.strength import STRENGTH
 from ..live import following
 from .reporting_operator import ReportingOperator
 
@@ -20,8 +21,7 @@ from .reporting_operator import ReportingOperator
 FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
 # Arguments of the property of every operator on one extender.
 INDEX = {
-    "name": "Index",
-    "description": "Place in the list, -1 for the active extender",
+    **texts.INDEX_PROPERTY,
     "default": -1,
     "min": -1,
     "options": FOR_ONE_CALL,
@@ -69,8 +69,8 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
     bl_description = texts.ADD_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    pairs: EnumProperty(name="Pairs", description="Which vertices make a pair", items=texts.EXTENDER_PAIRS_ITEMS)
-    strength: FloatProperty(**names.EXTENDER_STRENGTH)
+    pairs: EnumProperty(**texts.PAIRS_PROPERTY, items=texts.EXTENDER_PAIRS_ITEMS)
+    strength: FloatProperty(**STRENGTH)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -131,9 +131,7 @@ class MESH_OT_spectral_extender_remove(ExtenderOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     index: IntProperty(**INDEX)
-    broken: BoolProperty(
-        name="Broken", description="Remove all extenders with a vertex that is gone instead", options=FOR_ONE_CALL
-    )
+    broken: BoolProperty(**texts.BROKEN_PROPERTY, options=FOR_ONE_CALL)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

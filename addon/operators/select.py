@@ -61,21 +61,18 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     flipped: BoolProperty(
-        name="Flipped",
-        description="Select faces that lie the other way round than most of their island",
+        **texts.FLIPPED_PROPERTY,
         default=True,
     )
     overlapping: BoolProperty(
-        name="Overlapping",
-        description="Select faces that cover part of another face of their island",
+        **texts.OVERLAPPING_PROPERTY,
         default=True,
     )
     between_islands: BoolProperty(
-        name="Between Islands",
-        description="Also select faces that cover part of another island, of any mesh in edit mode",
+        **texts.BETWEEN_ISLANDS_PROPERTY,
         default=False,
     )
-    extend: BoolProperty(name="Extend", description="Add to the selection instead of replacing it", default=False)
+    extend: BoolProperty(**texts.EXTEND_PROPERTY, default=False)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

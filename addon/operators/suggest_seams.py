@@ -34,17 +34,14 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     size_variation: FloatProperty(
-        name="Size Variation",
-        description="Factor within which the scale of 95 % of the surface is to lie; a larger one takes fewer seams",
+        **texts.SIZE_VARIATION_PROPERTY,
         default=2.0,
         min=1.01,
         soft_max=8.0,
         max=1e3,
     )
     angle_distortion: FloatProperty(
-        name="Angle Distortion",
-        description="Mean quasi-conformal distortion that is not to be exceeded, 1 where all angles are kept; a larger "
-        "one takes fewer seams on coarse meshes",
+        **texts.ANGLE_DISTORTION_PROPERTY,
         default=1.05,
         min=1.001,
         soft_max=2.0,
@@ -53,23 +50,19 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         step=1,
     )
     max_length: FloatProperty(
-        name="Maximum Length",
-        description="Limit of the length of all new seams of a mesh, without the object's scale, 0 for none; cuts that "
-        "closed islands and handles need are made in any case",
+        **texts.MAX_LENGTH_PROPERTY,
         default=0.0,
         min=0.0,
         subtype="DISTANCE",
     )
     cuts: IntProperty(
-        name="Cuts",
-        description="Number of the suggested cuts to mark, the most useful first, 0 for all",
+        **texts.CUTS_PROPERTY,
         default=0,
         min=0,
         options={"SKIP_SAVE"},
     )
     unwrap: BoolProperty(
-        name="Unwrap",
-        description=f"Unwrap the faces afterwards, with the settings with which {texts.UNWRAP_LABEL} was used last",
+        **texts.UNWRAP_PROPERTY,
         default=True,
     )
 

@@ -22,72 +22,47 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
     bl_description = texts.UNWRAP_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    method: EnumProperty(name="Method", description="Unwrapping method", items=texts.METHOD_ITEMS)
-    weights: EnumProperty(name="Weights", description="How much each triangle counts", items=texts.WEIGHTS_ITEMS)
-    boundary: EnumProperty(
-        name="Boundary", description="How much each boundary vertex counts", items=texts.BOUNDARY_ITEMS
-    )
-    placement: EnumProperty(name="Placement", description="Where the unwrapped islands go", items=texts.PLACEMENT_ITEMS)
-    fill_holes: BoolProperty(
-        name="Fill Holes",
-        description="Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
-    )
+    method: EnumProperty(**texts.METHOD_PROPERTY, items=texts.METHOD_ITEMS)
+    weights: EnumProperty(**texts.WEIGHTS_PROPERTY, items=texts.WEIGHTS_ITEMS)
+    boundary: EnumProperty(**texts.BOUNDARY_PROPERTY, items=texts.BOUNDARY_ITEMS)
+    placement: EnumProperty(**texts.PLACEMENT_PROPERTY, items=texts.PLACEMENT_ITEMS)
+    fill_holes: BoolProperty(**texts.FILL_HOLES_PROPERTY)
     hole_rigidity: FloatProperty(
-        name="Hole Rigidity",
-        description="How strongly holes are kept from shrinking to a point, at 1 they count like the island's border",
+        **texts.HOLE_RIGIDITY_PROPERTY,
         default=0.0,
         min=0.0,
         soft_max=10.0,
         max=1e4,
     )
     area_blend: FloatProperty(
-        name="Angle to Area",
-        description="0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",
+        **texts.AREA_BLEND_PROPERTY,
         default=0.0,
         min=0.0,
         max=1.0,
         subtype="FACTOR",
     )
-    fold_free: BoolProperty(
-        name="Fold-Free",
-        description="Leave no flipped faces: unfold those of the conformal map, at some cost in angles. Islands that "
-        "cannot be unfolded where they are get another map, which takes longer",
-    )
+    fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
     stretch: FloatProperty(
-        name="Edge Stretch",
-        description="How much longer the islands get along the direction of the active edge than across it",
+        **texts.STRETCH_PROPERTY,
         default=1.0,
         min=0.01,
         soft_min=0.25,
         soft_max=4.0,
         max=100.0,
     )
-    use_subsurf_data: BoolProperty(
-        name="Use Subdivision Surface",
-        description="Map UVs taking vertex position after Subdivision Surface modifier has been applied",
-    )
-    soft_pins: BoolProperty(
-        name="Soft Pins",
-        description="Let pinned UVs attract the islands of the spectral method instead of holding them",
-    )
+    use_subsurf_data: BoolProperty(**texts.USE_SUBSURF_DATA_PROPERTY)
+    soft_pins: BoolProperty(**texts.SOFT_PINS_PROPERTY)
     soft_pin_strength: FloatProperty(
-        name="Strength",
-        description="How strongly soft pins attract, 1000 nearly as if they were held",
+        **texts.SOFT_PIN_STRENGTH_PROPERTY,
         default=100.0,
         min=1e-6,
         soft_min=1.0,
         max=1e4,
         soft_max=1e4,
     )
-    correct_aspect: BoolProperty(
-        name="Correct Aspect", description="Map UVs taking image aspect ratio into account", default=True
-    )
-    margin_method: EnumProperty(
-        name="Margin Method", description="What the margin is measured by", items=texts.MARGIN_METHOD_ITEMS
-    )
-    margin: FloatProperty(
-        name="Margin", description="Space between islands", default=0.001, min=0.0, max=1.0, precision=3, step=0.1
-    )
+    correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
+    margin_method: EnumProperty(**texts.MARGIN_METHOD_PROPERTY, items=texts.MARGIN_METHOD_ITEMS)
+    margin: FloatProperty(**texts.MARGIN_PROPERTY, default=0.001, min=0.0, max=1.0, precision=3, step=0.1)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""

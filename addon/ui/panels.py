@@ -32,7 +32,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         split = content.split(factor=0.42 if is_broken else 0.62, align=True)
         split.prop(extender, "name", text="", emboss=False, icon=_icon_of(extender, is_broken))
         if is_broken:
-            split.label(text="Vertex gone")
+            split.label(text=texts.VERTEX_GONE_LABEL)
         else:
             split.prop(extender, "strength", text="", slider=True)
         row.prop(extender, "use", text="")
@@ -76,7 +76,7 @@ class _ExtendersPanel(_UnwrapPanel):
         layout.operator_context = "EXEC_REGION_WIN"
         column = layout.column(align=True)
         column.operator(names.ADD_EXTENDER_OPERATOR, icon="ADD").pairs = texts.PAIRS_IN_ORDER
-        column.operator(names.ADD_EXTENDER_OPERATOR, text="Add to Active").pairs = texts.PAIRS_TO_ACTIVE
+        column.operator(names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = texts.PAIRS_TO_ACTIVE
         if not storage.of(mesh):
             return
         layout.template_list(

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core import texts
-from ..core.options import Settings
+from ..core import obstacles, texts
+from ..core.options import Margin, Settings
 from ..core.placement import place
 from ..core.progress import Progress
 from ..core.solve import Solution, solve_all
 from ..core.summary import Summary, summarize
 from ..edit_mesh import packing, selection
-from ..edit_mesh.read import EditMesh, read_mesh
+from ..edit_mesh.read import EditMesh, read_mesh, read_uv
 from ..edit_mesh.write import ensure_uv_map, write_uv
 from . import last_result
 
@@ -81,18 +81,20 @@ def write(
         return Outcome(summary, 0, _notes(edit_meshes, settings), _warnings(edit_meshes, settings, solutions))
     placement = place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
     solved = [
-        (edit_mesh, uv, solution)
+        _Solved(edit_mesh, uv, solution)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
     with while_writing():
-        _write(context, solved, None if settings.keep_in_place else settings.margin)
+        margin = None if settings.keep_in_place else settings.margin
+        left_tile = _write(context, solved, _failed_boxes(edit_meshes, solutions), margin)
     last_result.remember(edit_meshes, solutions)
+    warnings = _warnings(edit_meshes, settings, solutions)
     return Outcome(
         summary,
         placement.without_bounds,
         _notes(edit_meshes, settings),
-        _warnings(edit_meshes, settings, solutions),
+        (*warnings, texts.PACKED_BESIDE_FAILED) if left_tile else warnings,
     )
 
 
@@ -173,37 +175,68 @@ def read_again(
     return now if same else None
 
 
+@dataclass(frozen=True)
+class _Solved:
+    """A mesh with solved charts, and their UVs, (C, 2), meaningful at the solved corners."""
+
+    edit_mesh: EditMesh
+    uv: np.ndarray
+    solution: Solution
+
+    @property
+    def movable_corners(self) -> np.ndarray:
+        """(C,) bool, the corners of the solved charts without pins."""
+        return self.solution.solved_corners & ~self.solution.pinned_corners
+
+    @property
+    def movable_faces(self) -> np.ndarray:
+        """(F,) bool, the faces of the solved charts without pins."""
+        return np.logical_and.reduceat(self.movable_corners, self.edit_mesh.polygons.face_offsets[:-1])
+
+
 def _write(
-    context: bpy.types.Context,
-    solved: Sequence[tuple[EditMesh, np.ndarray, Solution]],
-    margin: packing.Margin | None,
-) -> None:
-    """Write the UVs, each (C, 2), at the solved corners, and pack the charts without pins unless `margin` is None."""
-    added = [edit_mesh.mesh for edit_mesh, _, _ in solved if ensure_uv_map(edit_mesh.mesh)]
+    context: bpy.types.Context, solved: Sequence[_Solved], staying: Sequence[np.ndarray], margin: Margin | None
+) -> bool:
+    """Write the UVs at the solved corners, and pack the charts without pins unless `margin` is None.
+
+    `staying` are bounding boxes of faces to keep off. Returns whether the charts had to leave the tile for that.
+    """
+    added = [item.edit_mesh.mesh for item in solved if ensure_uv_map(item.edit_mesh.mesh)]
     try:
-        for edit_mesh, uv, solution in solved:
-            write_uv(edit_mesh, uv, solution.solved_corners)
-        if margin is not None:
-            _pack(context, solved, margin)
+        for item in solved:
+            write_uv(item.edit_mesh, item.uv, item.solution.solved_corners)
+        return margin is not None and _pack(context, solved, staying, margin)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
-        for edit_mesh, _, solution in solved:
-            if edit_mesh.mesh in added:
-                edit_mesh.mesh.uv_layers.remove(edit_mesh.mesh.uv_layers.active)
+        for item in solved:
+            if item.edit_mesh.mesh in added:
+                item.edit_mesh.mesh.uv_layers.remove(item.edit_mesh.mesh.uv_layers.active)
             else:
-                write_uv(edit_mesh, edit_mesh.polygons.uv, solution.solved_corners)
+                write_uv(item.edit_mesh, item.edit_mesh.polygons.uv, item.solution.solved_corners)
         raise
 
 
-def _pack(
-    context: bpy.types.Context, solved: Sequence[tuple[EditMesh, np.ndarray, Solution]], margin: packing.Margin
-) -> None:
-    """Pack the charts without pins."""
-    movable = [solution.solved_corners & ~solution.pinned_corners for _, _, solution in solved]
-    to_pack = [
-        (edit_mesh, np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1]))
-        for (edit_mesh, _, _), corners in zip(solved, movable)
-        if corners.any()
+def _pack(context: bpy.types.Context, solved: Sequence[_Solved], staying: Sequence[np.ndarray], margin: Margin) -> bool:
+    """Pack the charts without pins, off the faces that stay; return whether they had to leave the tile for that."""
+    movable = [item for item in solved if item.movable_corners.any()]
+    if not movable:
+        return False
+    packing.pack(context, [item.edit_mesh for item in movable], [item.movable_faces for item in movable], margin)
+    if not any(map(len, staying)):
+        return False
+    maps = [read_uv(item.edit_mesh) for item in movable]
+    boxes = [obstacles.face_boxes(m.edit_mesh.polygons, uv, m.movable_faces) for m, uv in zip(movable, maps)]
+    scale, offset = obstacles.place_beside(np.concatenate(boxes), staying)
+    if scale != 1.0 or offset.any():
+        for item, uv in zip(movable, maps):
+            write_uv(item.edit_mesh, uv * scale + offset, item.movable_corners)
+    return bool(offset.max() >= 1.0)
+
+
+def _failed_boxes(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> list[np.ndarray]:
+    """Return the bounding boxes of the faces of failed charts in the map that they keep."""
+    return [
+        obstacles.face_boxes(edit_mesh.polygons, edit_mesh.polygons.uv, solution.failed_faces)
+        for edit_mesh, solution in zip(edit_meshes, solutions)
+        if edit_mesh.polygons.uv is not None
     ]
-    if to_pack:
-        packing.pack(context, *zip(*to_pack), margin)

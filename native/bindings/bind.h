@@ -8,7 +8,6 @@ namespace spectral_conformal::python {
 // validation and its messages are in the Python facade (native/python), the rest in the library.
 void bind_errors(pybind11::module_& module);
 void bind_build(pybind11::module_& module);
-void bind_options(pybind11::module_& module);
 void bind_parameterize(pybind11::module_& module);
 void bind_charts(pybind11::module_& module);
 void bind_unwrap(pybind11::module_& module);

@@ -1,8 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
-#include "linear_algebra/blas_threads.h"
-#include "linear_algebra/factorization.h"
+#include "spectral_conformal/build_info.h"
 #include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal::python {
@@ -11,14 +10,15 @@ namespace {
 
 namespace py = pybind11;
 
-py::dict build_info() {
-  return py::dict(py::arg("factorization") = factorization_library(), py::arg("blas") = blas_library());
+py::dict info() {
+  const BuildInfo build = build_info();
+  return py::dict(py::arg("factorization") = build.factorization, py::arg("blas") = build.blas);
 }
 
 }  // namespace
 
 void bind_build(pybind11::module_& module) {
-  module.def("build_info", &build_info);
+  module.def("build_info", &info);
   module.attr("SIZE_LIMIT") = size_limit;
 }
 

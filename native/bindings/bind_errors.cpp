@@ -1,5 +1,8 @@
 #include <pybind11/pybind11.h>
 
+#include <exception>
+#include <new>
+
 #include "bindings/bind.h"
 #include "spectral_conformal/errors.h"
 
@@ -10,6 +13,16 @@ void bind_errors(pybind11::module_& module) {
   pybind11::register_local_exception<InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
   pybind11::register_local_exception<SolveFailure>(module, "SolveError", PyExc_RuntimeError);
   pybind11::register_local_exception<Cancelled>(module, "Cancelled", PyExc_Exception);
+  // pybind11 would make it a MemoryError that says "std::bad_alloc".
+  pybind11::register_local_exception_translator([](std::exception_ptr problem) {
+    try {
+      if (problem) std::rethrow_exception(problem);
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(
+          PyExc_MemoryError,
+          "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces.");
+    }
+  });
 }
 
 }  // namespace spectral_conformal::python

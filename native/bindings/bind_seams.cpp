@@ -7,8 +7,8 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
+#include "bindings/options.h"
 #include "bindings/progress_function.h"
-#include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/seam_suggestion.h"
 
 namespace spectral_conformal::python {
@@ -17,15 +17,11 @@ namespace {
 
 /// Returns the edges and where each cut begins in them.
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
-                  std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces, double max_length,
-                  double scale_limit, double qc_limit, const PatchOptions& patch, const py::object& progress) {
+                  std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
+                  const py::object& given_options, const py::object& progress) {
   const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
   const PolygonMesh mesh = arrays.view();
-  SeamSuggestionOptions options;
-  options.max_length = max_length;
-  options.scale_limit = scale_limit;
-  options.qc_limit = qc_limit;
-  options.map = patch;
+  const SeamSuggestionOptions options = seam_options_of(given_options);
   const Progress callback = progress_of(progress);
   SeamSuggestion suggestion;
   {

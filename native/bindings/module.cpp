@@ -6,7 +6,6 @@ PYBIND11_MODULE(_native, module) {
   using namespace spectral_conformal::python;
   bind_errors(module);
   bind_build(module);
-  bind_options(module);
   bind_parameterize(module);
   bind_charts(module);
   bind_unwrap(module);

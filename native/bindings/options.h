@@ -2,11 +2,13 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/seam_suggestion.h"
 #include "spectral_conformal/unwrap.h"
 
 namespace spectral_conformal::python {
@@ -16,10 +18,23 @@ using PinList = std::vector<std::tuple<int, double, double>>;
 /// (vertex, vertex, strength)
 using ExtenderList = std::vector<std::tuple<int, int, double>>;
 
-Method method_named(const std::string& name);
-const char* name_of(Method method);
-
 Pins pins_of(const PinList& list);
 std::vector<VertexExtender> extenders_of(const ExtenderList& list);
+
+/// From a spectral_conformal.Options, which has checked its values.
+PatchOptions patch_options_of(const pybind11::object& options);
+/// Likewise, without extenders.
+SolveOptions solve_options_of(const pybind11::object& options);
+/// From a spectral_conformal.SeamOptions, likewise.
+SeamSuggestionOptions seam_options_of(const pybind11::object& options);
+
+const char* name_of(Method method);
+const char* name_of(Weights weights);
+const char* name_of(BoundaryMeasure boundary);
+const char* name_of(EigenvalueOf eigenvalue_of);
+/// None for Fallback::none.
+pybind11::object name_of(Fallback fallback);
+/// None where there was no relaxation.
+pybind11::object name_of(std::optional<RelaxationStatus> relaxation);
 
 }  // namespace spectral_conformal::python

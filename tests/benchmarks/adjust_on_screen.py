@@ -1,6 +1,6 @@
 """Updates a second on screen while an extender is adjusted: solve, write, redraw; 3.4.1 on a virtual screen.
 
-    build/venv/bin/python tests/benchmarks/adjust_on_screen.py [vertices ...]
+    build/venv/bin/python -m tests.benchmarks.adjust_on_screen [vertices ...]
 
 The screen is drawn by Mesa's software renderer, in the workspace UV Editing, 1600 x 1000 pixels, by default for
 10000 vertices.
@@ -17,7 +17,6 @@ import tempfile
 import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
 ROUNDS = 30
 
 
@@ -68,8 +67,7 @@ def inside(side: int, result: Path) -> None:
 
 
 def measure(vertices: int) -> str:
-    sys.path.insert(0, str(HERE.parent / "blender"))
-    import blenders
+    from tests.blender import blenders
 
     side = round(vertices**0.5)
     with tempfile.TemporaryDirectory() as folder:

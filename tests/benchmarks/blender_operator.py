@@ -1,6 +1,6 @@
 """The whole operator beside Blender's own Unwrap, on the same mesh in the same run.
 
-    build/venv/bin/python tests/benchmarks/blender_operator.py [vertices along a side, default 223]
+    build/venv/bin/python -m tests.benchmarks.blender_operator [vertices along a side, default 223]
 
 Runs in the `bpy` of the environment and in the system's Blender, each in a process of its own.
 """
@@ -12,8 +12,6 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 
 SIDE = 223
 
@@ -51,7 +49,7 @@ def measure(side: int) -> None:
 
 
 def main() -> None:
-    import blenders
+    from tests.blender import blenders
 
     side = sys.argv[1] if len(sys.argv) > 1 else str(SIDE)
     for blender in blenders.all_blenders():

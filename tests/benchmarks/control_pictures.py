@@ -1,6 +1,6 @@
 """Draw what hole rigidity and the blend from angles to areas do, for the README.
 
-    build/venv/bin/python tests/benchmarks/control_pictures.py [folder]
+    build/venv/bin/python -m tests.benchmarks.control_pictures [folder]
 
 The folder is docs/images by default.
 """
@@ -10,15 +10,14 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
-
 import matplotlib as mpl
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 - the backend comes first
-import meshes  # noqa: E402
 import numpy as np  # noqa: E402
 import spectral_conformal as sc  # noqa: E402
+
+from tests.module import meshes  # noqa: E402
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
 

@@ -1,6 +1,6 @@
 """How much the rest of a patch notices degenerate triangles, under several treatments of these.
 
-    build/venv/bin/python tests/benchmarks/degenerate_triangles.py
+    build/venv/bin/python -m tests.benchmarks.degenerate_triangles
 
 Every figure is the largest distance of a vertex of the clean mesh from its place in the map of the clean mesh, after
 a similarity, as a part of the map's extent. "module" is what the module does: heights below 1e-10 of the longest side
@@ -13,17 +13,11 @@ intrinsic Delaunay triangulation after it, compared with that of the clean mesh.
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
+import igl
+import numpy as np
+import spectral_conformal as sc
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
-
-import degenerate  # noqa: E402 - found only now
-import igl  # noqa: E402
-import meshes  # noqa: E402
-import numpy as np  # noqa: E402
-import reference  # noqa: E402
-import spectral_conformal as sc  # noqa: E402
+from tests.module import degenerate, meshes, reference
 
 REAL, COMPLEX = np.longdouble, np.clongdouble
 CLAMPS = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)

@@ -1,6 +1,6 @@
 """What maps without folds cost: flips, mean QC and time of rough surfaces, fingers and, where they are, shared meshes.
 
-    build/venv/bin/python tests/benchmarks/fold_free_maps.py [folder of OBJ files]
+    build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files]
 
 The time is a ratio: with fold_free over without, in the same run. The folder is that of the shared real meshes beside
 the project by default.
@@ -12,11 +12,10 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
+import numpy as np
+import spectral_conformal as sc
 
-import meshes  # noqa: E402 - found only now
-import numpy as np  # noqa: E402
-import spectral_conformal as sc  # noqa: E402
+from tests.module import meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 LARGEST = 100_000  # vertices

@@ -1,6 +1,6 @@
 """Native updates of a map while an extender's strength changes, beside one back-substitution of bare CHOLMOD.
 
-    build/venv/bin/python tests/benchmarks/live_control.py [sizes ...]
+    build/venv/bin/python -m tests.benchmarks.live_control [sizes ...]
 
 Sizes are numbers of vertices of a random disk lifted to a bumpy surface (default 10000 50000). The update is
 `Solver.solve` at the tolerance that the operator Adjust Extender uses while the mouse moves.
@@ -11,16 +11,13 @@ from __future__ import annotations
 import statistics
 import sys
 import time
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
-
-import bare_cholmod
-import meshes
 import numpy as np
-import reference
 import scipy.sparse
 import spectral_conformal as sc
+
+from tests.benchmarks import bare_cholmod
+from tests.module import meshes, reference
 
 TOLERANCE = 1e-4
 

@@ -1,6 +1,6 @@
 """Seconds and memory of `parameterize` beside one bare CHOLMOD analyse + factorise of the same matrix, same process.
 
-    build/venv/bin/python tests/benchmarks/native_solver.py [sizes ...]
+    build/venv/bin/python -m tests.benchmarks.native_solver [sizes ...]
 
 Sizes are numbers of vertices of a random disk lifted to a bumpy surface (default 50000 150000 500000), or paths of OBJ
 files of triangles. Each runs in a process of its own; the figures are the best of several rounds.
@@ -14,14 +14,12 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "module"))
-
-import bare_cholmod
-import meshes
 import numpy as np
-import reference
 import scipy.sparse
 import spectral_conformal as sc
+
+from tests.benchmarks import bare_cholmod
+from tests.module import meshes, reference
 
 
 def peak_gigabytes() -> float:
@@ -60,7 +58,7 @@ def main() -> None:
     print("| vertices | s | bare analyse + factorise, s | ratio | peak GB (before) | solves | turning | phases, s |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
     for case in sys.argv[1:] or ["50000", "150000", "500000"]:
-        subprocess.run([sys.executable, __file__, "--one", case], check=True)
+        subprocess.run([sys.executable, "-m", "tests.benchmarks.native_solver", "--one", case], check=True)
 
 
 if __name__ == "__main__":

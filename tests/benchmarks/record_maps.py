@@ -1,9 +1,9 @@
 """Record what the installed module answers over many meshes and options, and compare two recordings.
 
-    python -m tests.benchmarks.record_maps record FILE.npz [--quick]
-    python -m tests.benchmarks.record_maps compare BEFORE.npz AFTER.npz [--messages]
+    build/venv/bin/python -m tests.benchmarks.record_maps record FILE.npz [--quick]
+    build/venv/bin/python -m tests.benchmarks.record_maps compare BEFORE.npz AFTER.npz [--messages]
 
-From the project's folder, with the Python of build/venv; another build of the module is taken by PYTHONPATH. The meshes
+From the project's folder; PYTHONPATH may name another build of the module. The meshes
 are those of tests/module/meshes.py and, where they are, the shared ones beside the project. A recording takes about ten
 minutes on one core, with --quick (meshes of up to 1,200 vertices) less than one.
 

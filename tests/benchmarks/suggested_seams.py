@@ -1,6 +1,6 @@
 """What suggested seams cost and bring, beside the island borders of Blender's Smart UV Project on the same mesh.
 
-    build/venv/bin/python tests/benchmarks/suggested_seams.py [file.obj ...]
+    build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj ...]
 
 Runs in the environment's `bpy`. Suzanne in four resolutions, and, where the meshes beside the project exist, Spot, a
 hand and others, which are closed: without seams nothing of them can be unwrapped.
@@ -12,17 +12,14 @@ import sys
 import time
 from pathlib import Path
 
-import bpy  # first: it puts Blender's own modules on the path
+import bpy
+import numpy as np
+import spectral_conformal
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "blender" / "inside"))
-sys.path.insert(0, str(ROOT / "tests" / "module"))
-import meshes  # noqa: E402
-import numpy as np  # noqa: E402
-import seam_measures  # noqa: E402
-import spectral_conformal  # noqa: E402
+from tests.blender.inside import seam_measures
+from tests.module import meshes
 
-SHARED = ROOT.parent / "shared" / "meshes" / "real"
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 CLOSED = ("spot_closed", "spot_quads_closed", "hand_oded_closed", "fish_quads_closed", "sword_quaddom_closed")
 
 

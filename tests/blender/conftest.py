@@ -1,4 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Leave the tests in `inside` to the pytest that runs within Blender (test_in_blenders.py)."""
+"""The tests in `inside` are for the pytest that runs within Blender."""
 
-collect_ignore = ["inside"]
+from tests.blender import collecting
+
+
+def pytest_pycollect_makemodule(module_path, parent):
+    is_inside = module_path.parent == collecting.INSIDE
+    return collecting.InsideFile.from_parent(parent, path=module_path) if is_inside else None

@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A few of the random scenes of tests/fuzz/scenes_run.py in every Blender, and how that reads what Blender writes."""
 
-import sys
-from pathlib import Path
-
-import blenders
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fuzz"))
-import scenes_run  # noqa: E402 - found only now
+from tests.blender import blenders
+from tests.fuzz import scenes_run
 
 SCENES = 80
 

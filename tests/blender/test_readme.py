@@ -5,8 +5,9 @@ import re
 import subprocess
 from pathlib import Path
 
-import blenders
 import pytest
+
+from tests.blender import blenders
 
 README = Path(__file__).resolve().parents[2] / "README.md"
 

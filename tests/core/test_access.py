@@ -25,7 +25,8 @@ MODULES = {
         "importlib",
         "itertools",
     ),
-    *("json", "math", "numbers", "operator", "threading", "time", "types", "typing"),
+    *("difflib", "inspect", "json", "math", "numbers", "operator", "re", "threading", "time", "types", "typing"),
+    "typing_extensions",  # for type checkers alone
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }
 BUILTINS = {"open", "exec", "eval", "compile", "__import__", "input", "breakpoint"}
@@ -49,7 +50,7 @@ CALLS = {
 }
 HEADERS = r"fstream|iostream|cstdio|stdio\.h|filesystem|fcntl\.h|unistd\.h|sys/\w+\.h|netdb\.h|spawn\.h|windows\.h"
 # It asks the BLAS that is already loaded which one it is, and holds it to one thread (RTLD_NOLOAD: nothing is loaded).
-ALLOWED = {("libraries", "factorization.cpp")}
+ALLOWED = {("libraries", "blas_threads.cpp"), ("header", "blas_threads.cpp")}
 
 
 def relative(path):
@@ -102,7 +103,9 @@ def test_the_scan_sees_what_is_forbidden(source):
 def cpp_findings(text, name=""):
     """Return (kind, what) of everything in a C++ source that reaches outside the process."""
     code = re.sub(r'//[^\n]*|"(?:\\.|[^"\\\n])*"', "", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL))
-    found = [("header", match) for match in re.findall(rf"#\s*include\s*<({HEADERS})>", code)]
+    found = []
+    if ("header", name) not in ALLOWED:
+        found += [("header", match) for match in re.findall(rf"#\s*include\s*<({HEADERS})>", code)]
     for kind, names in CALLS.items():
         if (kind, name) not in ALLOWED:
             found += [(kind, match) for match in re.findall(rf"(?<![\w.>])(?:{names})(?=\s*[(;\s])", code)]
@@ -129,7 +132,7 @@ def test_the_scan_sees_what_is_forbidden_in_cpp(text):
 def test_exceptions_are_needed():
     for kind, name in ALLOWED:
         (path,) = [path for path in CPP if path.name == name]
-        assert {kind} == {found for found, _ in cpp_findings(path.read_text(encoding="utf-8"))}
+        assert kind in {found for found, _ in cpp_findings(path.read_text(encoding="utf-8"))}
 
 
 def test_compiled_module_names_no_function_that_reaches_outside():

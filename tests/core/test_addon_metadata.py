@@ -5,8 +5,16 @@ import ast
 import re
 from pathlib import Path
 
+from tools import environment, packaging
+
 ROOT = Path(__file__).resolve().parents[2]
 MANIFEST = (ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8")
+PROJECT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def numbers(version):
+    return tuple(map(int, version.split(".")))
 
 
 def manifest(key):
@@ -22,8 +30,7 @@ def bl_info():
 
 
 def test_versions_agree():
-    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    version = re.search(r'^\[project\]$.*?^version = "(.*?)"$', project, re.MULTILINE | re.DOTALL).group(1)
+    version = re.search(r'^\[project\]$.*?^version = "(.*?)"$', PROJECT, re.MULTILINE | re.DOTALL).group(1)
     assert manifest("version") == version
     assert ".".join(map(str, bl_info()["version"])) == version
 
@@ -34,16 +41,19 @@ def test_names_and_descriptions_agree():
 
 
 def test_manifest_follows_the_platforms_rules():
-    assert manifest("schema_version") == "1.0.0"
-    assert manifest("id") == "spectral_unwrap"
-    assert manifest("type") == "add-on"
-    assert manifest("blender_version_min") == "4.2.0"
-    assert 'license = ["SPDX:GPL-3.0-or-later"]' in MANIFEST
+    assert manifest("id") == packaging.NAME
+    (licence,) = re.findall(r'^license = "(.*)"$', PROJECT, re.MULTILINE)
+    assert re.findall(r"^license = \[(.*)\]$", MANIFEST, re.MULTILINE) == [f'"SPDX:{licence}"']
     assert len(manifest("tagline")) <= 64
     assert manifest("tagline")[-1].isalnum()
     # The add-on needs no files, network or other rights beyond Blender's own.
     assert "[permissions]" not in MANIFEST
 
 
-def test_oldest_blender_is_the_supported_one():
-    assert bl_info()["blender"] == (3, 4, 0)
+def test_the_oldest_blenders_are_those_that_are_tested_and_promised():
+    """README.md names the legacy zip's; the extension's is the oldest bpy of the tests, next to the zip's last."""
+    (oldest, newest) = re.search(r"-legacy-.*` for Blender (\d+\.\d+) to (\d+\.\d+)", README).groups()
+    assert bl_info()["blender"] == (*numbers(oldest), 0)
+    minimum = numbers(manifest("blender_version_min"))
+    assert minimum[:2] == numbers(environment.OLDER_BPY[0])[:2]
+    assert numbers(newest) == (minimum[0], minimum[1] - 1)

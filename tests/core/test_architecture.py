@@ -159,6 +159,23 @@ def test_identifiers_of_the_add_on_stand_in_names_only():
                 assert not node.value.startswith(IDENTIFIERS), (path, node.value)
 
 
+def sentences(path):
+    """Return the texts of several words in a file, apart from docstrings, types and what is printed for developers."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = list(ast.walk(tree))
+    silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    found = [node for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    words = [node.value.strip() for node in found if id(node) not in silent]
+    return [text for text in words if " " in text and " | " not in text]
+
+
+def test_what_artists_read_stands_in_one_file():
+    # bl_info must be literals in the add-on's __init__.
+    others = set(ADDON.rglob("*.py")) - {ADDON / "core" / "texts.py", ADDON / "__init__.py"}
+    assert {relative(path): sentences(path) for path in sorted(others) if sentences(path)} == {}
+    assert len(sentences(ADDON / "core" / "texts.py")) > 50
+
+
 def test_scan_sees_a_forbidden_import(tmp_path, monkeypatch):
     monkeypatch.setitem(globals(), "ADDON", tmp_path)
     (tmp_path / "core").mkdir()

@@ -125,6 +125,7 @@ PARAMETERS = {
     "hole_rigidity": power_of_ten(-4, 4),
     "fill_holes": flag,
     "fold_free": flag,
+    "fallbacks": flag,
     "metric": plane_metric,
     "area_blend": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),
     "tolerance": power_of_ten(-14, -3),
@@ -137,9 +138,12 @@ POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}
 
 
 def parameters_of(function):
-    """Names of a function's parameters, and whether each must be given."""
+    """Names of a function's parameters, and whether each must be given.
+
+    Without `options`, whose fields are parameters, too.
+    """
     listed = inspect.signature(function).parameters.values()
-    return {p.name: p.default is inspect.Parameter.empty for p in listed if p.name != "self"}
+    return {p.name: p.default is inspect.Parameter.empty for p in listed if p.name not in ("self", "options")}
 
 
 def random_arguments(rng, mesh, function):
@@ -159,13 +163,13 @@ def make_compatible(arguments, names):
     """Leave out what the method does not take."""
     if "method" not in names:
         return
-    forces = {"soft_pins", "extenders", "hole_rigidity"} & set(arguments)
-    if forces and arguments.get("method", "spectral") != "spectral":
+    forces = {"extenders", "hole_rigidity"} & set(arguments)
+    if forces or "soft_pins" in arguments:
         arguments["method"] = "spectral"
-    elif arguments.get("pins") and not forces:
+        if "soft_pins" not in arguments:
+            arguments.pop("pins", None)  # hard ones hold the map against any force
+    elif arguments.get("pins") and arguments.get("method") in ("fiedler", "area"):
         arguments["method"] = "lscm"
-    if arguments.get("method", "spectral") != "lscm" and "soft_pins" not in arguments:
-        arguments.pop("pins", None)
 
 
 # The same values in another form: the result must be the same

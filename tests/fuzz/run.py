@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Call spectral_conformal with random meshes and options, in processes of their own, and tell what should not be.
 
-Every case has a seed of its own, (seed, number): `run.py --seed 1 --case 1234` repeats one, with all that it says.
+Every case has a seed of its own, (seed, number): `build_addon.py fuzz --seed 1 --case 1234` repeats one, with all that
+it says.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import subprocess
 import sys
 import traceback
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 BATCH = 200
 # A case that is still running then hangs: a thousand times what the slowest of its kind took on an idle machine.
@@ -24,13 +26,14 @@ SECONDS = 60.0
 SECONDS_PER_VERTEX = 0.1
 # No case needs as much; an array far too long then is a MemoryError and not a machine that swaps.
 MEMORY = 8 * 1024**3
-WORKER = [sys.executable, "-X", "faulthandler", __file__]
+ROOT = Path(__file__).resolve().parents[2]
+WORKER = [sys.executable, "-X", "faulthandler", "-m", "tests.fuzz.run"]
 
 
 def work(seed, first, count):
     """Run cases, each announced by a line before and reported by one after."""
     # Imported here, so that the process that only starts others does not load the module that may crash.
-    from cases import Case
+    from tests.fuzz.cases import Case
 
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     faulthandler.enable()
@@ -62,7 +65,9 @@ class Batch:
     def run(self, first, count):
         """Run cases in one process; returns the first one that was not begun."""
         command = [*WORKER, "--seed", self.seed, "--worker", first, count]
-        process = subprocess.run([str(word) for word in command], capture_output=True, text=True, errors="replace")
+        process = subprocess.run(
+            [str(word) for word in command], cwd=ROOT, capture_output=True, text=True, errors="replace"
+        )
         begun = ended = first - 1
         for line in process.stdout.splitlines():
             # Last, a line that the process did not finish.
@@ -99,7 +104,7 @@ def fuzz(seed, first, count):
 
 def replay(seed, number):
     """Run one case in this process and show it."""
-    from cases import Case
+    from tests.fuzz.cases import Case
 
     faulthandler.enable()
     case = Case(seed, number)

@@ -10,8 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "native"))
-import flavours
+from tests.native import flavours
 
 TARGETS = ("fuzz_charts", "fuzz_solver")
 FINDINGS = flavours.ROOT / "build" / "fuzz"

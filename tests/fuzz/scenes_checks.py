@@ -9,8 +9,9 @@ from types import SimpleNamespace
 
 import bmesh
 import bpy
-import digest
 import numpy as np
+
+from tests.blender.inside import digest
 
 SELECTION = ("select", "UV selection", "selection history", "tool settings")
 EXTENDERS = ("extenders", "attribute .spectral_extenders:")

@@ -10,7 +10,6 @@ import faulthandler
 import sys
 import time
 import traceback
-from pathlib import Path
 
 import bpy
 
@@ -18,9 +17,7 @@ import bpy
 import addon_utils
 import numpy as np
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "blender" / "inside")]
-import scenes_checks  # noqa: E402 - beside this file, which Blender runs as a script
-import scenes_random  # noqa: E402
+from tests.fuzz import scenes_checks, scenes_random
 
 ADDON = "spectral_unwrap"
 STEPS = 3

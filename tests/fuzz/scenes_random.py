@@ -3,8 +3,9 @@
 
 import bmesh
 import bpy
-import hard_meshes
 import numpy as np
+
+from tests.blender.inside import hard_meshes
 
 PRIMITIVES = (
     lambda rng: bpy.ops.mesh.primitive_plane_add(),

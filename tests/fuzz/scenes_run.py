@@ -4,22 +4,19 @@
 
 Each scene is made from the seed of the run and its number alone, so that any one can be run again:
 
-    build/venv/bin/python tests/fuzz/scenes_run.py --blender system --seed 6 --first 123 --count 1
+    build/venv/bin/python -m tests.fuzz.scenes_run --blender system --seed 6 --first 123 --count 1
 """
 
 import argparse
-import os
 import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "blender"))
-import blenders  # noqa: E402 - found only now
+from tests.blender import blenders
 
-SCRIPT = HERE / "scenes_inside.py"
+SCRIPT = Path(__file__).with_name("scenes_inside.py")
 SEED = 6
 BATCH = 50
 TAIL = 40
@@ -130,7 +127,7 @@ def main():
 def report(name, seed, found):
     """Print what a run has found."""
     for number, text in found.bad.items():
-        again = f"{os.path.relpath(__file__)} --blender {name} --seed {seed} --first {number} --count 1"
+        again = f"-m tests.fuzz.scenes_run --blender {name} --seed {seed} --first {number} --count 1"
         print(f"\n{text}\nAgain: build/venv/bin/python {again}")
     _, number, seconds, vertices = found.slowest
     print(

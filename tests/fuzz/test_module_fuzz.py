@@ -2,14 +2,10 @@
 """A short run of the random calls of the module, and proof that the runner sees what it is there for."""
 
 import sys
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-import cases
-import random_arguments
-import run
+from tests.fuzz import cases, random_arguments, run
 
 CASES = 4000
 
@@ -39,10 +35,9 @@ def test_a_case_is_determined_by_its_seed():
     assert cases.Case(7, 0).describe() != cases.Case(8, 0).describe()
 
 
-PRELUDE = f"""
+PRELUDE = """
 import os, sys, time
-sys.path.insert(0, {str(Path(__file__).parent)!r})
-import cases, run
+from tests.fuzz import cases, run
 number = []
 made = cases.Case.__init__
 def make(self, seed, case):
@@ -59,16 +54,15 @@ MISBEHAVIOUR = {
 
 
 @pytest.mark.parametrize("kind", MISBEHAVIOUR)
-def test_the_case_that_misbehaves_is_named_and_the_others_run(kind, monkeypatch, tmp_path):
+def test_the_case_that_misbehaves_is_named_and_the_others_run(kind, monkeypatch):
     program, sign = MISBEHAVIOUR[kind]
-    script = tmp_path / "worker.py"
-    script.write_text(
+    worker = (
         f"{PRELUDE}\nimport warnings; warnings.simplefilter('error')\n"
         f"run.SECONDS = 0.5 if {kind == 'hang'} else run.SECONDS\n"
         f"def misbehave(self):\n    {program}\n    return 'solved'\n"
         "cases.Case.run = misbehave\nsys.exit(run.main())\n"
     )
-    monkeypatch.setattr(run, "WORKER", [sys.executable, str(script)])
+    monkeypatch.setattr(run, "WORKER", [sys.executable, "-c", worker])
     outcomes, findings = run.fuzz(seed=1, first=0, count=6)
     assert list(findings) == [3]
     assert sign in findings[3]

@@ -2,13 +2,10 @@
 """A short run of the libFuzzer targets, always the same."""
 
 import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-import run_native
+from tests.fuzz import run_native
 
 RUNS = {"fuzz_charts": 20000, "fuzz_solver": 1000}
 

@@ -4,16 +4,11 @@
 blender --factory-startup --python drive_adjust_extender.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import sys
-from pathlib import Path
-
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import (  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import (
     ADJUST,
     check_map_undo_and_redo,
     click_sidebar,
@@ -24,7 +19,7 @@ from extender_sidebar import (  # noqa: E402
     pairs,
     raise_a_hill,
 )
-from session import VERDICT, screenshot, uv, xdotool  # noqa: E402
+from tests.interface.session import VERDICT, screenshot, uv, xdotool
 
 
 def drag_and_confirm():

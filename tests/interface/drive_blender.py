@@ -6,18 +6,13 @@
 Keys and clicks are real ones, sent by xdotool to the X server. See session.py.
 """
 
-import sys
-from pathlib import Path
-
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving  # noqa: E402 - found only now
-from driving import last_operator, point_at_setting  # noqa: E402
-from session import override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface import driving
+from tests.interface.driving import last_operator, point_at_setting
+from tests.interface.session import override, point_at, screenshot, uv, xdotool
 
 
 def open_suzanne():

@@ -4,16 +4,11 @@
 blender --factory-startup --python drive_extenders.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import sys
-from pathlib import Path
-
 import bmesh
 import bpy
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import (  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import (
     ADD,
     ADD_TO_ACTIVE,
     ICON,
@@ -31,7 +26,7 @@ from extender_sidebar import (  # noqa: E402
     row,
     type_strength,
 )
-from session import screenshot, xdotool  # noqa: E402
+from tests.interface.session import screenshot, xdotool
 
 
 def add_by_clicking():

@@ -4,15 +4,10 @@
 blender --factory-startup --python drive_extenders_kept.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import sys
-from pathlib import Path
-
 import bpy
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import (  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import (
     REMOVE_BROKEN,
     check_undo_and_redo,
     click_sidebar,
@@ -23,7 +18,7 @@ from extender_sidebar import (  # noqa: E402
     press,
     type_strength,
 )
-from session import VERDICT, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface.session import VERDICT, override, point_at, screenshot, uv, xdotool
 
 
 def add_extenders():

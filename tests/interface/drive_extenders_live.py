@@ -5,16 +5,13 @@ blender --factory-startup --python drive_extenders_live.py -- <folder for the sc
 """
 
 import sys
-from pathlib import Path
 
 import addon_utils
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import (  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import (
     ADD,
     check_map_undo_and_redo,
     click_sidebar,
@@ -27,7 +24,7 @@ from extender_sidebar import (  # noqa: E402
     raise_a_hill,
     type_strength,
 )
-from session import screenshot, uv  # noqa: E402
+from tests.interface.session import screenshot, uv
 
 
 def add_and_type_live():

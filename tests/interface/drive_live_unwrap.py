@@ -5,16 +5,13 @@ blender --factory-startup --python drive_live_unwrap.py -- <folder for the scree
 """
 
 import sys
-from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 COLUMNS, ROWS = 24, 12
 

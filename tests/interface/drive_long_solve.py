@@ -5,17 +5,13 @@ blender --factory-startup --python drive_long_solve.py -- <folder for the screen
 """
 
 import importlib
-import sys
 import threading
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 SIZE = 600  # faces along a side: 361201 vertices
 

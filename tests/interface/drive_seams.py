@@ -4,17 +4,12 @@
 blender --factory-startup --python drive_seams.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import sys
-from pathlib import Path
-
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from session import override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.session import override, point_at, screenshot, uv, xdotool
 
 
 def seams():

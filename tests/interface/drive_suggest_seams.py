@@ -5,18 +5,14 @@ blender --factory-startup --python drive_suggest_seams.py -- <folder for the scr
 """
 
 import importlib
-import sys
-from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from extender_sidebar import TAB, click_sidebar  # noqa: E402
-from session import area_of, override, point_at, screenshot, uv, xdotool  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.extender_sidebar import TAB, click_sidebar
+from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 # Place in the viewport's sidebar, in pixels from its top left corner.
 SUGGEST_SEAMS = (103, 80)

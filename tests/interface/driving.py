@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an artist does with mouse and keyboard, for the drivers that run inside Blender."""
 
-import sys
 import time
-from pathlib import Path
 
 import addon_utils
 import bmesh
@@ -11,10 +9,8 @@ import bpy
 import numpy as np
 from bpy_extras import view3d_utils
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import session  # noqa: E402 - found only now
-from session import area_of, override, xdotool  # noqa: E402
+from tests.interface import session
+from tests.interface.session import area_of, override, xdotool
 
 # Places in pixels, at Blender's default size of the interface. The menu that U opens has its entry Unwrap below the
 # mouse when it is opened for the first time.

@@ -2,16 +2,13 @@
 """The sidebar's list of extenders, for the drivers that run inside Blender."""
 
 import sys
-from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-import driving as drive  # noqa: E402 - found only now
-from session import override, point_at, xdotool  # noqa: E402
+from tests.interface import driving as drive
+from tests.interface.session import override, point_at, xdotool
 
 COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.

@@ -5,8 +5,9 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import blenders
 import pytest
+
+from tests.blender import blenders
 
 HERE = Path(__file__).resolve().parent
 SCREENSHOTS = HERE.parents[1] / "build" / "interface"

@@ -1,10 +1,10 @@
 """Degenerate triangles that the rest must not notice, extreme shrinkage, and maps without folds."""
 
-import degenerate
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import degenerate, meshes
 
 KINDS = {"caps": degenerate.caps, "needles": degenerate.needles, "points": degenerate.points}
 
@@ -63,7 +63,7 @@ class TestDegenerateTriangles:
         expected, _ = unwrapped(*reference, weights="inverse_area")
         uv, chart = unwrapped(*KINDS[kind](vertices, triangles, height), weights="inverse_area")
         assert chart.flipped == 0
-        assert "instead" not in chart.message
+        assert (chart.fallback, chart.weights) == (None, "inverse_area")
         assert (
             meshes.similarity_deviation(uv[: len(vertices)], expected[: len(vertices)]) < 5e-3
         )  # halved triangles count twice
@@ -168,7 +168,7 @@ class TestFoldFree:
         uv, chart = unwrapped(vertices, triangles, weights=weights, fold_free=True)
         assert (image_areas(uv, triangles) > 0).all()
         assert (chart.flipped, chart.turning_number) == (0, 1)
-        assert "mean QC" in chart.message
+        assert (chart.unfolded > 0, chart.eigenvalue_of, np.isfinite(chart.mean_qc_before)) == (True, "map", True)
 
     @pytest.mark.parametrize("seed", range(12))
     def test_rough_surfaces_with_and_without_holes(self, seed):
@@ -189,7 +189,7 @@ class TestFoldFree:
         vertices, triangles = meshes.bumpy_disk(300)
         plain, free = (sc.parameterize(vertices, triangles, fold_free=flag) for flag in (False, True))
         assert np.array_equal(plain.uv, free.uv)
-        assert free.message == ""
+        assert (free.message, free.unfolded, free.eigenvalue_of) == ("", 0, "eigenvector")
         assert "unfolding" in free.timings
 
     def test_a_boundary_that_winds_round_more_than_once_is_replaced_by_an_embedding(self):
@@ -241,7 +241,7 @@ class TestFoldFree:
         )
         assert (image_areas(free.uv, triangles) < 0).all()
         assert np.array_equal(plain.uv, free.uv)
-        assert "unfolded" not in free.message
+        assert free.unfolded == 0
 
     def test_one_pin_is_met(self):
         vertices, triangles = meshes.rough_grid(12, 2.0, 7)
@@ -265,8 +265,3 @@ class TestFoldFree:
         result = sc.unwrap(vertices, offsets, corners, fold_free=True)
         split = offsets[:-1, None] + [[0, 1, 2, 0, 2, 3]]
         assert (image_areas(result.uv, split.reshape(-1, 3)) > 0).all()
-
-    def test_the_flag_is_checked(self):
-        vertices, triangles = meshes.bumpy_disk(60)
-        with pytest.raises(ValueError, match="fold_free must be True or False"):
-            sc.parameterize(vertices, triangles, fold_free="yes")

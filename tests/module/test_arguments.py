@@ -2,12 +2,14 @@
 
 import math
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
 
+from tests.module import meshes
+
 FAR_TOO_MANY = [2**31, 2**40]
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 
 
 def disk():
@@ -158,3 +160,53 @@ def test_equal_pins_that_rounding_sets_apart():
     place = (-4.625, 4.02594e-310)
     with pytest.raises(sc.InvalidMeshError, match="same position"):
         sc.parameterize(*disk(), method="lscm", pins={0: place, 7: place})
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"vertices": np.zeros((4, 2))}, "vertices must have the shape"),
+        ({"vertices": np.zeros((4, 3), complex)}, "real numbers"),
+        ({"vertices": [["a"] * 3] * 4}, "real numbers"),
+        ({"vertices": [[0, 0, 0], [1, 0]]}, "vertices is no regular array"),
+        ({"triangles": [[0, 1, 4]]}, "has the vertex 4"),
+        ({"triangles": [[0, 1, -1]]}, "between 0"),
+        ({"triangles": [[0, 1, 2**40]]}, "between 0"),
+        ({"triangles": [[0.0, 1.0, 2.0]]}, "integers"),
+        ({"triangles": [0, 1, 2]}, "shape"),
+        ({"progress": 3}, "progress must be callable"),
+        ({"pins": [(0, (0, 0))]}, "pins must map"),
+        ({"pins": {0.5: (0, 0), 1: (1, 0)}}, "pins must map"),
+        ({"pins": {0: (0, 0, 0), 1: (1, 0)}}, "pins must map"),
+        ({"pins": {0: (0, 0), 9: (1, 0)}}, "Vertex 9 is pinned"),
+        ({"pins": {0: (0, 0), 1: (np.nan, 0)}}, "not finite"),
+        ({"pins": {0: (1, 1), 1: (1, 1)}}, "same position"),
+    ],
+)
+def test_bad_arguments_of_a_patch_are_named(arguments, said):
+    arguments = {"vertices": SQUARE, "triangles": [[0, 1, 2], [0, 2, 3]], **arguments}
+    with pytest.raises(ValueError, match=said):
+        sc.parameterize(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"face_offsets": []}, "face_offsets is empty"),
+        ({"face_offsets": [0]}, "no faces"),
+        ({"face_offsets": [0, 3]}, "face_offsets must rise"),
+        ({"face_offsets": [1, 4]}, "face_offsets must rise"),
+        ({"face_offsets": [0, 5, 4]}, "face_offsets must rise|between"),
+        ({"corner_vertices": [0, 1, 2, 9]}, "has the vertex 9"),
+        ({"seam_edges": [[0, 9]]}, "seam_edges has the vertex 9"),
+        ({"seam_edges": [0, 1]}, "seam_edges must have the shape"),
+        ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
+        ({"selected_faces": [1]}, "booleans"),
+        ({"pinned_corners": [True]}, "pinned_corners must be"),
+        ({"pinned_corners": np.ones(0, bool)}, "pinned_corners must be"),
+    ],
+)
+def test_bad_arguments_of_a_polygon_mesh_are_named(arguments, said):
+    arguments = {"face_offsets": [0, 4], "corner_vertices": [0, 1, 2, 3], **arguments}
+    with pytest.raises(ValueError, match=said):
+        sc.unwrap(SQUARE, **arguments)

@@ -3,10 +3,11 @@
 
 import copy
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 
 def two_patches():
@@ -77,15 +78,27 @@ class Stop:
 def stopped(function, arguments, at, error):
     """Stop a call at its report number `at`; check that it has ended there and left its arguments alone."""
     before, stop = copy.deepcopy(arguments), Stop(at, error)
-    with pytest.raises(sc.Cancelled if error is None else type(error)):
+    with pytest.raises(sc.Cancelled if error is None else type(error)) as raised:
         function(**arguments, progress=stop)
+    assert error is None or raised.value is error
     assert stop.calls == at + 1
     for name, value in before.items():
         if isinstance(value, np.ndarray):
             np.testing.assert_array_equal(arguments[name], value)
 
 
-@pytest.mark.parametrize("error", [None, Failure(), KeyboardInterrupt()], ids=["cancelled", "raised", "interrupted"])
+# A RuntimeError is what the numerics below throw, too: it must not be taken for one of theirs.
+ERRORS = {
+    "cancelled": None,
+    "raised": Failure(),
+    "runtime error": RuntimeError("the caller's"),
+    "memory error": MemoryError("the caller's"),
+    "interrupted": KeyboardInterrupt(),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("error", ERRORS.values(), ids=ERRORS)
 @pytest.mark.parametrize("name", CALLS)
 def test_stopped_at_every_report(name, error):
     function, arguments = CALLS[name]()
@@ -117,3 +130,32 @@ def test_stopped_at_every_report_a_kept_solver_solves_as_before(kind, options):
             solver.solve(**options, progress=Stop(at))
         # The second solve may start from what the first one had.
         np.testing.assert_allclose(solver.solve(**options).uv, expected, atol=1e-9)
+
+
+def test_anything_false_cancels_but_none():
+    vertices, triangles = meshes.bumpy_disk(200)
+    assert sc.parameterize(vertices, triangles, progress=lambda fraction, phase: None).turning_number == 1
+    for answer in (np.bool_(False), 0, ""):
+        with pytest.raises(sc.Cancelled):
+            sc.parameterize(vertices, triangles, progress=lambda fraction, phase, answer=answer: answer)
+
+
+def test_timings_and_progress():
+    vertices, triangles = meshes.bumpy_disk(500)
+    calls = []
+    solution = sc.parameterize(vertices, triangles, progress=lambda fraction, phase: calls.append((fraction, phase)))
+    assert {"charts", "assembly", "factorization", "eigenproblem"} <= set(solution.timings)
+    assert all(seconds >= 0 for seconds in solution.timings.values())
+    fractions = [fraction for fraction, _ in calls]
+    assert fractions == sorted(fractions)
+    assert 0 <= fractions[0] <= fractions[-1] <= 1
+
+
+def test_progress_rises_over_all_charts():
+    vertices, quads = meshes.saddle_quads(7)
+    offsets, corners = meshes.polygons(quads)
+    fractions = []
+    edges = np.c_[corners, np.roll(corners, -1)]  # those between faces have no effect
+    sc.unwrap(vertices, offsets, corners, seam_edges=edges, progress=lambda done, phase: fractions.append(done))
+    assert fractions == sorted(fractions)
+    assert fractions[-1] > 0.9

@@ -1,7 +1,8 @@
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 
 def mapped_quads(n=9, m=6):

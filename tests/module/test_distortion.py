@@ -1,8 +1,8 @@
-import meshes
 import numpy as np
 import pytest
-import reference
 import spectral_conformal as sc
+
+from tests.module import meshes, reference
 
 
 def test_affine_map_has_the_ratio_of_its_singular_values():

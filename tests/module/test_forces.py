@@ -1,11 +1,11 @@
 """Extenders and hole rigidity (section 4.2)."""
 
-import meshes
 import numpy as np
 import pytest
-import reference
 import scipy.linalg
 import spectral_conformal as sc
+
+from tests.module import meshes, reference
 
 
 def cap(n, height=1.2):
@@ -167,7 +167,7 @@ def test_unwrap_and_unwrapper_take_extenders_of_mesh_vertices():
     assert np.abs(again.uv - result.uv).max() < 1e-6
 
 
-def test_extenders_between_charts_have_no_effect_and_are_told():
+def test_extenders_between_charts_have_no_effect_and_are_reported():
     n = 21
     vertices, _ = cap(n)
     offsets, corners = meshes.polygons(meshes.grid_quads(n, n))
@@ -204,11 +204,21 @@ def test_an_extender_of_an_unused_vertex_is_named():
         sc.parameterize(np.r_[vertices, [[9, 9, 9]]], triangles, extenders=[(0, 600, 1.0)])
 
 
-def test_a_map_that_winds_round_twice_is_told():
+def test_a_map_that_winds_round_twice_is_a_failure_everywhere():
+    # parameterize returned it with a message where unwrap failed the chart.
     n = 21
     vertices, triangles = cap(n, height=0.2)
-    pair = at(n, -0.5, -0.5), at(n, 0.5, 0.5)
-    solution = sc.parameterize(vertices, triangles, extenders=[(*pair, -1000.0)])
-    assert solution.turning_number == 2
-    assert "weaken the extenders" in solution.message
-    assert distance(solution.uv, *pair) < 0.05 * distance(sc.parameterize(vertices, triangles).uv, *pair)
+    polygons = meshes.polygons(triangles)
+    extenders = [(at(n, -0.5, -0.5), at(n, 0.5, 0.5), -1000.0)]
+    said = "winds round 2 times instead of once: weaken or remove extenders, or lower the hole rigidity"
+    with pytest.raises(sc.SolveError, match=said):
+        sc.parameterize(vertices, triangles, extenders=extenders)
+    with pytest.raises(sc.SolveError, match=said):
+        sc.Solver(vertices, triangles).solve(extenders=extenders)
+    for result in (
+        sc.unwrap(vertices, *polygons, extenders=extenders),
+        sc.Unwrapper(vertices, *polygons).solve(extenders=extenders),
+    ):
+        (chart,) = result.charts
+        assert chart.status == "failed"
+        assert said in chart.message

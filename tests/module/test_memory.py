@@ -63,7 +63,9 @@ def test_too_little_memory_for_a_mesh_is_an_error_and_a_small_one_is_solved_afte
             try:
                 solve(*large)
                 print("solved")
-            except MemoryError:
+            except MemoryError as error:
+                # NumPy's own, or the solver's, which said "std::bad_alloc".
+                assert "Unable to allocate" in str(error) or "too little memory for this mesh" in str(error), str(error)
                 print("MemoryError")
             assert np.array_equal(sc.parameterize(*small).uv, expected)
     """
@@ -85,6 +87,7 @@ LOOPS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", ["cholmod", "eigen"])
 @pytest.mark.parametrize("name", LOOPS)
 def test_memory_does_not_grow_over_a_thousand_solves(name, backend):

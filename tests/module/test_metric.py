@@ -1,9 +1,10 @@
 """Quasi-conformal maps (section 4.3) and the blend from angles to areas."""
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 
 def quasi_conformal_images(uv):

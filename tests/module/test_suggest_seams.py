@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
+
+from tests.module import meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 
@@ -159,6 +160,7 @@ def test_mesh_without_faces_is_refused():
 
 if SHARED.exists():
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("name", ["spot_closed", "spot_quads_closed", "hand_oded_closed"])
     def test_real_closed_mesh_comes_within_the_limits(name):
         vertices, faces = meshes.read_obj(SHARED / f"{name}.obj")

@@ -1,12 +1,19 @@
 """Several threads solve at once, with solvers of their own and with one that they share."""
 
+import os
+import subprocess
+import sys
 import threading
+import time
+from pathlib import Path
 
-import meshes
 import numpy as np
 import pytest
 import spectral_conformal as sc
 
+from tests.module import meshes
+
+ROOT = Path(__file__).resolve().parents[2]
 ROUNDS = 6
 
 
@@ -105,3 +112,46 @@ def test_a_solve_cancelled_from_another_thread_leaves_the_solver_as_it_was(backe
 
         assert in_threads(solve, cancel)[0] == "cancelled"
     assert np.array_equal(unwrapper.solve().uv, expected)
+
+
+def test_two_solves_at_once_equal_two_in_a_row():
+    # Found out a serial OpenBLAS, whose buffers two threads overwrite for each other.
+    cases = [meshes.bumpy_disk(5000, 2, seed=1), meshes.bumpy_disk(6000, 0, seed=2)]
+    expected = [sc.parameterize(*case).uv for case in cases]
+    found = in_threads(*(lambda case=case: [sc.parameterize(*case).uv for _ in range(10)] for case in cases))
+    for uvs, uv in zip(found, expected):
+        assert all(np.array_equal(other, uv) for other in uvs)
+
+
+def test_the_solve_releases_the_interpreter_lock():
+    vertices, triangles = meshes.bumpy_disk(30000)
+    ticks = []
+    worker = threading.Thread(target=lambda: sc.parameterize(vertices, triangles))
+    worker.start()
+    while worker.is_alive():
+        ticks.append(time.perf_counter())
+        time.sleep(0.001)
+    # Holding the lock through factorisation or solve would leave a handful of ticks.
+    assert len(ticks) > 20
+
+
+def test_a_solver_is_not_called_by_its_own_progress_function():
+    solver = sc.Solver(*meshes.bumpy_disk(500))
+    with pytest.raises(RuntimeError, match="solving already"):
+        solver.solve(progress=lambda fraction, phase: solver.solve())
+    assert solver.solve().turning_number == 1
+
+
+@pytest.mark.slow
+def test_result_does_not_depend_on_the_thread_count():
+    code = (
+        "import hashlib, spectral_conformal as sc; from tests.module import meshes\n"
+        "solution = sc.parameterize(*meshes.bumpy_disk(120000, 3))\n"
+        "print(hashlib.sha256(solution.uv.tobytes()).hexdigest(), solution.eigenvalue)"
+    )
+    outputs = set()
+    for threads in ("1", "2", "5"):
+        environ = {**os.environ, "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads}
+        command = [sys.executable, "-c", code]
+        outputs.add(subprocess.run(command, cwd=ROOT, env=environ, capture_output=True, check=True).stdout)
+    assert len(outputs) == 1

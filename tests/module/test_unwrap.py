@@ -1,8 +1,8 @@
-import meshes
 import numpy as np
 import pytest
-import reference
 import spectral_conformal as sc
+
+from tests.module import meshes, reference
 
 
 def per_vertex(result, corners, n):
@@ -217,114 +217,6 @@ def test_non_finite_vertex_spoils_only_its_chart():
     assert np.isfinite(result.uv).all()
 
 
-def test_pins_hold_all_copies():
-    vertices, quads = meshes.saddle_quads(7)
-    offsets, corners = meshes.polygons(quads)
-    seam = np.c_[21 + np.arange(6), 22 + np.arange(6)]  # cuts the grid in two
-    pins = {21: (0.0, 0.0), 27: (1.0, 0.5)}
-    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, method="lscm", pins=pins)
-    assert len(result.charts) == 2
-    for vertex, position in pins.items():
-        assert (result.uv[corners == vertex] == position).all()
-
-
-def test_progress_rises_over_all_charts():
-    vertices, faces = box()
-    fractions = []
-    offsets, corners = meshes.polygons(faces)
-    sc.unwrap(
-        vertices, offsets, corners, seam_edges=edges_of(faces), progress=lambda done, phase: fractions.append(done)
-    )
-    assert fractions == sorted(fractions)
-    assert fractions[-1] > 0.9
-    with pytest.raises(sc.Cancelled):
-        sc.unwrap(vertices, offsets, corners, progress=lambda done, phase: False)
-
-
-def cut_grid():
-    """The bumpy grid of 9 x 9 vertices cut in two charts along vertices 36 to 44, and its corner UVs in the plane."""
-    vertices, quads = meshes.saddle_quads(9)
-    offsets, corners = meshes.polygons(quads)
-    seam = np.c_[np.arange(36, 44), np.arange(37, 45)]
-    return vertices, offsets, corners, seam, vertices[corners, :2].copy()
-
-
-def solved_with_pins(pins, **options):
-    """`unwrap` the cut grid with {corner: uv} and return its charts, uv and corners."""
-    vertices, offsets, corners, seam, uv = cut_grid()
-    pinned = np.zeros(len(corners), bool)
-    for corner, position in pins.items():
-        pinned[corner] = True
-        uv[corner] = position
-    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, pinned_corners=pinned, corner_uv=uv, **options)
-    return result.charts, result.uv, corners
-
-
-def test_charts_with_several_pinned_corners_are_solved_by_lscm():
-    pins = {0: (0.25, 0.5), 100: (1.0, 0.75)}
-    charts, uv, corners = solved_with_pins(pins)
-    assert [(chart.method, chart.n_pins) for chart in charts] == [("lscm", 2), ("spectral", 0)]
-    for corner, position in pins.items():
-        assert tuple(uv[corner]) == position
-    vertices, offsets, corners, seam, _ = cut_grid()
-    named = {int(corners[corner]): position for corner, position in pins.items()}
-    expected = sc.unwrap(vertices, offsets, corners, seam_edges=seam, method="lscm", pins=named)
-    first = np.isin(np.arange(len(corners)), np.arange(128))
-    assert np.abs(uv - expected.uv)[first].max() < 1e-12
-
-
-def test_one_pinned_corner_only_moves_its_chart():
-    charts, uv, _ = solved_with_pins({5: (3.0, 4.0)})
-    _, free, _ = solved_with_pins({})
-    assert [(chart.method, chart.n_pins) for chart in charts] == [("spectral", 1), ("spectral", 0)]
-    moved = uv - free
-    assert np.abs(moved[:128] - moved[0]).max() < 1e-13
-    assert tuple(uv[5]) == pytest.approx((3.0, 4.0), abs=1e-14)
-    assert (moved[128:] == 0).all()
-
-
-def test_different_pins_on_one_vertex_split_it():
-    vertices, offsets, corners, _, uv = cut_grid()
-    middle = np.flatnonzero(corners == 40)
-    pinned = np.zeros(len(corners), bool)
-    pinned[middle] = True
-    uv[middle] = [(-0.1, 0), (-0.1, 0), (0.1, 0), (0.1, 0)]
-    pinned[0] = True
-    result = sc.unwrap(vertices, offsets, corners, pinned_corners=pinned, corner_uv=uv)
-    (chart,) = result.charts
-    assert (chart.status, chart.method, chart.n_pins, chart.n_vertices) == ("solved", "lscm", 3, 82)
-    assert (result.uv[pinned] == uv[pinned]).all()
-
-
-def test_stronger_soft_pins_come_nearer():
-    pins = {0: (-1.3, -1.0), 31: (-1.0, 1.2), 100: (-0.2, -0.6), 127: (0.1, 0.9)}
-    distances = []
-    for strength in (0.1, 10.0, 100.0, 1000.0, 1e4):
-        charts, uv, _ = solved_with_pins(pins, soft_pins=strength)
-        assert [(chart.status, chart.method, chart.n_pins) for chart in charts] == [
-            ("solved", "spectral", 4),
-            ("solved", "spectral", 0),
-        ]
-        distances.append(np.linalg.norm([uv[corner] - position for corner, position in pins.items()]))
-    assert (np.diff(distances) < 0).all()
-    assert distances[-1] < 0.02 * distances[0]
-
-
-def test_two_soft_pins_are_met_by_a_similarity_of_the_free_map():
-    charts, uv, _ = solved_with_pins({0: (0.0, 0.0), 100: (0.0, 5.0)}, soft_pins=10.0)
-    _, free, _ = solved_with_pins({})
-    assert np.abs(uv[0]).max() < 1e-13
-    assert uv[100] == pytest.approx((0.0, 5.0), abs=1e-12)
-    assert meshes.similarity_deviation(uv[:128], free[:128]) < 1e-9
-
-
-def test_pins_that_are_not_finite_fail_their_chart_only():
-    charts, uv, _ = solved_with_pins({0: (np.nan, 0.0), 3: (0.0, 0.0)})
-    assert [chart.status for chart in charts] == ["failed", "solved"]
-    assert "pinned UV" in charts[0].message
-    assert np.isfinite(uv).all()
-
-
 def test_filled_holes_keep_their_shape_and_are_not_measured():
     vertices, triangles = meshes.bumpy_disk(1500, 3, seed=4)
     offsets, corners = meshes.polygons(triangles)
@@ -345,34 +237,6 @@ def test_filled_holes_of_a_flat_patch_change_nothing():
     vertices, triangles = meshes.random_disk(1500, 4)
     uv = sc.parameterize(vertices, triangles, fill_holes=True).uv
     assert meshes.similarity_deviation(uv, vertices[:, :2]) < 1e-9
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ({"face_offsets": []}, "face_offsets is empty"),
-        ({"face_offsets": [0]}, "no faces"),
-        ({"face_offsets": [0, 3]}, "face_offsets must rise"),
-        ({"face_offsets": [1, 4]}, "face_offsets must rise"),
-        ({"face_offsets": [0, 5, 4]}, "face_offsets must rise|between"),
-        ({"corner_vertices": [0, 1, 2, 9]}, "has the vertex 9"),
-        ({"seam_edges": [[0, 9]]}, "seam_edges has the vertex 9"),
-        ({"seam_edges": [0, 1]}, "seam_edges must have the shape"),
-        ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
-        ({"selected_faces": [1]}, "booleans"),
-        ({"pins": {0: (0, 0)}}, "pins need"),
-        ({"soft_pins": -1.0}, "soft_pins must lie between"),
-        ({"soft_pins": 1.0, "method": "lscm"}, "soft_pins need"),
-        ({"fill_holes": 1}, "fill_holes must be"),
-        ({"pinned_corners": [True]}, "pinned_corners must be"),
-        ({"pinned_corners": np.ones(0, bool)}, "pinned_corners must be"),
-    ],
-)
-def test_bad_arguments_are_named(arguments, said):
-    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
-    arguments = {"face_offsets": [0, 4], "corner_vertices": [0, 1, 2, 3], **arguments}
-    with pytest.raises(ValueError, match=said):
-        sc.unwrap(vertices, **arguments)
 
 
 def test_charts_are_linear_in_the_number_of_faces():

@@ -13,6 +13,7 @@
 #include <new>
 
 #include "meshes.h"
+#include "seams/handle_cuts.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/seam_suggestion.h"
@@ -24,12 +25,14 @@
 
 namespace {
 
-long countdown = 0;  // the allocation that fails; 0: none
-long counted = 0;    // allocations since the last reset
-long alive = 0;      // allocated and not yet freed
+long countdown = 0;         // the allocation that fails; 0: none
+long counted = 0;           // allocations since the last reset
+long alive = 0;             // allocated and not yet freed
+std::size_t requested = 0;  // bytes since the last reset
 
-bool fails() {
+bool fails(std::size_t size) {
   ++counted;
+  requested += size;
   return countdown > 0 && --countdown == 0;
 }
 
@@ -46,10 +49,12 @@ void* __real_calloc(std::size_t n, std::size_t size);
 void* __real_realloc(void* memory, std::size_t size);
 void __real_free(void* memory);
 
-void* __wrap_malloc(std::size_t size) { return fails() ? nullptr : count(__real_malloc(size)); }
-void* __wrap_calloc(std::size_t n, std::size_t size) { return fails() ? nullptr : count(__real_calloc(n, size)); }
+void* __wrap_malloc(std::size_t size) { return fails(size) ? nullptr : count(__real_malloc(size)); }
+void* __wrap_calloc(std::size_t n, std::size_t size) {
+  return fails(n * size) ? nullptr : count(__real_calloc(n, size));
+}
 void* __wrap_realloc(void* memory, std::size_t size) {
-  if (fails()) return nullptr;
+  if (fails(size)) return nullptr;
   void* const result = __real_realloc(memory, size);
   return memory == nullptr ? count(result) : result;
 }
@@ -232,6 +237,24 @@ TEST_CASE("distortion") {
   for (Eigen::Index v = 0; v < positions.rows(); ++v) positions.row(v) = mesh.points[v].transpose();
   const ComplexVector z = flat_map(positions);
   fail_in_turn([&] { measure_mesh_distortion(mesh.view(), z); });
+}
+
+TEST_CASE("handles are cut open without building the charts anew for every loop that is tried") {
+  // A plate with 6 x 6 square holes: genus 36, and twice as many generators. Memory stands for work here: charts that
+  // are built anew allocate all of theirs.
+  const Mesh mesh = cell_surface(13, [](int i, int j, int k) { return k == 0 && (i % 2 == 0 || j % 2 == 0); });
+  const SeamGraph graph(mesh.view());
+  const auto bytes = [](const std::function<void()>& task) {
+    requested = 0;
+    task();
+    return requested;
+  };
+  std::size_t n_cuts = 0;
+  const std::size_t charts = bytes([&] { build_charts(mesh.view()); });
+  const std::size_t loops = bytes([&] { generator_loops(graph, mesh.n_faces(), 0); });
+  const std::size_t all = bytes([&] { n_cuts = handle_cuts(mesh.view(), graph, [](int) { return -1; }).size(); });
+  CHECK(n_cuts == 36);
+  CHECK(all < 4 * (charts + loops));
 }
 
 TEST_SUITE_END();

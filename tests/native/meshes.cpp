@@ -106,6 +106,26 @@ Mesh bumpy_grid(int columns, int rows) {
   return mesh;
 }
 
+Mesh rounded_grid(int n, double unit) {
+  Mesh mesh;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double x = static_cast<double>(i) / (n - 1);
+      const double y = static_cast<double>(j) / (n - 1);
+      const Eigen::Vector3d point(x, y, 0.3 * std::sin(3 * x) * std::cos(2 * y));
+      mesh.points.push_back(unit * (point / unit).array().round().matrix());
+    }
+  }
+  for (int i = 0; i + 1 < n; ++i) {
+    for (int j = 0; j + 1 < n; ++j) {
+      const int a = n * i + j;
+      mesh.add({a, a + n, a + n + 1});
+      mesh.add({a, a + n + 1, a + 1});
+    }
+  }
+  return mesh;
+}
+
 Mesh perforated_grid(int columns, int rows) {
   Mesh mesh = grid_points(columns, rows, bumps);
   add_triangles(mesh, columns, rows, [](int i, int j) { return i % 3 != 1 || j % 3 != 1; });

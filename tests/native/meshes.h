@@ -45,6 +45,8 @@ struct Patch {
 Mesh flat_grid(int columns, int rows);
 /// The same with bumps, so that no conformal map of it is an isometry. No symmetry.
 Mesh bumpy_grid(int columns, int rows);
+/// A saddle over n x n vertices, rounded to multiples of `unit`: triangles without area, vertices that coincide.
+Mesh rounded_grid(int n, double unit);
 /// A bumpy grid without the cells (1 + 3 i, 1 + 3 j): (columns / 3) x (rows / 3) holes.
 Mesh perforated_grid(int columns, int rows);
 /// Quads on the flat grid of unit cells.

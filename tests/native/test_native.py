@@ -4,8 +4,9 @@
 import os
 from pathlib import Path
 
-import flavours
 import pytest
+
+from tests.native import flavours
 
 
 @pytest.fixture(scope="module", params=flavours.FLAVOURS)

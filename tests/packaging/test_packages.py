@@ -10,9 +10,9 @@ import sys
 import zipfile
 from pathlib import Path
 
-import blenders
 import pytest
 
+from tests.blender import blenders
 from tools import environment, packaging
 
 ROOT = Path(__file__).resolve().parents[2]

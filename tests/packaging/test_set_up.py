@@ -2,11 +2,10 @@
 """The set-up behind build_addon.py: what it asks for, and that a failed or changed step runs again."""
 
 import sys
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+import build_addon
 from tools import environment, steps
 
 
@@ -62,3 +61,17 @@ def test_source_files_leave_caches_out(build_folder):
         (build_folder / name).parent.mkdir(exist_ok=True, parents=True)
         (build_folder / name).touch()
     assert steps.source_files(build_folder) == [build_folder / "core" / "kept.py"]
+
+
+@pytest.mark.parametrize("arguments", [["--quick", "-x"], ["-m", "core", "-x"]])
+def test_quick_sets_up_no_blender_and_leaves_its_tests_out(arguments, monkeypatch):
+    groups, passed_on = [], []
+    monkeypatch.setattr(sys, "argv", ["build_addon.py", "test", *arguments])
+    monkeypatch.setattr(environment, "set_up", lambda *names: groups.extend(names))
+    monkeypatch.setattr(environment, "run_pytest", lambda words: passed_on.extend(words) or 0)
+    assert build_addon.main() == 0
+    needed = [name for group in groups for name in (*environment.APT[group], *environment.PIP[group])]
+    is_quick = "--quick" in arguments
+    assert any("blender" in name or "bpy" in name for name in needed) != is_quick
+    assert {"pytest", "ruff", "clang-format", "git"} <= set(needed)
+    assert passed_on == (["-m", environment.QUICK, "-x"] if is_quick else arguments)

@@ -27,11 +27,12 @@ FLOORS = (
     "seams",
     "bindings",
 )
-HEADER_ONLY = {"errors", "progress", "types"}
+HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
     "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
+    "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
     "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),
     "the dynamic linker": (r"dlfcn\.h|windows\.h", {"blas_threads.cpp"}),
@@ -77,6 +78,12 @@ def test_the_scan_sees_an_upward_include():
     assert upward_includes("quality", ["spectral_conformal/unwrap.h", "spectral_conformal/types.h"]) == [
         "spectral_conformal/unwrap.h"
     ]
+
+
+@pytest.mark.parametrize("path", PUBLIC_HEADERS, ids=relative)
+def test_public_headers_include_public_headers_only(path):
+    private = [h for h in includes(path) if floor_of_header(h) and not h.startswith("spectral_conformal/")]
+    assert not private, f"{relative(path)} shows its reader {', '.join(private)}"
 
 
 def test_every_floor_is_known_and_used():

@@ -4,11 +4,12 @@
 import os
 import shutil
 import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+
+from tests.native import flavours
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
@@ -46,12 +47,10 @@ def test_clang_format_sees_a_violation(tmp_path):
 
 @pytest.fixture(scope="module")
 def compile_commands(pytestconfig):
-    sys.path.insert(0, str(ROOT / "tests" / "native"))
-    import flavours
-
     return flavours.configure("release")
 
 
+@pytest.mark.slow
 def test_clang_tidy(compile_commands):
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         findings = threads.map(lambda path: clang_tidy(path, compile_commands), SOURCES)

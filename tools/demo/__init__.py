@@ -8,13 +8,13 @@ import shutil
 from pathlib import Path
 
 from tools import paths, steps
-from tools.environment import PYTHON, VENV, blender_command
+from tools.environment import PYTHON, VENV, blender_command, site_packages
 from tools.steps import BUILD, ROOT, StepError
 
 OUTPUT = BUILD / "demo"
 HERE = Path(__file__).resolve().parent
 SUFFIXES = (".obj", ".ply", ".stl", ".blend")
-# What the steps hand on to each other, and the add-on under the name that it has when installed.
+# What the steps hand on to each other, and the add-on where Blender looks for it.
 WORK = BUILD / "demo-work"
 RESULTS = ("mesh.obj", "mesh.blend", "uv_layout.png", "checker.png", "report.json")
 
@@ -34,23 +34,15 @@ def run(mesh: Path | None) -> int:
     for folder in (OUTPUT, WORK):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-    # A link: no copy that could be stale.
-    (WORK / "addons").mkdir()
-    (WORK / "addons" / "spectral_unwrap").symlink_to(ROOT / "addon", target_is_directory=True)
     job = WORK / "job.json"
-    site_packages = next(VENV.glob("lib/python*/site-packages"))
-    job.write_text(
-        json.dumps(
-            {
-                "mesh": str(mesh) if mesh else None,
-                "output": str(OUTPUT),
-                "work": str(WORK),
-                "site_packages": str(site_packages),
-            }
-        )
-    )
+    job.write_text(json.dumps({"mesh": str(mesh) if mesh else None, "output": str(OUTPUT), "work": str(WORK)}))
     blender = blender_command()
-    steps.run("unwrapping in Blender, three methods", [*blender, HERE / "blender_unwrap.py", "--", job], log="demo")
+    steps.run(
+        "unwrapping in Blender, three methods",
+        [*blender, HERE / "blender_unwrap.py", "--", job],
+        log="demo",
+        environ=profile(WORK / "scripts"),
+    )
     steps.run("measuring and drawing the UV layout", [PYTHON, HERE / "measure.py", job], log="demo")
     steps.run("rendering the checker texture", [*blender, HERE / "blender_render.py", "--", job], log="demo")
     print()
@@ -59,6 +51,17 @@ def run(mesh: Path | None) -> int:
     for name in RESULTS:
         print(f"{(OUTPUT / name).relative_to(ROOT)}  {(OUTPUT / name).stat().st_size / 1e6:.1f} MB")
     return 0
+
+
+def profile(scripts: Path) -> dict[str, str]:
+    """Make a folder of Blender's user scripts with the add-on; return what makes Blender and its Python find it all."""
+    addons = scripts / "addons"
+    addons.mkdir(parents=True)
+    # Links: no copies that could be stale.
+    (addons / "spectral_unwrap").symlink_to(ROOT / "addon", target_is_directory=True)
+    # Blender appends this folder to Python's path: the system's Blender finds the native module there, after its own.
+    (addons / "modules").symlink_to(site_packages(VENV), target_is_directory=True)
+    return {"BLENDER_USER_SCRIPTS": str(scripts), "PYTHONPATH": str(ROOT)}
 
 
 def table(report: dict) -> str:

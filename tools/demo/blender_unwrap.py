@@ -17,8 +17,7 @@ import numpy as np
 import addon_utils
 import bmesh
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-import suzanne  # noqa: E402 - beside this file, which Blender runs as a script
+from tools.demo import suzanne
 
 SPECTRAL = "Spectral Unwrap"
 # UV map and table entry -> the call that makes it.
@@ -42,7 +41,9 @@ def main() -> None:
     mesh_file = Path(job["mesh"]) if job["mesh"] else None
     target = load(mesh_file) if mesh_file else suzanne.add_suzanne()
     require_boundary(target.data)
-    enable_addon(work / "addons", job["site_packages"])
+    # From the profile that the demonstration has made; the reason of a failure is printed.
+    if addon_utils.enable("spectral_unwrap") is None:
+        sys.exit("The add-on could not be enabled; the reason is above")
     seconds, uvs = {}, {}
     for name, operator in METHODS.items():
         seconds[name] = unwrap(target, name, operator)
@@ -129,15 +130,6 @@ def require_boundary(mesh: bpy.types.Mesh) -> None:
     if not any(edge.seam or len(edge.link_faces) != 2 for edge in edit.edges):
         sys.exit("The mesh is closed and has neither seams nor UVs: mark seams in Blender and give the saved .blend")
     edit.free()
-
-
-def enable_addon(addons: Path, site_packages: str) -> None:
-    """Enable the add-on from its folder; the system's Blender takes the native module from build/venv."""
-    sys.path.insert(0, str(addons))
-    # Last: Blender's own modules come first.
-    sys.path.append(site_packages)
-    if addon_utils.enable("spectral_unwrap") is None:
-        sys.exit("The add-on could not be enabled; the reason is above")
 
 
 def unwrap(target: bpy.types.Object, name: str, operator: Callable[[], set[str]]) -> float:

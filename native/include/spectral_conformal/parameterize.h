@@ -2,25 +2,22 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "conformal/boundary_form.h"
-#include "conformal/conformal_energy.h"
-#include "conformal/extended_eigenproblem.h"
-#include "conformal/lscm.h"
-#include "linear_algebra/factorization.h"
-#include "mesh/charts.h"
+#include "spectral_conformal/metric.h"
+#include "spectral_conformal/options.h"
 #include "spectral_conformal/progress.h"
+#include "spectral_conformal/relaxation_status.h"
+#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-enum class Method {
-  spectral,  ///< smallest nonzero eigenvalue of L z = lambda B z (Eq. 5): the paper's method
-  lscm,      ///< pinned LSCM / DCP (section 2.2)
-  fiedler,   ///< B = identity: the Fiedler vector of L (Eq. 4)
-  area       ///< B = A (section 3.3)
-};
+class ConformalEnergy;
+struct Chart;
+struct PolygonMesh;
 
 /// What was changed about a problem whose own attempts had failed (see SolveOptions::fallbacks).
 enum class Fallback {
@@ -84,8 +81,13 @@ struct Parameterization {
   Fallback fallback = Fallback::none;
   int clamped_triangles = 0;  ///< those that Fallback::clamped_triangles gave a minimal height
   EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
-  int attempts = 1;     ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
-  std::string message;  ///< fallbacks and repairs that were needed; empty when none was
+  int attempts = 1;  ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
+  std::optional<RelaxationStatus> relaxation;  ///< of PatchOptions::area_blend, where there was one
+  /// Standard deviation of log2 of the scale, weighted by area in 3D (Distortion::log2_scale_deviation): of the
+  /// conformal map, and of this one. Not a number without an area blend.
+  double scale_deviation_before = std::numeric_limits<double>::quiet_NaN();
+  double scale_deviation = std::numeric_limits<double>::quiet_NaN();
+  std::string message;                                  ///< fallbacks and repairs that were needed; empty when none was
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
@@ -93,7 +95,11 @@ struct Parameterization {
 /// was asked for. Throws InvalidMesh for methods that hold none.
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins);
 
-/// One patch with its energy and boundary form; keeps the factor of L + s M between solves.
+/// The solver of one patch; keeps the factor of L + s M between solves.
+///
+/// Thread-safety: different objects may be used in different threads at once. One object is for one thread at a time:
+/// every call, factorize() included, changes the factor's work space and the starts of later solves. A progress
+/// function is called in the thread of the solve and must not call the same object.
 class Solver {
  public:
   /// chart: one disk-like patch; positions (V, 3) of its vertices. With `fill_holes` every loop but the outer one is
@@ -102,84 +108,45 @@ class Solver {
   /// definite.
   Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
          const std::vector<TriangleMetric>& metric = {});
+  /// A mesh that is one disk-like patch; pins, extenders and maps are then those of mesh vertices (0 in the map where
+  /// no face uses one). metric: one per face, or null. Throws InvalidMesh that says what the mesh is instead of one
+  /// patch, and for a pin or an extender of a vertex that no face uses.
+  Solver(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric = nullptr);
+  ~Solver();
+  Solver(Solver&& other) noexcept;
+  Solver& operator=(Solver&& other) noexcept;
 
   /// Blends the metric where that was asked for, and factors L + s M, raising s a hundredfold while rounding breaks the
   /// factorisation (bounded). Throws SolveFailure. Called by solve where needed.
   void factorize(const Progress& progress = {});
 
-  /// Without pins (for Method::lscm: two farthest boundary vertices) the map is placed (see placement.h), with its area
-  /// equal to the area in 3D. One pin: the same map moved onto it. Several pins: held exactly by Method::lscm, or, with
-  /// `soft_pins`, attracted by Method::spectral, whose map then comes with the similarity that fits it to the pins.
-  /// Every eigenvector is checked: residual, corrections that converge, positive area, and for the spectral method a
-  /// turning number of 1, or -1 where the longest loop in 3D is a hole of the map. One that fails is solved again with
-  /// a larger shift and another start, then (spectral) with thin triangles raised, with the other boundary form and
-  /// with the other weights; `message` says so, and the eigenvalue is then theirs. A pinned map must satisfy its
-  /// equations; where its boundary winds round more than once, `message` says so. Throws SolveFailure when nothing
-  /// passes. Extenders and hole rigidity change the form B of Method::spectral and leave the factor; a solve with them
-  /// starts from the maps of earlier solves, and fails where they are so strong that the map winds round more than
-  /// once, or hard pins hold it. With `fold_free` flipped triangles are unfolded, and a map that winds round more than
-  /// once, or none, is replaced by an embedding; `message` says what was done, what that cost, and where it could not
-  /// be done. The eigenvalue is then the quotient of Eq. 5 for that map, and the residual that of no eigenvector.
+  /// pins: of chart vertices. Without pins (for Method::lscm: two farthest boundary vertices) the map is placed (see
+  /// placement.h), with its area equal to the area in 3D. One pin: the same map moved onto it. Several hard pins: held
+  /// exactly by pinned LSCM, where the method is spectral or lscm. With `soft_pins` they attract the map of
+  /// Method::spectral, which then comes with the similarity that fits it to them.
+  ///
+  /// Every map is checked by one rule (map_check.h): finite, equations satisfied, positive area, and for the spectral
+  /// method a turning number of 1, or -1 where the longest loop in 3D is a hole of the map. An eigenvector that fails
+  /// is solved again with a larger shift and another start, then, where SolveOptions::fallbacks allows it (spectral
+  /// only), with thin triangles clamped, with the other boundary form and with the other weights; the fields of the
+  /// result and `message` say so. Extenders and hole rigidity change the form B of Method::spectral and leave the
+  /// factor; a solve with them starts from the maps of earlier solves, has no fallbacks, and fails where they are so
+  /// strong that the map winds round more than once. With `fold_free` flipped triangles are unfolded, and a map that
+  /// winds round more than once, or none, is replaced by an embedding; `message` says what was done, what that cost,
+  /// and where it could not be done.
+  ///
+  /// Throws SolveFailure when nothing passes, InvalidMesh for pins or forces that the method does not take or that all
+  /// have one position, and Cancelled.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
-  const ConformalEnergy& energy() const { return *energy_; }
+  /// Of the chart in 3D, for measures of its maps.
+  const ConformalEnergy& energy() const;
   /// Input units per unit of the energy's positions.
-  double scale() const { return scale_; }
-  const BoundaryLoop& outer_boundary() const { return outer_; }
+  double scale() const;
 
  private:
-  /// The same patch with another energy or boundary form.
-  Solver(const Solver& like, Weights weights, BoundaryMeasure boundary);
-
-  struct ShiftedFactor {
-    std::unique_ptr<Factorization> factorization;
-    double shift = 0;
-  };
-  struct Attempt;
-  /// The eigenvector of one attempt before it is placed, virtual vertices included.
-  struct Eigenvector {
-    ComplexVector z;
-    double lambda = 0;
-    double residual = 0;
-    int solves = 0;
-    const char* why_not = nullptr;  ///< set where it failed
-  };
-  void blend_area(const Progress& progress);
-  ShiftedFactor factor_shifted(const BoundaryForm& form, double relative_shift, const Progress& progress);
-  ExtendedForm extended_form(const BoundaryForm& form, const SolveOptions& options, const Pins& attractors) const;
-  Eigenvector attempt(const SolveOptions& options, const Pins& attractors, const BoundaryForm& form,
-                      ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
-  void correct(const BoundaryForm& form, Factorization& factorization, Eigenvector& eigenvector) const;
-  Parameterization solve_with_remedies(const SolveOptions& options, const Pins& attractors, const Progress& progress,
-                                       int& attempts);
-  /// `with_virtual` gets the map of all vertices, virtual ones included, at no particular place and scale.
-  Parameterization solve_eigenvector(const SolveOptions& options, const Pins& attractors, const Progress& progress,
-                                     int& attempts, ComplexVector* with_virtual = nullptr);
-  Parameterization solve_pinned(const Pins& pins, const Progress& progress);
-  Parameterization solve_with_folds(const SolveOptions& options, const Pins& pins, const Progress& progress,
-                                    int& attempts);
-  Parameterization solve_fold_free(const SolveOptions& options, const Pins& pins, const Progress& progress);
-  void unfold(const SolveOptions& options, const Pins& pins, const std::string& failure, const Progress& progress,
-              Parameterization& result);
-  double mean_distortion(const ComplexVector& z) const;
-  /// z (chart vertices,) with the middles of filled holes.
-  ComplexVector with_virtual_vertices(const ComplexVector& z) const;
-  double lambda_unit(Method method) const;
-
-  Positions positions_;  ///< centred, largest extent 1; added vertices of filled holes at the end
-  int n_vertices_ = 0;   ///< of the chart
-  double scale_ = 1;     ///< input units per unit of positions_
-  std::unique_ptr<ConformalEnergy> energy_;
-  BoundaryLoop outer_;
-  std::vector<BoundaryLoop> inner_;
-  PatchOptions options_;
-  BoundaryForm form_;
-  ShiftedFactor factor_;
-  bool is_blended_ = false;
-  RitzBasis ritz_basis_;    ///< of the last solve with forces and factor_
-  ComplexVector previous_;  ///< the map of the last solve with factor_; empty before
-  std::string repairs_;     ///< sentences, each with a space behind
-  std::vector<std::pair<std::string, double>> set_up_timings_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace spectral_conformal

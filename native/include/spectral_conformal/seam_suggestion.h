@@ -1,13 +1,22 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
-#include "mesh/charts.h"
-#include "seams/piece_cutter.h"
+#include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/polygon_mesh.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
+
+struct SeamSuggestionOptions {
+  double max_length =
+      std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
+  double scale_limit = 2;  ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
+  double qc_limit = 1.05;  ///< enough when the mean QC, weighted by area, is not above it; at least 1
+  PatchOptions map;        ///< of the maps whose distortion counts
+};
 
 struct SeamSuggestion {
   std::vector<std::array<int, 2>> edges;  ///< vertices of the mesh, the smaller first; none twice, none a seam before
@@ -16,8 +25,8 @@ struct SeamSuggestion {
 
 /// Proposes seams that lower the distortion of the spectral maps of a mesh, chart by chart as build_charts cuts it.
 /// First what topology needs, whatever its length: handles are cut open along short loops that do not separate the
-/// surface (see cut_graph.h), closed surfaces along a path between vertices far apart. Then, greedily, from the most
-/// distorted places to the boundary: the prominent extrema of the scale (see field_extrema.h), and the vertices with
+/// surface (see handle_cuts.h), closed surfaces along a path between vertices far apart. Then, greedily, from the most
+/// distorted regions to the boundary: the prominent extrema of the scale (see field_extrema.h), and the vertices with
 /// the highest QC, are joined to the cuts by cheapest paths (Sheffer and Hart 2002, "Seamster"). Each cut is solved and
 /// kept only if the distortion falls; of several the one is taken that lowers it most for its length. Charts whose
 /// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Charts

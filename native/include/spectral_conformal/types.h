@@ -19,5 +19,10 @@ using HermitianMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
 using BoundaryLoop = std::vector<int>;
 /// Position in the plane, u + i v, per pinned vertex.
 using Pins = std::map<int, Complex>;
+/// Pins on face corners, as a UV map has them, in the caller's arrays. Nothing is owned.
+struct CornerPins {
+  const bool* pinned = nullptr;  ///< (C,) or null for no pins
+  const double* uv = nullptr;    ///< (C, 2) the map so far; finite at pinned corners
+};
 
 }  // namespace spectral_conformal

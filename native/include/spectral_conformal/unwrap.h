@@ -2,11 +2,11 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "mesh/charts.h"
-#include "mesh/corner_pins.h"
 #include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal {
 
@@ -17,9 +17,6 @@ struct VertexExtender {
   int to = 0;
   double strength = 0;  ///< see Extender
 };
-
-/// The metric of each triangle of a chart from that of each mesh face; empty where `metric` is null.
-std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric);
 
 /// What an unwrap takes besides the mesh.
 struct UnwrapOptions {
@@ -58,6 +55,9 @@ struct UnwrappedChart {
   int clamped_triangles = 0;
   EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
   int attempts = 0;
+  std::optional<RelaxationStatus> relaxation;
+  double scale_deviation_before = unknown;
+  double scale_deviation = unknown;
   int n_pins = 0;  ///< pinned vertices
   int n_vertices = 0;
   double area = 0;  ///< in 3D

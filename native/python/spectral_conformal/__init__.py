@@ -5,17 +5,31 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
     solution = spectral_conformal.parameterize(vertices, triangles)    # one patch: solution.uv is (V, 2)
     result = spectral_conformal.unwrap(vertices, face_offsets, corner_vertices, seam_edges=seams)   # a polygon mesh
 
-Arguments of any kind or type that cannot be used raise ValueError (InvalidMeshError is one), and a patch whose map
-passes no numerical check SolveError; `unwrap` reports both chart by chart. Too little memory raises MemoryError, a
-progress function that returns False Cancelled; what it raises itself passes through. Arguments are never changed.
+How maps are made is said by `Options`, whose fields are keywords of all functions that make maps, too. Arguments of any
+kind or type that cannot be used raise ValueError (InvalidMeshError is one), a keyword that is no option raises
+TypeError, and a patch whose map passes no numerical check SolveError; `unwrap` reports invalid patches and failed maps
+chart by chart. Too little memory raises MemoryError, a progress function that returns False Cancelled; what it raises
+itself passes through. Arguments are never changed.
+
+Threads: all functions may be called from several threads at once, and let Python's other threads run while they
+compute. Of the objects, see `Solver`. Where the module works with CHOLMOD on OpenBLAS, each call into them sets that
+OpenBLAS's number of threads, so that no result depends on it, and puts the process's own number back when it ends: for
+that moment, other users of the same OpenBLAS in the process run with that number, too. NumPy's wheels bring an OpenBLAS
+of their own, which is not touched; `build_info()["blas"]` names the one that is. `OPENBLAS_NUM_THREADS` has no effect
+on results.
 """
 
-from ._api import Solver, Unwrapper, build_info, distortion, map_defects, parameterize, unwrap
+from ._arguments import Extenders, Pins, Progress
+from ._build import build_info
 from ._charts import chart_of_face
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
+from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
+from ._parameterization import Solver, parameterize
+from ._quality import distortion, map_defects
+from ._results import Chart, Distortion, MapDefects, Parameterization, Unwrap
 from ._seams import suggest_cuts, suggest_seams
-from ._types import Chart, Distortion, Extenders, MapDefects, Parameterization, Progress, Unwrap
+from ._unwrapping import Unwrapper, unwrap
 
 __all__ = [
     "Cancelled",
@@ -24,8 +38,13 @@ __all__ = [
     "Extenders",
     "InvalidMeshError",
     "MapDefects",
+    "OptionChanges",
+    "Options",
     "Parameterization",
+    "Pins",
     "Progress",
+    "SeamOptionChanges",
+    "SeamOptions",
     "SolveError",
     "Solver",
     "Unwrap",

@@ -1,42 +1,29 @@
-"""Checks and conversions of arguments: what is wrong is named in a ValueError."""
+"""Checks and conversions of arrays and numbers: what is wrong is named in a ValueError."""
 
 from __future__ import annotations
 
 import numbers
 import operator
-from collections.abc import Mapping
-from typing import Any, get_args
+from collections.abc import Callable, Iterable, Mapping
+from typing import Optional
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
 from ._native import InvalidMeshError
-from ._types import Boundary, Extenders, Factorization, Method, Pins, Progress, Weights
 
-_OPTIONS = {
-    "method": get_args(Method),
-    "weights": get_args(Weights),
-    "boundary": get_args(Boundary),
-    "factorization": get_args(Factorization),
-}
-DEFAULT_TOLERANCE = 1e-8
+Pins = Mapping[int, "tuple[float, float]"]
+Extenders = Iterable["tuple[int, int, float]"]
+"""(vertex, vertex, strength): a soft constraint of section 4.2 that pushes the two apart, or pulls them together where
+the strength is negative. The strength is a fraction of the boundary's total mass."""
+Progress = Callable[[float, str], Optional[bool]]
+"""Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
+
 # Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
-SOFT_PINS_LIMIT = 1e4
 EXTENDER_LIMIT = 1e4
-HOLE_RIGIDITY_LIMIT = 1e4
-RATIO_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 _SIZE_LIMIT = _native.SIZE_LIMIT
-
-
-def checked_patch_options(
-    weights: str, boundary: str, factorization: str, *, fill_holes: bool, area_blend: float, fold_free: bool
-) -> Any:  # noqa: ANN401 - the native class has no stub
-    check_options(weights=weights, boundary=boundary, factorization=factorization)
-    fill = checked_flag(fill_holes, "fill_holes")
-    blend = checked_fraction(area_blend, "area_blend")
-    return _native.PatchOptions(weights, boundary, factorization, fill, blend, checked_flag(fold_free, "fold_free"))
 
 
 def checked_polygon_mesh(
@@ -76,6 +63,12 @@ def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.ND
     return np.ascontiguousarray(array)
 
 
+def checked_between(value: float, low: float, high: float, name: str) -> float:
+    if not (isinstance(value, numbers.Real) and low <= value <= high):
+        raise ValueError(f"{name} must lie between {low:g} and {high:g}, not {value!r}.")
+    return float(value)
+
+
 def checked_at_least(value: float, least: float, name: str) -> float:
     if not (isinstance(value, numbers.Real) and value >= least):
         raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
@@ -83,13 +76,6 @@ def checked_at_least(value: float, least: float, name: str) -> float:
         return float(value)
     except OverflowError as error:
         raise ValueError(f"{name} is too large for a floating-point number; take math.inf for no limit.") from error
-
-
-def check_options(**options: object) -> None:
-    for name, value in options.items():
-        if not isinstance(value, str) or value not in _OPTIONS[name]:
-            choices = ", ".join(repr(choice) for choice in _OPTIONS[name])
-            raise ValueError(f"{name} must be one of {choices}, not {value!r}.")
 
 
 def checked_progress(progress: Progress | None) -> Progress | None:
@@ -169,22 +155,6 @@ def checked_flag(value: object, name: str) -> bool:
     return bool(value)
 
 
-def checked_soft_pins(strength: float, method: str) -> float:
-    if not (isinstance(strength, numbers.Real) and 0.0 <= strength <= SOFT_PINS_LIMIT):
-        raise ValueError(f"soft_pins must lie between 0 and {SOFT_PINS_LIMIT:g}, not {strength!r}.")
-    if strength > 0.0 and method != "spectral":
-        raise ValueError(f"soft_pins need the method 'spectral', not '{method}'.")
-    return float(strength)
-
-
-def checked_hole_rigidity(strength: float, method: str) -> float:
-    if not (isinstance(strength, numbers.Real) and 0.0 <= strength <= HOLE_RIGIDITY_LIMIT):
-        raise ValueError(f"hole_rigidity must lie between 0 and {HOLE_RIGIDITY_LIMIT:g}, not {strength!r}.")
-    if strength > 0.0 and method != "spectral":
-        raise ValueError(f"hole_rigidity needs the method 'spectral', not '{method}'.")
-    return float(strength)
-
-
 def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int) -> list[tuple[int, int, float]]:
     result = []
     try:
@@ -212,12 +182,6 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
     if result and method != "spectral":
         raise ValueError(f"extenders need the method 'spectral', not '{method}'.")
     return result
-
-
-def checked_fraction(value: float, name: str) -> float:
-    if not (isinstance(value, numbers.Real) and 0.0 <= value <= 1.0):
-        raise ValueError(f"{name} must lie between 0 and 1, not {value!r}.")
-    return float(value)
 
 
 def checked_metric(
@@ -282,13 +246,11 @@ def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int) -> npt.NDArray[n
     return uv
 
 
-def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: int) -> list[tuple[int, float, float]]:
+def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, float]]:
     if pins is None:
         return []
     if not isinstance(pins, Mapping):
         raise ValueError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
-    if pins and method != "lscm" and not soft_pins:
-        raise ValueError(f"pins need the method 'lscm', or soft_pins with 'spectral'; '{method}' solves without any.")
     result = []
     for vertex, position in pins.items():
         try:
@@ -302,9 +264,3 @@ def checked_pins(pins: Pins | None, method: str, soft_pins: float, n_vertices: i
             raise ValueError(f"The pin of vertex {index} is not finite: ({u}, {v}).")
         result.append((index, u, v))
     return result
-
-
-def checked_tolerance(tolerance: float) -> float:
-    if not (isinstance(tolerance, numbers.Real) and 1e-14 <= tolerance <= 1e-3):
-        raise ValueError(f"tolerance must lie between 1e-14 and 1e-3, not {tolerance!r}.")
-    return float(tolerance)

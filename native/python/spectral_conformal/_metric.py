@@ -6,7 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
-from ._arguments import RATIO_LIMIT
+
+# Stretched further, a triangle is as thin as those that the solver clamps.
+RATIO_LIMIT = 1e4
 
 
 def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -75,7 +77,7 @@ def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64
         ValueError: the metric or amount is not of the kind described here.
     """
     array = _arguments.checked_tensors(metric, 2)
-    return _native.blend_metric(array, _arguments.checked_fraction(amount, "amount"))
+    return _native.blend_metric(array, _arguments.checked_between(amount, 0.0, 1.0, "amount"))
 
 
 def in_own_unit(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ Complex BoundaryForm::barycentre(const ComplexVector& z) const {
 }
 
 void BoundaryForm::add_applied(const ComplexVector& z, double factor, ComplexVector& result) const {
+  // B^ z = M z - M 1 (1^T M z) / (1^T M 1) (Eq. 7)
   const Complex mean = barycentre(z);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     result[vertices[i]] += factor * mass[static_cast<Eigen::Index>(i)] * (z[vertices[i]] - mean);
@@ -18,6 +19,7 @@ void BoundaryForm::add_applied(const ComplexVector& z, double factor, ComplexVec
 }
 
 double BoundaryForm::value(const ComplexVector& z) const {
+  // z^H B^ z, the right side of Eq. 5 for z without its mean
   const Complex centre = barycentre(z);
   double result = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - centre);

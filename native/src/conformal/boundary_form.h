@@ -1,13 +1,9 @@
 #pragma once
 
+#include "spectral_conformal/options.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-enum class BoundaryMeasure {
-  length,  ///< half the length of the two adjacent boundary edges: independent of how finely the boundary is sampled
-  vertex   ///< 1 for each boundary vertex, as in the paper (Eq. 5)
-};
 
 /// The diagonal form B of Eq. 5 with the constants projected out (Eq. 7):
 ///   B^ = M - (M 1)(M 1)^T / (1^T M 1),

@@ -10,7 +10,7 @@ namespace {
 
 /// The inverse-area weights of triangles that are tiny or thin beyond this, or both, are held back, so that no entry of
 /// L grows beyond it, relative to the mean triangle's. Beyond about 1e13 rounding breaks the factorisation.
-constexpr double greatest_entry = 1e12;
+constexpr double max_entry = 1e12;
 
 }  // namespace
 
@@ -33,7 +33,8 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
     weight_sum_ += triangle_weights_[t];
   }
   weigh();
-  assemble(static_cast<int>(positions.rows()));
+  HermitianMatrix matrix = assembled(energy_shapes(), static_cast<int>(positions.rows()));
+  matrix_.swap(matrix);  // Eigen 3.4 would copy it
 }
 
 ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
@@ -47,28 +48,35 @@ ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
       weight_sum_(like.weight_sum_),
       clamped_triangles_(like.clamped_triangles_) {
   weigh();
-  assemble(like.n_vertices());
+  HermitianMatrix matrix = assembled(energy_shapes(), like.n_vertices());
+  matrix_.swap(matrix);
 }
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
-  if (stretched_.empty()) stretched_ = shapes_;
+  std::vector<TriangleShape> shapes = energy_shapes();
   for (std::size_t t = 0; t < metric.size(); ++t) {
-    if (!shapes_[t].clamped) stretched_[t] = stretched(stretched_[t], metric[t]);
+    if (!shapes_[t].clamped) shapes[t] = stretched(shapes[t], metric[t]);
   }
-  assemble(n_vertices());
+  use(shapes);
 }
 
-int ConformalEnergy::lift(double least_height) {
-  if (stretched_.empty()) stretched_ = shapes_;
-  int lifted = 0;
-  for (TriangleShape& shape : stretched_) {
-    // A raised shape must not count again because of rounding.
-    if (!(shape.relative_height() < least_height * (1 - 1e-9))) continue;
-    shape = shape.clamped_to(least_height);
-    ++lifted;
+int ConformalEnergy::clamp(double min_height) {
+  std::vector<TriangleShape> shapes = energy_shapes();
+  int clamped = 0;
+  for (TriangleShape& shape : shapes) {
+    // A clamped shape must not count again because of rounding.
+    if (!(shape.relative_height() < min_height * (1 - 1e-9))) continue;
+    shape = shape.clamped_to(min_height);
+    ++clamped;
   }
-  if (lifted > 0) assemble(n_vertices());
-  return lifted;
+  if (clamped > 0) use(shapes);
+  return clamped;
+}
+
+void ConformalEnergy::use(std::vector<TriangleShape>& shapes) {
+  HermitianMatrix matrix = assembled(shapes, n_vertices());
+  stretched_.swap(shapes);
+  matrix_.swap(matrix);
 }
 
 void ConformalEnergy::weigh() {
@@ -76,13 +84,13 @@ void ConformalEnergy::weigh() {
 }
 
 double ConformalEnergy::weight(std::size_t triangle) const {
-  const double share = triangle_weights_[triangle];
-  if (weights_ == Weights::uniform) return share;
+  const double in_quad = triangle_weights_[triangle];
+  if (weights_ == Weights::uniform) return in_quad;
   const TriangleShape& shape = shapes_[triangle];
-  return share / std::max(shape.area() / weight_unit_, 1 / (greatest_entry * shape.relative_height()));
+  return in_quad / std::max(shape.area() / weight_unit_, 1 / (max_entry * shape.relative_height()));
 }
 
-void ConformalEnergy::assemble(int n_vertices) {
+HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& shapes, int n_vertices) const {
   struct Entry {
     int row;
     Complex value;
@@ -100,7 +108,7 @@ void ConformalEnergy::assemble(int n_vertices) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& triangle = triangles_[t];
-    const TriangleShape& s = energy_shapes()[t];
+    const TriangleShape& s = shapes[t];
     const double half_weight = 0.5 * weight(t);
     const double double_area = s.x1 * s.y2;
     // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
@@ -109,10 +117,11 @@ void ConformalEnergy::assemble(int n_vertices) {
       const int i = triangle[(k + 1) % 3];
       const int j = triangle[(k + 2) % 3];
       if (i == j) continue;
-      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);
+      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);  // w cot t / 2: E_D (Eq. 3)
       diagonal[i] += dirichlet;
       diagonal[j] += dirichlet;
-      // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2, L_ji its conjugate.
+      // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2 (minus A, Eq. 2),
+      // L_ji its conjugate.
       const Complex upper(-dirichlet, half_weight);
       if (i > j) {
         entries[fill[j]++] = {i, upper};
@@ -147,28 +156,38 @@ void ConformalEnergy::assemble(int n_vertices) {
     }
     column_size[column] = merged;
   }
-  matrix_.resize(n_vertices, n_vertices);
-  int* const outer = matrix_.outerIndexPtr();
+  HermitianMatrix matrix;
+  matrix.resize(n_vertices, n_vertices);
+  int* const outer = matrix.outerIndexPtr();
   outer[0] = 0;
   for (int column = 0; column < n_vertices; ++column) outer[column + 1] = outer[column] + column_size[column] + 1;
-  matrix_.resizeNonZeros(outer[n_vertices]);
+  matrix.resizeNonZeros(outer[n_vertices]);
   for (int column = 0; column < n_vertices; ++column) {
     int position = outer[column];
-    matrix_.innerIndexPtr()[position] = column;
-    matrix_.valuePtr()[position++] = diagonal[column];
+    matrix.innerIndexPtr()[position] = column;
+    matrix.valuePtr()[position++] = diagonal[column];
     for (int k = 0; k < column_size[column]; ++k, ++position) {
       const Entry& entry = entries[start[column] + k];
-      matrix_.innerIndexPtr()[position] = entry.row;
-      matrix_.valuePtr()[position] = entry.value;
+      matrix.innerIndexPtr()[position] = entry.row;
+      matrix.valuePtr()[position] = entry.value;
     }
   }
+  return matrix;
+}
+
+double ConformalEnergy::max_diagonal() const {
+  double largest = 0;
+  for (int v = 0; v < n_vertices(); ++v) {
+    largest = std::max(largest, matrix_.valuePtr()[matrix_.outerIndexPtr()[v]].real());
+  }
+  return largest;
 }
 
 double ConformalEnergy::value(const ComplexVector& z) const {
   double sum = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    // z^H L z = 2 w E_C = 4 w |T| |f_zbar|^2 = w |4 |T| f_zbar|^2 / (4 |T|)
+    // Eq. 2: z^H L z = 2 w E_C = 4 w |T| |f_zbar|^2 = w |4 |T| f_zbar|^2 / (4 |T|)
     const TriangleShape& s = energy_shapes()[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }

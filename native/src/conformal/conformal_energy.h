@@ -4,14 +4,10 @@
 
 #include "geometry/triangle_shape.h"
 #include "spectral_conformal/metric.h"
+#include "spectral_conformal/options.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-enum class Weights {
-  uniform,      ///< every triangle counts with weight 1
-  inverse_area  ///< energy and area of a triangle are divided by its area in 3D (section 4.1)
-};
 
 /// The discrete conformal energy of a patch, E_C = E_D - A (section 2.2), with z = u + i v and one complex unknown per
 /// vertex: z^H L z / 2 = E_C(z). L is Hermitian positive semidefinite with L 1 = 0. For a triangle of weight w and each
@@ -32,13 +28,15 @@ class ConformalEnergy {
   ConformalEnergy(const ConformalEnergy& like, Weights weights);
 
   /// Stretches the triangles by a metric per triangle, on top of the metric they have: its frame is that of
-  /// energy_shapes. Clamped triangles are left alone. Precondition: positive definite.
+  /// energy_shapes. All or nothing: where memory runs out, this object is as it was. Clamped triangles are left alone.
+  /// Precondition: positive definite.
   void stretch(const std::vector<TriangleMetric>& metric);
 
-  /// Raises thin triangles, in the energy only, to a relative_height of at least this. Returns how many.
-  int lift(double least_height);
+  /// Gives thin triangles a relative_height of at least this, in the energy only. Returns how many. All or nothing.
+  int clamp(double min_height);
 
   const HermitianMatrix& matrix() const { return matrix_; }
+  double max_diagonal() const;  ///< largest diagonal entry of L
   int n_vertices() const { return static_cast<int>(matrix_.rows()); }
   Weights weights() const { return weights_; }
   int clamped_triangles() const { return clamped_triangles_; }
@@ -60,19 +58,21 @@ class ConformalEnergy {
   std::size_t n_virtual() const { return n_virtual_; }
   /// In 3D, without the metric.
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
-  /// Stretched by the metric, and lifted.
+  /// Stretched by the metric, and clamped.
   const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
   const std::vector<double>& triangle_weights() const { return triangle_weights_; }
 
  private:
   void weigh();
   double weight(std::size_t triangle) const;
-  void assemble(int n_vertices);
+  void use(std::vector<TriangleShape>& shapes);
+  /// L for triangles of these shapes.
+  HermitianMatrix assembled(const std::vector<TriangleShape>& shapes, int n_vertices) const;
 
   std::vector<std::array<int, 3>> triangles_;
   std::vector<double> triangle_weights_;
   std::vector<TriangleShape> shapes_;
-  std::vector<TriangleShape> stretched_;  ///< empty without a metric or lifted triangles
+  std::vector<TriangleShape> stretched_;  ///< empty without a metric or clamped triangles
   Weights weights_;
   std::size_t n_virtual_;
   double weight_unit_ = 1;

@@ -9,13 +9,33 @@
 #include <limits>
 #include <stdexcept>
 
+#include "conformal/correction.h"
 #include "conformal/start_vector.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
 
+/// As many solves as a few restarts of Lanczos take, without its failures on tiny spaces.
 constexpr int dense_limit = 24;
+
+/// What left an operator by an exception while Spectra ran: the caller's progress function, a factorisation, a lack of
+/// memory. Spectra reports failures of its own as std::runtime_error, which such an exception may be as well.
+class Interruption {
+ public:
+  template <class Function>
+  void guard(const Function& function) {
+    try {
+      function();
+    } catch (...) {
+      happened_ = true;
+      throw;
+    }
+  }
+  bool happened() const { return happened_; }
+
+ private:
+  bool happened_ = false;
+};
 
 /// The operator T of solve_eigenproblem on the vertices that carry mass.
 class ReducedOperator {
@@ -52,7 +72,7 @@ class ReducedOperator {
     weighted_ = y;
     project(weighted_);
     weighted_ = root_mass_.cwiseProduct(weighted_).eval();
-    factorization_.solve_selected(weighted_, solved_);
+    factorization_.solve_selected(weighted_, solved_);  // S^T (L + s M)^-1 S of Eq. 7, reduced
     ++solves_;
     result = root_mass_.cwiseProduct(solved_);
     project(result);
@@ -67,8 +87,9 @@ class ReducedOperator {
   void perform_op(const double* x, double* y) const {
     const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), complex_size());
     Eigen::Map<ComplexVector> out(reinterpret_cast<Complex*>(y), complex_size());
-    apply(in, out);
+    interruption_.guard([&] { apply(in, out); });
   }
+  bool interrupted() const { return interruption_.happened(); }
 
  private:
   Factorization& factorization_;
@@ -80,6 +101,7 @@ class ReducedOperator {
   mutable ComplexVector weighted_;
   mutable ComplexVector solved_;
   mutable int solves_ = 0;
+  mutable Interruption interruption_;
 };
 
 /// All of T, column by column.
@@ -139,15 +161,9 @@ class ShiftedOperator {
   Eigen::Index rows() const { return 2 * matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
   int solves() const { return solves_; }
+  bool interrupted() const { return interruption_.happened(); }
   void solve(const double* x, double* y) const {
-    report(progress_, 1.0 - 1.0 / (1.0 + 0.05 * solves_), "eigenproblem");
-    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
-    ComplexVector out;
-    factorization_.solve(in, out);
-    // The constant carries no area; the solve amplifies what rounding puts into it.
-    out.array() -= out.mean();
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
-    ++solves_;
+    interruption_.guard([&] { smooth(x, y); });
   }
   void perform_op(const double* x, double* y) const {
     const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), matrix_.rows());
@@ -159,22 +175,35 @@ class ShiftedOperator {
   }
 
  private:
+  void smooth(const double* x, double* y) const {
+    report(progress_, 1.0 - 1.0 / (1.0 + 0.05 * solves_), "eigenproblem");
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    ComplexVector out;
+    factorization_.solve(in, out);
+    // The constant carries no area; the solve amplifies what rounding puts into it.
+    out.array() -= out.mean();
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+    ++solves_;
+  }
+
   Factorization& factorization_;
   const HermitianMatrix& matrix_;
   const BoundaryForm& form_;
   double shift_;
   const Progress& progress_;
-  mutable int solves_ = 0;  // Spectra takes the operator by const reference
+  // Spectra takes the operator by const reference.
+  mutable int solves_ = 0;
+  mutable Interruption interruption_;
 };
 
-/// Runs Lanczos. Spectra throws std::runtime_error where its small projected matrix is not finite or does not converge.
-template <class Solver>
-bool converges(Solver& solver, const EigenproblemOptions& options) {
+/// Runs Lanczos. Spectra throws std::runtime_error where its small projected matrix is not finite or does not converge;
+/// what interrupted the operator passes through.
+template <class Solver, class Operator>
+bool converges(Solver& solver, const Operator& op, const EigenproblemOptions& options) {
   try {
     solver.compute(Spectra::SortRule::LargestAlge, options.max_restarts, options.tolerance);
-  } catch (const Cancelled&) {
-    throw;
   } catch (const std::runtime_error&) {
+    if (op.interrupted()) throw;
     return false;
   }
   return solver.info() == Spectra::CompInfo::Successful;
@@ -196,7 +225,7 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
     const int dimension = std::min<int>(options.krylov_dimension, static_cast<int>(2 * n));
     Spectra::SymEigsSolver<ReducedOperator> solver(op, 1, dimension);
     solver.init(reinterpret_cast<const double*>(start.data()));
-    if (!converges(solver, options)) {
+    if (!converges(solver, op, options)) {
       result.solves = op.solves();
       return result;
     }
@@ -232,33 +261,26 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   ComplexVector smooth(n);
   shifted.solve(reinterpret_cast<const double*>(start.data()), reinterpret_cast<double*>(smooth.data()));
   solver.init(reinterpret_cast<const double*>(smooth.data()));
-  const bool converged = converges(solver, options);
+  const bool converged = converges(solver, shifted, options);
   result.solves = shifted.solves();
   if (!converged) return result;
   const Eigen::VectorXd real = solver.eigenvectors(1);
   result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   result.mu = solver.eigenvalues()[0];
-  // z' = z - (L + s M)^-1 (L z - lambda B z) has the unshifted eigenvectors as fixed points, and its rounding shrinks
-  // with the residual. Negative eigenvalues larger than mu make it grow instead.
-  constexpr int max_corrections = 30;
-  constexpr double resolved = 1e-7;
-  ComplexVector residual;
-  ComplexVector form_part;
-  ComplexVector change;
-  result.residual = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < max_corrections; ++k) {
-    const double lambda = energy.apply(result.vector, residual) / area.value(result.vector);
-    area.apply(result.vector, form_part);
-    residual -= lambda * form_part;
-    factorization.solve(residual, change);
-    change.array() -= change.mean();
-    ++result.solves;
-    const double relative = change.norm() / result.vector.norm();
-    if (!(relative < result.residual)) break;
-    result.residual = relative;
-    result.vector -= change;
-    if (relative < 0.01 * options.tolerance) break;
-  }
+  const QuotientForm quotient{
+      [&area](const ComplexVector& z) { return area.value(z); },
+      [&area, form_part = ComplexVector()](const ComplexVector& z, double factor, ComplexVector& sum) mutable {
+        area.apply(z, form_part);
+        sum += factor * form_part;
+      }};
+  CorrectionOptions corrections;
+  corrections.max_corrections = 30;
+  corrections.negligible = 0.01 * options.tolerance;
+  corrections.only_falling = true;  // negative eigenvalues larger than mu in size make the changes grow
+  const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
+  result.solves += correction.solves;
+  result.residual = correction.change;
+  constexpr double resolved = 1e-7;  // below single precision, in which UVs are stored
   result.converged = result.residual < resolved && result.vector.allFinite() && area.value(result.vector) > 0;
   return result;
 }

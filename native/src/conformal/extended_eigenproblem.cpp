@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "conformal/correction.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -124,24 +126,6 @@ bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progre
   return best <= near_enough;
 }
 
-/// One step of descent of the quotient E / B from z along the preconditioned residual; r is work space. Returns the
-/// relative change of z, not a number where there is no descent.
-double descend(Factorization& factorization, const ConformalEnergy& energy, const ExtendedForm& form, ComplexVector& z,
-               ComplexVector& r) {
-  const double lambda = energy.apply(z, r) / form.value(form.restrict(z));
-  form.add_applied(z, -lambda, r);
-  ComplexVector d;
-  factorization.solve(r, d);
-  d.array() -= d.mean();
-  const double slope = d.dot(r).real();
-  if (slope == 0) return 0;
-  const double curvature = energy.value(d) - lambda * form.value(form.restrict(d));
-  const double step = slope / curvature;
-  if (!(step > 0) || !std::isfinite(step)) return std::numeric_limits<double>::quiet_NaN();
-  z -= step * d;
-  return step * d.norm() / z.norm();
-}
-
 }  // namespace
 
 Eigenpair solve_extended_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
@@ -171,14 +155,16 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
   space.restart(options.krylov_dimension);
   basis = space.basis();
 
-  constexpr int max_corrections = 12;
-  const double negligible = 0.1 * options.tolerance;
-  ComplexVector r;
-  for (int k = 0; k < max_corrections; ++k) {
-    result.residual = descend(factorization, energy, form, result.vector, r);
-    ++result.solves;
-    if (!(result.residual > negligible)) break;
-  }
+  const QuotientForm quotient{
+      [&form](const ComplexVector& z) { return form.value(form.restrict(z)); },
+      [&form](const ComplexVector& z, double factor, ComplexVector& sum) { form.add_applied(z, factor, sum); }};
+  CorrectionOptions corrections;
+  corrections.max_corrections = 12;  // each takes out about s / lambda of what is left; the rest is rounding
+  corrections.negligible = 0.1 * options.tolerance;
+  corrections.exact_step = true;
+  const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
+  result.solves += correction.solves;
+  result.residual = correction.change;
   result.converged =
       std::isfinite(result.residual) && result.vector.allFinite() && form.value(form.restrict(result.vector)) > 0;
   return result;

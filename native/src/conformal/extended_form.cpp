@@ -55,6 +55,7 @@ Complex ExtendedForm::Difference::value(const ComplexVector& x) const {
 }
 
 void ExtendedForm::apply(const ComplexVector& x, ComplexVector& result) const {
+  // B^ and beta B^_l, alpha (e_i - e_j)(e_i - e_j)^T, - weight Q (section 4.2)
   result.setZero(x.size());
   for (const Spread& spread : spreads_) spread.form.add_applied(x, spread.factor, result);
   for (const Difference& difference : differences_) {

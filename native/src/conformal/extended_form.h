@@ -4,16 +4,10 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/pin_attraction.h"
+#include "spectral_conformal/options.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-/// A soft force of section 4.2 that pushes two vertices apart (strength > 0) or pulls them together (strength < 0).
-struct Extender {
-  std::vector<int> from;  ///< one vertex; or its copies along a seam, which count as their barycentre
-  std::vector<int> to;
-  double strength = 0;  ///< fraction of 1^T M 1: the same number means the same at any resolution and scale
-};
 
 /// The form B of Eq. 5 with the soft forces of section 4.2,
 ///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,

@@ -53,7 +53,7 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
   factorization->analyze(block);
   if (!factorization->factorize(block)) {
     throw SolveFailure("The pinned conformal energy is singular in double precision",
-                       "the patch has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other "
+                       "the island has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other "
                        "vertices.");
   }
   report(progress, 0.8, "solve");

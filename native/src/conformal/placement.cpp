@@ -12,6 +12,9 @@ namespace {
 
 double dot(Complex a, Complex b) { return std::real(std::conj(a) * b); }
 
+// Hull and calipers are our own, not CGAL's convex_hull_2 and min_rectangle_2: those compare exactly, so that among the
+// equal rectangles of a symmetric or regular outline rounding would choose, and with it how the map is turned.
+
 /// Andrew's monotone chain: counter-clockwise, no three points in a line.
 std::vector<Complex> convex_hull(std::vector<Complex> points) {
   const auto before = [](Complex a, Complex b) {
@@ -60,7 +63,7 @@ Complex smallest_rectangle(const std::vector<Complex>& hull) {
     while (left < i + n && along(left + 1) < along(left)) ++left;
     const double width = along(right) - along(left);
     const double area = width * height(top);
-    // The margin keeps the choice among equal rectangles independent of rounding.
+    // The first of equal rectangles: areas that differ by less than 1e-9 differ by the rounding of z (about 1e-12).
     if (area < best_area * (1 - 1e-9)) {
       best_area = area;
       best = width >= height(top) ? direction : direction * Complex(0, 1);

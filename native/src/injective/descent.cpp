@@ -17,11 +17,12 @@ double dot(const ComplexVector& a, const ComplexVector& b) {
   return sum;
 }
 
-/// The quadratic form that stands for the energy's Hessian, one weight each for |f_z|^2 and |f_zbar|^2 per triangle.
-class Proxy {
+/// The quadratic form that stands for the Hessian of the energy, one weight each for |f_z|^2 and |f_zbar|^2 per
+/// triangle.
+class QuadraticForm {
  public:
-  Proxy(const std::vector<DistortionElement>& elements, const std::vector<char>& fixed, DistortionMeasure measure,
-        Eigen::Index n, FactorizationBackend backend)
+  QuadraticForm(const std::vector<DistortionElement>& elements, const std::vector<char>& fixed,
+                DistortionMeasure measure, Eigen::Index n, FactorizationBackend backend)
       : elements_(elements), fixed_(fixed), measure_(measure), factorization_(make_factorization(backend, n)) {
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * elements.size() + static_cast<std::size_t>(n));
@@ -45,8 +46,8 @@ class Proxy {
     factorization_->analyze(matrix_);
   }
 
-  /// Returns false when the form is not positive definite in double precision, however it is levelled. Counts its
-  /// attempts.
+  /// Returns false when the form is not positive definite in double precision, however far its weights are clamped.
+  /// Counts its attempts.
   bool factorize(const ComplexVector& z, int& attempts) {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
@@ -55,8 +56,8 @@ class Proxy {
       weights.push_back(stiffness(element, measure_, jacobian(element, z)));
       largest = std::max(largest, weights.back().antiholomorphic);
     }
-    for (; least_weight_ < 1; least_weight_ *= 100) {
-      assemble(weights, least_weight_ * largest);
+    for (; min_weight_ < 1; min_weight_ *= 100) {
+      assemble(weights, min_weight_ * largest);
       ++attempts;
       if (factorization_->factorize(matrix_)) return true;
     }
@@ -74,21 +75,21 @@ class Proxy {
 
   bool is_fixed(int vertex) const { return !fixed_.empty() && fixed_[vertex]; }
 
-  void assemble(const std::vector<DistortionStiffness>& weights, double least) {
+  void assemble(const std::vector<DistortionStiffness>& weights, double min_weight) {
     Complex* const value = matrix_.valuePtr();
     const int* const diagonal = matrix_.outerIndexPtr();
     std::fill(value, value + matrix_.nonZeros(), Complex(0));
     for (std::size_t t = 0; t < elements_.size(); ++t) {
       const auto& [x1, x2, y2, clamped] = elements_[t].shape;
       const double double_area = x1 * y2;
-      const double raised = std::max(weights[t].antiholomorphic, least) / weights[t].antiholomorphic;
-      const double antiholomorphic = raised * weights[t].antiholomorphic;
-      const double holomorphic = raised * weights[t].holomorphic;
+      const double clamping = std::max(weights[t].antiholomorphic, min_weight) / weights[t].antiholomorphic;
+      const double antiholomorphic = clamping * weights[t].antiholomorphic;
+      const double holomorphic = clamping * weights[t].holomorphic;
       // Half the sum of both weights times |f_z|^2 + |f_zbar|^2, which is 1 / (2 |T|) times the sum of
       // cot |z_i - z_j|^2 / 2 over the edges, and half their difference times the image area over |T|.
       const double mean = 0.5 * (holomorphic + antiholomorphic) * elements_[t].weight;
       const double scale = 0.5 * mean / (double_area * double_area);
-      const double area_part = 0.25 * (antiholomorphic - holomorphic) * elements_[t].weight / double_area;
+      const double area_weight = 0.25 * (antiholomorphic - holomorphic) * elements_[t].weight / double_area;
       const std::array<double, 3> scaled_cotangents = elements_[t].shape.scaled_cotangents();
       for (int k = 0; k < 3; ++k) {
         const int i = elements_[t].corners[(k + 1) % 3];
@@ -97,11 +98,11 @@ class Proxy {
         value[diagonal[i]] += dirichlet;
         value[diagonal[j]] += dirichlet;
         if (!is_fixed(i) && !is_fixed(j))
-          value[edge_entries_[t][k]] += Complex(-dirichlet, i > j ? area_part : -area_part);
+          value[edge_entries_[t][k]] += Complex(-dirichlet, i > j ? area_weight : -area_weight);
       }
     }
     for (int v = 0; v < static_cast<int>(matrix_.cols()); ++v) {
-      // Those of no triangle stay, too.
+      // Vertices without a triangle stay, too.
       if (is_fixed(v) || value[diagonal[v]] == 0.0) value[diagonal[v]] = 1;
     }
     // Holds one vertex, which fixes the constant and changes nothing else: gradients have no constant part.
@@ -114,41 +115,45 @@ class Proxy {
   std::unique_ptr<Factorization> factorization_;
   HermitianMatrix matrix_;
   std::vector<std::array<int, 3>> edge_entries_;  ///< of the edges opposite to the corners
-  /// Weights are raised to this part of the largest one. Over a wider range rounding breaks the factorisation; raising
-  /// the small ones keeps the proxy a majoriser and only slows down what needs it least.
-  double least_weight_ = 1e-12;
+  /// Weights are clamped to this fraction of the largest one from below. Over a wider range rounding leaves nothing of
+  /// the small ones and breaks the factorisation; clamping keeps the form a majoriser and only slows down what has the
+  /// least to gain. Raised a hundredfold, for good, where the factorisation still fails.
+  double min_weight_ = 1e-12;
 };
 
-/// The two-loop recursion of L-BFGS around the proxy's inverse.
+/// The two-loop recursion of L-BFGS (Nocedal and Wright, Numerical Optimization, 2006, Algorithm 7.4), the inverse of
+/// the quadratic form in its middle.
 class Directions {
  public:
   void clear() { pairs_.clear(); }
 
   void add(ComplexVector step, ComplexVector gradient_change) {
     const double curvature = dot(step, gradient_change);
-    if (!(curvature > 1e-12 * step.norm() * gradient_change.norm())) return;
+    // Rounding decides on a smaller one, and a negative one would make the form indefinite.
+    constexpr double min_cosine = 1e-12;
+    if (!(curvature > min_cosine * step.norm() * gradient_change.norm())) return;
     if (pairs_.size() == capacity) pairs_.pop_front();
     pairs_.push_back({std::move(step), std::move(gradient_change), curvature});
   }
 
-  ComplexVector descent(Proxy& proxy, const ComplexVector& gradient) const {
+  ComplexVector descent(QuadraticForm& form, const ComplexVector& gradient) const {
     ComplexVector remaining = gradient;
-    std::vector<double> shares(pairs_.size());
+    std::vector<double> projections(pairs_.size());
     for (std::size_t k = pairs_.size(); k-- > 0;) {
-      shares[k] = dot(pairs_[k].step, remaining) / pairs_[k].curvature;
-      remaining -= shares[k] * pairs_[k].gradient_change;
+      projections[k] = dot(pairs_[k].step, remaining) / pairs_[k].curvature;
+      remaining -= projections[k] * pairs_[k].gradient_change;
     }
     ComplexVector direction;
-    proxy.solve(remaining, direction);
+    form.solve(remaining, direction);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double share = dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
-      direction += (shares[k] - share) * pairs_[k].step;
+      const double projection = dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
+      direction += (projections[k] - projection) * pairs_[k].step;
     }
     return -direction;
   }
 
  private:
-  static constexpr std::size_t capacity = 10;
+  static constexpr std::size_t capacity = 10;  // of 3 to 20, ibid.; as many as steps per factor
   struct Pair {
     ComplexVector step;
     ComplexVector gradient_change;
@@ -166,10 +171,11 @@ class Relaxation {
         fixed_(fixed),
         z_(z),
         options_(options),
-        proxy_(elements, fixed, options.measure, z.size(), backend) {}
+        form_(elements, fixed, options.measure, z.size(), backend) {}
 
   Descent run(const Progress& progress) {
-    // Each round presses harder on triangles that the last one left flipped.
+    // Each round presses harder on triangles that the last one left flipped: the barrier's limit is approached from
+    // regularisations of their own size.
     constexpr double fractions[] = {1, 0.5, 0.1};
     for (const double fraction : fractions) {
       const bool first = fraction == fractions[0];
@@ -185,6 +191,8 @@ class Relaxation {
   }
 
  private:
+  /// A relative fall that says that the form is out of date, and a step that barriers have cut to nearly nothing: a
+  /// new factor costs less than the steps that it saves.
   static constexpr double quick_fall = 0.6;
   static constexpr double short_step = 0.003;
 
@@ -205,25 +213,25 @@ class Relaxation {
 
   State state() const {
     State state{z_, {}, regularized_, energy_, result_.status};
-    for (const DistortionElement& element : elements_) state.regularization.push_back(element.softening);
+    for (const DistortionElement& element : elements_) state.regularization.push_back(element.regularization);
     return state;
   }
 
   void restore(const State& state) {
     z_ = state.z;
     // A barrier that the rejected round raised would be infinite on a triangle that is flipped again.
-    for (std::size_t t = 0; t < elements_.size(); ++t) elements_[t].softening = state.regularization[t];
+    for (std::size_t t = 0; t < elements_.size(); ++t) elements_[t].regularization = state.regularization[t];
     regularized_ = state.regularized;
     energy_ = state.energy;
     result_.status = state.status;
   }
 
   DescentStatus minimize(const Progress& progress) {
-    constexpr int steps_per_factor = 10;
+    constexpr int steps_per_factor = 10;  // together they take about as long as one factorisation
     while (result_.factorizations < options_.max_factorizations) {
       const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       directions_.clear();
-      if (!proxy_.factorize(z_, result_.factorizations)) return DescentStatus::indefinite_form;
+      if (!form_.factorize(z_, result_.factorizations)) return DescentStatus::indefinite_form;
       for (int k = 0; k < steps_per_factor; ++k) {
         report(progress, done, "relax");
         const Step step = descend();
@@ -251,20 +259,20 @@ class Relaxation {
   /// The energy above its infimum, that of an isometry or a similarity.
   double excess(double energy) const {
     const double infimum = options_.measure == DistortionMeasure::conformal ? 2 : 4;
-    // The small constant ends the descent on developable patches, whose energy has no excess.
+    // The constant, an invisible distortion of 1e-4, ends the descent on developable charts, which have no excess.
     return std::abs(energy - infimum) + 1e-4;
   }
 
   Step descend() {
-    constexpr double fraction_of_largest = 0.9;
-    constexpr double sufficient = 1e-4;
-    constexpr int max_halvings = 20;
-    const ComplexVector direction = directions_.descent(proxy_, gradient_);
+    constexpr double fraction_of_max_step = 0.9;  // leaves each triangle a tenth of its way to a flip
+    constexpr double sufficient = 1e-4;           // Armijo's condition, as in Nocedal and Wright (2006), Section 3.1
+    constexpr int max_halvings = 20;              // a step of 1e-6 of the full one changes nothing that is visible
+    const ComplexVector direction = directions_.descent(form_, gradient_);
     const double slope = dot(gradient_, direction);
     Step step;
     step.promised_fall = -0.5 * slope / excess(energy_);
     if (!(slope < 0)) return step;
-    double length = std::min(1.0, fraction_of_largest * largest_step(elements_, z_, direction));
+    double length = std::min(1.0, fraction_of_max_step * max_step(elements_, z_, direction));
     for (int k = 0; k < max_halvings; ++k, length *= 0.5) {
       const ComplexVector moved = z_ + length * direction;
       ComplexVector gradient;
@@ -284,14 +292,14 @@ class Relaxation {
 
   /// Regularises the triangles without image area, in proportion to their size: as little as their surroundings bear.
   void regularize(double fraction) {
-    constexpr double least_softening = 1e-2;
+    constexpr double min_regularization = 1e-2;  // of collapsed ones, relative to the mean scale, which is about 1
     regularized_ = 0;
     for (DistortionElement& element : elements_) {
       const MapJacobian j = jacobian(element, z_);
       // Once a barrier stands, it is kept.
       const bool holds = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
       if (!element.without_area() && (started_ || !element.barrier() || holds)) continue;
-      element.softening = fraction * std::max(j.half_square, least_softening);
+      element.regularization = fraction * std::max(j.half_square, min_regularization);
       ++regularized_;
     }
     started_ = true;
@@ -300,6 +308,7 @@ class Relaxation {
 
   /// Triangles that have gained image area keep it from now on.
   void raise_barriers() {
+    // Well above MapJacobian::min_determinant, so that the new barrier does not rule the next steps.
     constexpr double enough = 0.03;
     if (regularized_ == 0) return;
     const int before = regularized_;
@@ -307,7 +316,7 @@ class Relaxation {
       if (!element.without_area()) continue;
       const MapJacobian j = jacobian(element, z_);
       if (!(j.has_area() && j.determinant > enough * j.half_square)) continue;
-      element.softening = 0;
+      element.regularization = 0;
       --regularized_;
     }
     if (regularized_ == before) return;
@@ -319,7 +328,7 @@ class Relaxation {
   const std::vector<char>& fixed_;
   ComplexVector& z_;
   DescentOptions options_;
-  Proxy proxy_;
+  QuadraticForm form_;
   Directions directions_;
   double energy_ = 0;
   ComplexVector gradient_;

@@ -6,15 +6,20 @@
 #include <vector>
 
 #include "geometry/triangle_shape.h"
+#include "quality/flips.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-/// What a map's distortion is measured by, per triangle, from its singular values s1 and s2. Both grow without bound as
-/// a triangle loses its image area.
+/// The distortion of a triangle by the singular values s1 and s2 of its Jacobian. Both grow without bound as a triangle
+/// loses its image area.
 enum class DistortionMeasure {
-  symmetric_dirichlet,  ///< s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2: 4 for an isometry (Smith and Schaefer 2015)
-  conformal             ///< s1 / s2 + s2 / s1: 2 where angles are kept, at any scale (MIPS; Hormann and Greiner 2000)
+  /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2: 4 for an isometry (Smith and Schaefer, Bijective Parameterization with Free
+  /// Boundaries, 2015).
+  symmetric_dirichlet,
+  /// s1 / s2 + s2 / s1: 2 where angles are kept, at any scale (Hormann and Greiner, MIPS: An Efficient Global
+  /// Parametrization Method, 2000).
+  conformal
 };
 
 /// One triangle in a distortion energy.
@@ -23,32 +28,33 @@ struct DistortionElement {
   TriangleShape shape;
   double weight = 0;
   bool measured = true;  ///< whether its distortion and its flips count; not for virtual and degenerate triangles
-  /// 0: the determinant is kept positive. Otherwise it is replaced by (det + sqrt(det^2 + softening^2)) / 2, which is
-  /// positive everywhere (Garanzha et al., Foldover-Free Maps in 50 Lines of Code, 2021). Infinite: only s1^2 + s2^2
-  /// counts, whatever the measure, so that degenerate triangles keep their vertices together.
-  double softening = 0;
+  /// The determinant regularisation e. 0: a barrier, the determinant stays positive. Otherwise it is replaced by
+  /// (det + sqrt(det^2 + e^2)) / 2, which is positive everywhere (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and
+  /// Sokolov, Foldover-Free Maps in 50 Lines of Code, 2021). Infinite: only s1^2 + s2^2 counts, whatever the measure,
+  /// so that degenerate triangles keep their vertices together.
+  double regularization = 0;
 
-  bool barrier() const { return softening == 0; }
-  bool without_area() const { return softening > 0 && std::isfinite(softening); }
+  bool barrier() const { return regularization == 0; }
+  bool without_area() const { return regularization > 0 && std::isfinite(regularization); }
 };
 
 /// f_z and f_zbar of a triangle's image, half the squared norm |f_z|^2 + |f_zbar|^2 and the determinant
 /// |f_z|^2 - |f_zbar|^2.
 struct MapJacobian {
-  /// An image whose determinant is below this part of half_square (QC above about 2000), or whose scale is below 1e-10
-  /// of the unit, counts as without area: its barrier would dominate everything else.
-  static constexpr double least_determinant = 1e-3;
-  static constexpr double least_squared_scale = 1e-20;
+  /// An image whose determinant is below this fraction of half_square (QC above about 2000), or whose scale is below
+  /// 1e-10 of the unit, counts as without area: its barrier would dominate the energy of all other triangles.
+  static constexpr double min_determinant = 1e-3;
+  static constexpr double min_squared_scale = 1e-20;
 
   Complex holomorphic;
   Complex antiholomorphic;
   double half_square;
   double determinant;
-  bool has_area() const { return determinant > least_determinant * half_square && determinant > least_squared_scale; }
+  bool has_area() const { return determinant > min_determinant * half_square && determinant > min_squared_scale; }
 };
 
 /// The elements of a patch, weighted by triangle weight times area as a part of the whole. Degenerate triangles get an
-/// infinite softening; the last `n_virtual` triangles (see hole_filling.h) a hundredth of their weight. shapes and
+/// infinite regularization; the last `n_virtual` triangles (see hole_filling.h) a hundredth of their weight. shapes and
 /// triangle_weights per triangle.
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
@@ -72,13 +78,20 @@ double energy_and_gradient(const std::vector<DistortionElement>& elements, Disto
 
 /// The step along `direction` at which the first triangle with image area, however little, loses it; infinite where
 /// none does.
-double largest_step(const std::vector<DistortionElement>& elements, const ComplexVector& z,
-                    const ComplexVector& direction);
+double max_step(const std::vector<DistortionElement>& elements, const ComplexVector& z, const ComplexVector& direction);
 
 /// The factor that gives the measured elements the mean log scale 0, or 0 when none has image area.
 double mean_scale_factor(const std::vector<DistortionElement>& elements, const ComplexVector& z);
 
-/// Measured elements without positive image area.
-int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z);
+/// For maps that are yet to be placed: turned and scaled, which rounds their coordinates. Sines of this size, a
+/// thousand times rounding, survive that.
+constexpr FlipTolerance unplaced{1e-13, 0};
+
+/// Whether an element is measured and flipped or collapsed.
+bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance = {});
+
+/// How many are.
+int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
+                  const FlipTolerance& tolerance = {});
 
 }  // namespace spectral_conformal

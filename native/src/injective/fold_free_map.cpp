@@ -36,7 +36,7 @@ class FoldFree {
     FoldFreeMap result;
     result.z = std::move(given);
     if (result.z.size() > 0) {
-      result.folded_before = result.folded = count_folded(elements_, result.z);
+      result.folded_before = result.folded = count_flipped(elements_, result.z, unplaced);
       if (result.folded > 0) {
         const Progress first = part(progress_, 0, 0.3);
         result.folded = unfold_locally(elements_, patch_.held, patch_.backend, result.z, first);
@@ -115,63 +115,65 @@ class FoldFree {
   FoldFreeMap embed() {
     FoldFreeMap result;
     result.is_embedding = true;
-    result.z = convex_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress_, 0.3, 0.5));
-    const std::vector<DistortionElement> lifted = lifted_elements();
-    if (count_folded(lifted, result.z) > 0) {
-      unfold_locally(lifted, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
+    result.z = tutte_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress_, 0.3, 0.5));
+    const std::vector<DistortionElement> clamped = clamped_elements();
+    if (count_flipped(clamped, result.z, unplaced) > 0) {
+      unfold_locally(clamped, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
     }
-    relax(lifted, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
-    result.relaxation = relax(lifted, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
-    result.folded = count_folded(elements_, result.z);
+    relax(clamped, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
+    result.relaxation = relax(clamped, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
+    result.folded = count_flipped(elements_, result.z, unplaced);
     result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
     return result;
   }
 
-  /// The elements with a barrier each. In 3D degenerate triangles keep their vertices together and have no orientation;
-  /// here they are lifted to thin ones that have: the embedding must not turn over anywhere.
-  std::vector<DistortionElement> lifted_elements() const {
-    constexpr double least_height = 1e-3;
-    std::vector<DistortionElement> lifted = elements_;
+  /// The elements with a barrier each. Degenerate triangles otherwise keep their vertices together and have no
+  /// orientation; here their height and size are clamped so that they have one: the embedding must not flip anywhere.
+  std::vector<DistortionElement> clamped_elements() const {
+    // Relative to the longest side, and to the side of a mean triangle: thin enough not to show, QC of the order 1e3.
+    constexpr double min_height = 1e-3;
+    std::vector<DistortionElement> clamped = elements_;
     double area = 0;
     for (const DistortionElement& element : elements_) {
       if (element.barrier()) area += element.shape.area();
     }
-    const double least_side = least_height * std::sqrt(area / static_cast<double>(elements_.size()));
-    for (DistortionElement& element : lifted) {
+    const double min_side = min_height * std::sqrt(area / static_cast<double>(elements_.size()));
+    for (DistortionElement& element : clamped) {
       TriangleShape& shape = element.shape;
       if (element.barrier()) {
-        // A metric may have made it thinner than its image can be.
-        constexpr double least_of_image = 1e-9;
-        shape = shape.clamped_to(least_of_image);
+        // A metric may have made it thinner than its image can be in double precision.
+        constexpr double min_height_of_image = 1e-9;
+        shape = shape.clamped_to(min_height_of_image);
         continue;
       }
-      element.softening = 0;
+      element.regularization = 0;
       element.measured = true;
       const double height = shape.relative_height();
-      shape = shape.clamped_to(least_height);
+      shape = shape.clamped_to(min_height);
       const double side = std::sqrt(shape.area());
       // Without extent, local_isometric_frame made it equilateral, of side 1.
       const bool is_point = shape.clamped && height > 0.5;
-      const double scale = is_point || side < least_side ? least_side / side : 1;
+      const double scale = is_point || side < min_side ? min_side / side : 1;
       shape.x1 *= scale;
       shape.x2 *= scale;
       shape.y2 *= scale;
       element.weight = shape.area() / area;
     }
-    return lifted;
+    return clamped;
   }
 
-  /// Lessens the distortion without a new fold. None where that did no good and z stays.
+  /// Lowers the distortion without a new fold. None where that failed and z stays as it was.
   std::optional<Descent> relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
                                const Progress& progress, ComplexVector& z) const {
+    // Three times the default of a descent: an embedding begins far from its minimum.
     constexpr int max_factorizations = 60;
-    const int folded = count_folded(elements, z);
+    const int flipped = count_flipped(elements, z, unplaced);
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
     const Descent descent =
         descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
-    if (!relaxed.allFinite() || count_folded(elements, relaxed) > folded) return std::nullopt;
+    if (!relaxed.allFinite() || count_flipped(elements, relaxed, unplaced) > flipped) return std::nullopt;
     z = std::move(relaxed);
     return descent;
   }

@@ -11,7 +11,7 @@
 
 namespace spectral_conformal {
 
-/// A patch as fold_free_map needs it. Virtual vertices and triangles of the energy are not looked at.
+/// A chart as fold_free_map needs it. Virtual vertices and triangles of the energy are not used.
 struct FoldFreePatch {
   const ConformalEnergy& energy;
   Eigen::Ref<const Positions> positions;   ///< (V, 3)
@@ -25,7 +25,8 @@ struct FoldFreeMap {
   int folded_before = 0;      ///< triangles without positive image area in the given map
   int folded = 0;             ///< the same of z
   bool is_embedding = false;  ///< whether the given map had to be given up for an embedding
-  /// Of an embedding: how the last descent, of its conformal distortion, ended. None where that did no good.
+  /// Of an embedding: how the last descent, of its conformal distortion, ended. None where there was no such descent,
+  /// or its result was rejected.
   std::optional<Descent> relaxation;
   /// z has no folded triangle, its triangles go round every inner vertex once, and the outer loop round the map once:
   /// it is locally one-to-one.
@@ -34,7 +35,7 @@ struct FoldFreeMap {
 
 /// A map without folds, as near to a conformal one as it can be brought. Folded triangles of the given map are unfolded
 /// where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary winds
-/// round more than once, a convex embedding of the patch (tutte_embedding.h) is relaxed, first towards an isometry,
+/// round more than once, a Tutte embedding of the chart (tutte_embedding.h) is relaxed, first towards an isometry,
 /// then towards the least conformal distortion, without a step that folds a triangle (descent.h); not with
 /// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an
 /// edge), the other where there is room. Degenerate triangles have no fold.

@@ -12,7 +12,7 @@ struct BestScale {
   double energy = 0;
 };
 
-/// c^2 P + Q / c^2 is least at c^4 = Q / P.
+/// c^2 P + Q / c^2 is minimal at c^4 = Q / P.
 BestScale best_scale(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
   double p = 0;
   double q = 0;

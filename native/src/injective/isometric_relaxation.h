@@ -7,31 +7,23 @@
 #include "geometry/triangle_shape.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
+#include "spectral_conformal/relaxation_status.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-enum class RelaxationStatus {
-  converged,            ///< a step with a fresh factor took away less than IsometryOptions::tolerance
-  factorization_limit,  ///< IsometryOptions::max_factorizations came first: more of them would lower the energy further
-  stalled,              ///< the gradient promises more, but flips or rounding leave (almost) no step along it
-  indefinite_form,      ///< the quadratic form of the direction is not positive definite in double precision
-  no_image_area,        ///< no triangle of the given map has image area to measure: it is returned as it is
-  rejected              ///< the descent left more flipped triangles, or overflowed: the given map is returned
-};
-
 struct IsometryOptions {
-  /// Stop when a step with a fresh factor takes away less than this part of the energy above that of an isometry.
+  /// Stop when a step with a fresh factor takes away less than this fraction of the energy above that of an isometry.
   double tolerance = 1e-2;
   /// Bounds the time: each factorisation, with its steps, takes a few times as long as one of the conformal energy.
   int max_factorizations = 20;
 };
 
 /// Energies are the mean of s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2, s being the singular values of the triangles' Jacobians,
-/// weighted by triangle weight times area, at the uniform scale that makes it least: 4 for an isometry. Virtual
+/// weighted by triangle weight times area, at the uniform scale that minimises it: 4 for an isometry. Virtual
 /// triangles, clamped shapes and triangles whose image has next to no area are left out.
 struct IsometricMap {
-  ComplexVector z;           ///< (V,) u + i v, at the scale of least energy; the input where nothing could be done
+  ComplexVector z;           ///< (V,) u + i v, at the scale of minimum energy; the input where nothing could be done
   double energy_before = 0;  ///< of the input; 0 when no triangle of it could be measured
   double energy = 0;         ///< of z
   RelaxationStatus status = RelaxationStatus::no_image_area;  ///< why the descent ended
@@ -45,7 +37,7 @@ struct IsometricMap {
 /// Parameterization with Free Boundaries, 2015). The descent direction comes from a Dirichlet form that is reweighted
 /// like the one of Rabinovich, Poranne, Panozzo and Sorkine-Hornung (Scalable Locally Injective Mappings, 2017), but
 /// with one weight per triangle, so that one complex unknown per vertex is enough; L-BFGS steps (Liu and Nocedal 1989)
-/// reuse its factor. No step flips a triangle that has image area; those without are pulled in first.
+/// reuse its factor. No step flips a triangle that has image area; the determinants of those without are regularised.
 ///
 /// z (V,) finite, mostly counter-clockwise; triangles connected; shapes and triangle_weights (1, or 1/2 where both
 /// splits of a quad are present) per triangle. The last `n_virtual` triangles are virtual (see hole_filling.h): with a

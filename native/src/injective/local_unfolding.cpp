@@ -5,16 +5,9 @@
 #include <numeric>
 
 #include "injective/descent.h"
-#include "quality/flips.h"
 
 namespace spectral_conformal {
 namespace {
-
-bool is_folded(const DistortionElement& element, const ComplexVector& z) {
-  // The map is yet to be placed: turned and scaled, which rounds its coordinates. Sines of this size survive that.
-  constexpr FlipTolerance tolerance{1e-13, 0};
-  return element.measured && !is_positive(element.corners, z, tolerance);
-}
 
 /// The elements at each vertex.
 class Star {
@@ -38,7 +31,7 @@ class Star {
   std::vector<int> elements_;
 };
 
-/// The vertices that a part of the map may move, and all elements that these touch.
+/// The vertices that are free to move, and all elements that have one of them.
 struct Region {
   std::vector<int> free;
   std::vector<int> elements;
@@ -57,15 +50,15 @@ class Unfolding {
         log_scale_(vertex_log_scale()) {}
 
   int run() {
-    constexpr int most_rings = 64;
-    for (int rings = 1; rings <= most_rings; rings *= 2) {
+    constexpr int max_rings = 64;  // seven doublings; beyond, the whole map is free on all but large charts
+    for (int rings = 1; rings <= max_rings; rings *= 2) {
       done_ = std::log2(rings) / 7;
       report(progress_, done_, "unfold");
-      const std::vector<Region> regions = regions_around_folds(rings);
-      if (regions.empty()) break;  // nothing is folded, or nothing of it may move
+      const std::vector<Region> regions = regions_around_flips(rings);
+      if (regions.empty()) break;  // nothing is flipped, or nothing of it may move
       for (const Region& region : regions) unfold(region);
     }
-    return count_folded(elements_, z_);
+    return count_flipped(elements_, z_, unplaced);
   }
 
  private:
@@ -77,15 +70,15 @@ class Unfolding {
     std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
     std::vector<double> weight(sum.size(), 0);
     for (const DistortionElement& element : elements_) {
-      if (!element.measured || is_folded(element, z_)) continue;
+      if (!element.measured || is_flipped(element, z_, unplaced)) continue;
       const double logarithm = 0.5 * std::log(jacobian(element, z_).determinant);
       for (const int v : element.corners) {
         sum[v] += logarithm;
         weight[v] += 1;
       }
     }
-    constexpr int most_passes = 100;
-    for (int pass = 0; pass < most_passes; ++pass) {
+    constexpr int max_passes = 100;  // each reaches one ring further
+    for (int pass = 0; pass < max_passes; ++pass) {
       std::vector<int> without;
       std::vector<double> value;
       for (const DistortionElement& element : elements_) {
@@ -109,8 +102,8 @@ class Unfolding {
     return sum;
   }
 
-  /// The vertices within `rings` steps of a folded element, in connected parts.
-  std::vector<Region> regions_around_folds(int rings) const {
+  /// The vertices within `rings` edges of a flipped element, by connected components.
+  std::vector<Region> regions_around_flips(int rings) const {
     std::vector<char> near(static_cast<std::size_t>(z_.size()), 0);
     std::vector<int> reached;
     const auto reach = [&](int v) {
@@ -119,7 +112,7 @@ class Unfolding {
       reached.push_back(v);
     };
     for (const DistortionElement& element : elements_) {
-      if (!is_folded(element, z_)) continue;
+      if (!is_flipped(element, z_, unplaced)) continue;
       for (const int v : element.corners) reach(v);
     }
     std::size_t ring_begin = 0;
@@ -131,10 +124,10 @@ class Unfolding {
         }
       }
     }
-    return connected_parts(near, reached);
+    return connected_components(near, reached);
   }
 
-  std::vector<Region> connected_parts(std::vector<char>& near, const std::vector<int>& reached) const {
+  std::vector<Region> connected_components(std::vector<char>& near, const std::vector<int>& reached) const {
     std::vector<Region> regions;
     std::vector<char> taken(elements_.size(), 0);
     for (const int seed : reached) {
@@ -163,17 +156,17 @@ class Unfolding {
   }
 
   void unfold(const Region& region) {
-    // A problem of its own, with its own numbers for vertices.
+    // A problem of its own, with its own indices of vertices.
     std::vector<int> vertices;
     for (const int t : region.elements)
       vertices.insert(vertices.end(), elements_[t].corners.begin(), elements_[t].corners.end());
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    const auto number = [&](int v) {
+    const auto index = [&](int v) {
       return static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
     };
     std::vector<char> fixed(vertices.size(), 1);
-    for (const int v : region.free) fixed[number(v)] = 0;
+    for (const int v : region.free) fixed[index(v)] = 0;
     if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) fixed.clear();
     std::vector<DistortionElement> local;
     double log_scale = 0;
@@ -187,7 +180,7 @@ class Unfolding {
       element.shape.x2 *= scale;
       element.shape.y2 *= scale;
       element.weight = 1 / static_cast<double>(region.elements.size());
-      element.corners = {number(a), number(b), number(c)};
+      element.corners = {index(a), index(b), index(c)};
       local.push_back(element);
     }
     ComplexVector z(static_cast<Eigen::Index>(vertices.size()));
@@ -201,22 +194,22 @@ class Unfolding {
     }
   }
 
-  /// Whether fewer elements are folded than before.
+  /// Whether fewer elements are flipped than before.
   bool descend_to_unfold(std::vector<DistortionElement>& local, const std::vector<char>& fixed,
                          ComplexVector& z) const {
-    const int before = count_folded(local, z);
+    const int before = count_flipped(local, z, unplaced);
     const Progress still_there = [this](double, const char* phase) { return !progress_ || progress_(done_, phase); };
     descend(local, fixed, z, backend_, {DistortionMeasure::symmetric_dirichlet, 1e-2, 30}, still_there);
     if (!z.allFinite()) return false;
-    const int after = count_folded(local, z);
+    const int after = count_flipped(local, z, unplaced);
     if (after > 0) return after < before;
-    // The descent left some elements soft that hold by now.
+    // Some elements have too little area for the descent to have raised their barrier, but are not flipped.
     for (DistortionElement& element : local) {
-      if (element.without_area()) element.softening = 0;
+      if (element.without_area()) element.regularization = 0;
     }
     ComplexVector relaxed = z;
     descend(local, fixed, relaxed, backend_, {DistortionMeasure::conformal, 1e-3, 20}, still_there);
-    if (relaxed.allFinite() && count_folded(local, relaxed) == 0) z = std::move(relaxed);
+    if (relaxed.allFinite() && count_flipped(local, relaxed, unplaced) == 0) z = std::move(relaxed);
     return true;
   }
 
@@ -231,11 +224,6 @@ class Unfolding {
 };
 
 }  // namespace
-
-int count_folded(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
-  return static_cast<int>(std::count_if(elements.begin(), elements.end(),
-                                        [&](const DistortionElement& element) { return is_folded(element, z); }));
-}
 
 int unfold_locally(const std::vector<DistortionElement>& elements, const std::vector<char>& held,
                    FactorizationBackend backend, ComplexVector& z, const Progress& progress) {

@@ -15,62 +15,66 @@
 namespace spectral_conformal {
 namespace {
 
-struct Spring {
+/// Edges without length count as this fraction of the mean one: their vertices must come apart, too.
+constexpr double min_relative_length = 1e-3;
+
+struct WeightedEdge {
   int i;
   int j;
-  double length;  ///< in 3D
-  double weight = 1;
+  double length;      ///< in 3D
+  double weight = 1;  ///< positive: Tutte's equal weights to begin with
 };
 
-/// The edges of the triangles and the spokes of the holes, whose middles are the vertices from V on.
-std::vector<Spring> make_springs(const std::vector<std::array<int, 3>>& triangles,
-                                 const std::vector<BoundaryLoop>& loops, int outer,
-                                 const Eigen::Ref<const Positions>& positions) {
-  std::vector<std::pair<int, int>> edges;
-  edges.reserve(3 * triangles.size());
+/// The edges of the triangles, and those from each hole's loop to a vertex in its middle; the middles are the vertices
+/// from V on.
+std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& triangles,
+                                         const std::vector<BoundaryLoop>& loops, int outer,
+                                         const Eigen::Ref<const Positions>& positions) {
+  std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(3 * triangles.size());
   for (const auto& triangle : triangles) {
-    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax(triangle[k], triangle[(k + 1) % 3]));
+    for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangle[k], triangle[(k + 1) % 3]));
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  std::vector<Spring> springs;
-  springs.reserve(edges.size());
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<WeightedEdge> edges;
+  edges.reserve(pairs.size());
   double total = 0;
-  for (const auto& [i, j] : edges) {
-    springs.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
-    total += springs.back().length;
+  for (const auto& [i, j] : pairs) {
+    edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
+    total += edges.back().length;
   }
-  // Edges without length must have a place, too.
-  const double least = 1e-3 * total / static_cast<double>(edges.size());
-  for (Spring& spring : springs) spring.length = std::max(spring.length, least);
+  const double min_length = min_relative_length * total / static_cast<double>(pairs.size());
+  for (WeightedEdge& edge : edges) edge.length = std::max(edge.length, min_length);
   int middle = static_cast<int>(positions.rows());
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (static_cast<int>(k) == outer) continue;
-    const double radius = std::max(loop_length(loops[k], positions) / 6, least);
-    for (const int v : loops[k]) springs.push_back({v, middle, radius});
+    // About the radius of a circle of that length, 2 pi rounded down.
+    const double radius = std::max(loop_length(loops[k], positions) / 6, min_length);
+    for (const int v : loops[k]) edges.push_back({v, middle, radius});
     ++middle;
   }
-  return springs;
+  return edges;
 }
 
 /// Points of the unit circle, their distances in proportion to the loop's edges.
-void lay_on_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions, ComplexVector& z) {
-  const double least = 1e-3 * loop_length(loop, positions) / static_cast<double>(loop.size());
+void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions, ComplexVector& z) {
+  const double min_length = min_relative_length * loop_length(loop, positions) / static_cast<double>(loop.size());
   std::vector<double> reached{0};
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const double edge = (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
-    reached.push_back(reached.back() + std::max(edge, least));
+    reached.push_back(reached.back() + std::max(edge, min_length));
   }
   constexpr double pi = 3.14159265358979323846;
   for (std::size_t i = 0; i < loop.size(); ++i) z[loop[i]] = std::polar(1.0, 2 * pi * reached[i] / reached.back());
 }
 
-/// The equations of the vertices that are not on the circle.
-class Equilibrium {
+/// The Tutte system: each vertex that is not on the circle lies at the weighted mean of its neighbours.
+class TutteSystem {
  public:
-  Equilibrium(const std::vector<Spring>& springs, const BoundaryLoop& circle, Eigen::Index n,
+  TutteSystem(const std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n,
               FactorizationBackend backend)
-      : springs_(springs), unknown_(static_cast<std::size_t>(n), 0) {
+      : edges_(edges), unknown_(static_cast<std::size_t>(n), 0) {
     for (const int v : circle) unknown_[v] = -1;
     int count = 0;
     for (std::size_t v = 0; v < unknown_.size(); ++v) {
@@ -80,20 +84,20 @@ class Equilibrium {
     if (count > 0) factorization_ = make_factorization(backend, count);
   }
 
-  /// Moves all vertices but those on the circle to the weighted means of their neighbours.
+  /// Solves for all vertices of z but those on the circle, with the edges' present weights.
   void solve(ComplexVector& z) {
     if (n_unknown_ == 0) return;
     std::vector<Eigen::Triplet<Complex>> entries;
-    entries.reserve(3 * springs_.size());
-    ComplexVector pull = ComplexVector::Zero(n_unknown_);
-    for (const Spring& spring : springs_) {
-      const int i = unknown_[spring.i];
-      const int j = unknown_[spring.j];
-      if (i >= 0) entries.emplace_back(i, i, spring.weight);
-      if (j >= 0) entries.emplace_back(j, j, spring.weight);
-      if (i >= 0 && j >= 0) entries.emplace_back(std::max(i, j), std::min(i, j), -spring.weight);
-      if (i >= 0 && j < 0) pull[i] += spring.weight * z[spring.j];
-      if (j >= 0 && i < 0) pull[j] += spring.weight * z[spring.i];
+    entries.reserve(3 * edges_.size());
+    ComplexVector right_side = ComplexVector::Zero(n_unknown_);
+    for (const WeightedEdge& edge : edges_) {
+      const int i = unknown_[edge.i];
+      const int j = unknown_[edge.j];
+      if (i >= 0) entries.emplace_back(i, i, edge.weight);
+      if (j >= 0) entries.emplace_back(j, j, edge.weight);
+      if (i >= 0 && j >= 0) entries.emplace_back(std::max(i, j), std::min(i, j), -edge.weight);
+      if (i >= 0 && j < 0) right_side[i] += edge.weight * z[edge.j];
+      if (j >= 0 && i < 0) right_side[j] += edge.weight * z[edge.i];
     }
     HermitianMatrix matrix(n_unknown_, n_unknown_);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -101,30 +105,30 @@ class Equilibrium {
     analyzed_ = true;
     if (!factorization_->factorize(matrix)) {
       throw SolveFailure("The embedding into a circle could not be solved in double precision",
-                         "add seams that make the patch flatter.");
+                         "add seams that make the island flatter.");
     }
-    ComplexVector place;
-    factorization_->solve(pull, place);
+    ComplexVector solution;
+    factorization_->solve(right_side, solution);
     for (std::size_t v = 0; v < unknown_.size(); ++v) {
-      if (unknown_[v] >= 0) z[static_cast<Eigen::Index>(v)] = place[unknown_[v]];
+      if (unknown_[v] >= 0) z[static_cast<Eigen::Index>(v)] = solution[unknown_[v]];
     }
   }
 
  private:
-  const std::vector<Spring>& springs_;
-  std::vector<int> unknown_;  ///< number of the unknown of each vertex, -1 on the circle
+  const std::vector<WeightedEdge>& edges_;
+  std::vector<int> unknown_;  ///< index of the unknown of each vertex, -1 on the circle
   int n_unknown_ = 0;
   std::unique_ptr<Factorization> factorization_;
   bool analyzed_ = false;
 };
 
 /// The logarithm of every edge's length in the plane over that in 3D.
-std::vector<double> log_stretch(const std::vector<Spring>& springs, const ComplexVector& z) {
-  constexpr double least = 1e-15;
+std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const ComplexVector& z) {
+  constexpr double min_distance = 1e-15;  // rounding leaves no shorter ones in the unit circle
   std::vector<double> result;
-  result.reserve(springs.size());
-  for (const Spring& spring : springs) {
-    result.push_back(std::log(std::max(std::abs(z[spring.i] - z[spring.j]), least) / spring.length));
+  result.reserve(edges.size());
+  for (const WeightedEdge& edge : edges) {
+    result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), min_distance) / edge.length));
   }
   return result;
 }
@@ -140,21 +144,22 @@ double variance(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Weakens the springs along edges that are short in the plane for their length in 3D, and strengthens the others.
-void spread(std::vector<Spring>& springs, const std::vector<double>& log_stretch) {
-  constexpr double most = 23;  // a factor of 1e10
+/// Lowers the weights of edges that are short in the plane for their length in 3D, and raises those of the others: by
+/// the root of the stretch, since the lengths answer to the weights of whole neighbourhoods.
+void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
+  constexpr double max_log = 23;  // the changes of one round span 1e10 at most, which double precision solves
   const double centre = mean(log_stretch);
-  for (std::size_t k = 0; k < springs.size(); ++k) {
-    springs[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -most, most));
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    edges[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -max_log, max_log));
   }
 }
 
-/// For every vertex the least number of springs to the circle.
-std::vector<int> steps_from_circle(const std::vector<Spring>& springs, const BoundaryLoop& circle, Eigen::Index n) {
+/// For every vertex the least number of edges to the circle.
+std::vector<int> edges_from_circle(const std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
   std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(n));
-  for (const Spring& spring : springs) {
-    neighbours[spring.i].push_back(spring.j);
-    neighbours[spring.j].push_back(spring.i);
+  for (const WeightedEdge& edge : edges) {
+    neighbours[edge.i].push_back(edge.j);
+    neighbours[edge.j].push_back(edge.i);
   }
   std::vector<int> steps(neighbours.size(), -1);
   std::vector<int> reached(circle.begin(), circle.end());
@@ -169,12 +174,12 @@ std::vector<int> steps_from_circle(const std::vector<Spring>& springs, const Bou
   return steps;
 }
 
-/// Nearly slack springs between vertices that are equally far from the circle: what goes round a limb no longer draws
-/// it together, so that its rings follow each other at even distances.
-void loosen_rings(std::vector<Spring>& springs, const BoundaryLoop& circle, Eigen::Index n) {
-  constexpr double slack = 1e-6;
-  const std::vector<int> steps = steps_from_circle(springs, circle, n);
-  for (Spring& spring : springs) spring.weight = steps[spring.i] == steps[spring.j] ? slack : 1;
+/// Nearly removes the edges between vertices that are equally far from the circle: what goes round a limb then no
+/// longer contracts it, so that its rings follow each other at even distances.
+void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
+  constexpr double weak = 1e-6;  // positive, as the theorem asks, and far above rounding beside 1
+  const std::vector<int> steps = edges_from_circle(edges, circle, n);
+  for (WeightedEdge& edge : edges) edge.weight = steps[edge.i] == steps[edge.j] ? weak : 1;
 }
 
 struct Embedding {
@@ -183,41 +188,41 @@ struct Embedding {
   double unevenness = 0;  ///< variance of log_stretch
 };
 
-/// The best of several rounds, each of which spreads the last one.
-Embedding spread_embedding(const std::vector<std::array<int, 3>>& triangles, std::vector<Spring>& springs,
-                           Equilibrium& equilibrium, ComplexVector z, const Progress& progress) {
+/// The best of several rounds, each of which reweights the last one.
+Embedding reweighted_embedding(const std::vector<std::array<int, 3>>& triangles, std::vector<WeightedEdge>& edges,
+                               TutteSystem& system, ComplexVector z, const Progress& progress) {
   Embedding best;
-  constexpr int rounds = 10;
+  constexpr int rounds = 10;  // bounds the time: one factorisation each
   for (int round = 0; round < rounds; ++round) {
     report(progress, static_cast<double>(round) / rounds, "embedding");
-    equilibrium.solve(z);
-    const std::vector<double> stretch = log_stretch(springs, z);
+    system.solve(z);
+    const std::vector<double> stretch = log_stretch(edges, z);
     const int flipped = static_cast<int>(non_positive_triangles(triangles, z).size());
     const double unevenness = variance(stretch);
     if (round == 0 || std::tie(flipped, unevenness) < std::tie(best.flipped, best.unevenness)) {
       best = {z, flipped, unevenness};
     }
-    spread(springs, stretch);
+    reweight(edges, stretch);
   }
   return best;
 }
 
 }  // namespace
 
-ComplexVector convex_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
-                               int outer, const Eigen::Ref<const Positions>& positions, FactorizationBackend backend,
-                               const Progress& progress) {
-  std::vector<Spring> springs = make_springs(triangles, loops, outer, positions);
+ComplexVector tutte_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
+                              int outer, const Eigen::Ref<const Positions>& positions, FactorizationBackend backend,
+                              const Progress& progress) {
+  std::vector<WeightedEdge> edges = weighted_edges(triangles, loops, outer, positions);
   const BoundaryLoop& circle = loops[static_cast<std::size_t>(outer)];
   const Eigen::Index n = positions.rows() + static_cast<Eigen::Index>(loops.size()) - 1;
   ComplexVector z = ComplexVector::Zero(n);
-  lay_on_circle(circle, positions, z);
-  Equilibrium equilibrium(springs, circle, n, backend);
-  Embedding best = spread_embedding(triangles, springs, equilibrium, z, part(progress, 0, 0.5));
+  map_to_circle(circle, positions, z);
+  TutteSystem equations(edges, circle, n, backend);
+  Embedding best = reweighted_embedding(triangles, edges, equations, z, part(progress, 0, 0.5));
   if (best.flipped > 0) {
-    loosen_rings(springs, circle, n);
-    Embedding loose = spread_embedding(triangles, springs, equilibrium, z, part(progress, 0.5, 1));
-    if (loose.flipped < best.flipped) best = std::move(loose);
+    weaken_rings(edges, circle, n);
+    Embedding other = reweighted_embedding(triangles, edges, equations, z, part(progress, 0.5, 1));
+    if (other.flipped < best.flipped) best = std::move(other);
   }
   return best.z.head(positions.rows());
 }

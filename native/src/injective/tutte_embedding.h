@@ -9,20 +9,20 @@
 
 namespace spectral_conformal {
 
-/// An embedding of a disk, holes allowed, into the unit circle: the outer loop lies on the circle, by its lengths in
-/// 3D, and every other vertex at a weighted mean of its neighbours, with positive weights; holes are closed by a vertex
-/// in their middle. It is one-to-one by theorem (Tutte, How to Draw a Graph, 1963; Floater, One-to-One Piecewise Linear
-/// Mappings over Triangulations, 2003), so that no triangle is flipped, as far as double precision tells apart what
-/// shrinks towards the middle. The weights begin equal and are then lowered along edges that became short for their
-/// length in 3D, a few times, which the theorem allows and which spreads the vertices. Where that leaves flips, because
-/// long limbs shrink beyond double precision, the weights begin anew, near zero between vertices equally many edges
-/// away from the outer loop.
+/// A Tutte embedding of a disk, holes allowed, into the unit circle: the outer loop lies on the circle, by its lengths
+/// in 3D, and every other vertex at a weighted mean of its neighbours, with positive weights; each hole is closed by a
+/// vertex in its middle. By Tutte's theorem (How to Draw a Graph, 1963), for weighted means by Floater (Parametrization
+/// and Smooth Approximation of Surface Triangulations, 1997; One-to-One Piecewise Linear Mappings over Triangulations,
+/// 2003), it is one-to-one: no triangle is flipped, as far as double precision resolves what shrinks towards the
+/// middle. The weights begin equal and are then lowered along edges that became short for their length in 3D, a few
+/// times, which the theorem allows and which spreads the vertices. Where that leaves flips, because long limbs shrink
+/// below double precision, the weights begin anew, near zero between vertices equally many edges away from the circle.
 ///
-/// triangles: one triangulation of the patch, counter-clockwise; loops: as in Chart; positions (V, 3) finite.
-/// Returns (V,). Throws SolveFailure when the equations cannot be solved in double precision, Cancelled, and what
-/// Factorization throws.
-ComplexVector convex_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
-                               int outer, const Eigen::Ref<const Positions>& positions, FactorizationBackend backend,
-                               const Progress& progress = {});
+/// triangles (F, 3): one triangulation of the chart, counter-clockwise; loops: as in Chart, `outer` the index of the
+/// outer one; positions (V, 3) finite. Returns (V,). Throws SolveFailure when the Tutte system cannot be solved in
+/// double precision, Cancelled, and what Factorization throws.
+ComplexVector tutte_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
+                              int outer, const Eigen::Ref<const Positions>& positions, FactorizationBackend backend,
+                              const Progress& progress = {});
 
 }  // namespace spectral_conformal

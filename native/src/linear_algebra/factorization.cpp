@@ -12,7 +12,7 @@ void check_factor_size(double nonzeros) {
   // Both libraries number the entries of a factor with ints here.
   constexpr int limit = std::numeric_limits<int>::max();
   if (nonzeros <= limit) return;
-  throw SolveFailure("The patch is too large: its factor would have more than " + std::to_string(limit) + " entries",
+  throw SolveFailure("The island is too large: its factor would have more than " + std::to_string(limit) + " entries",
                      "cut it into smaller islands with seams.");
 }
 

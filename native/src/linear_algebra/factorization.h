@@ -3,15 +3,10 @@
 #include <memory>
 #include <string>
 
+#include "spectral_conformal/options.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-enum class FactorizationBackend {
-  automatic,  ///< CHOLMOD where the module was built with it and the matrix is not tiny, otherwise Eigen
-  cholmod,    ///< SuiteSparse CHOLMOD, supernodal L L^H
-  eigen       ///< Eigen's SimplicialLDLT
-};
 
 /// The factorisation of one Hermitian positive definite matrix and the solves with it. Owns all its memory: different
 /// objects can be used in different threads at once, one object by one thread at a time (solves share its workspace).

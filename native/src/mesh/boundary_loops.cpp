@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <limits>
-#include <queue>
+
+#include "graph/adjacency.h"
+#include "graph/shortest_paths.h"
 
 namespace spectral_conformal {
 
@@ -31,56 +31,35 @@ int outer_loop(const std::vector<BoundaryLoop>& loops, const Eigen::Ref<const Po
 
 namespace {
 
-/// Both directions of every edge of the matrix's pattern.
-struct EdgeGraph {
-  std::vector<int> start;
-  std::vector<int> neighbour;
-
-  explicit EdgeGraph(const HermitianMatrix& matrix) : start(static_cast<std::size_t>(matrix.cols()) + 1, 0) {
-    const auto each = [&](auto&& visit) {
-      for (int column = 0; column < matrix.outerSize(); ++column) {
-        for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
-          if (it.row() == column) continue;
-          visit(column, static_cast<int>(it.row()));
-          visit(static_cast<int>(it.row()), column);
-        }
-      }
-    };
-    each([&](int a, int) { ++start[a + 1]; });
-    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-    neighbour.resize(static_cast<std::size_t>(start.back()));
-    std::vector<int> fill(start.begin(), start.end() - 1);
-    each([&](int a, int b) { neighbour[fill[a]++] = b; });
-  }
-};
-
-std::vector<double> distances_from(int source, const EdgeGraph& graph, const Eigen::Ref<const Positions>& positions) {
-  using Item = std::pair<double, int>;
-  std::vector<double> distance(graph.start.size() - 1, std::numeric_limits<double>::infinity());
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-  distance[source] = 0;
-  queue.emplace(0.0, source);
-  while (!queue.empty()) {
-    const auto [d, vertex] = queue.top();
-    queue.pop();
-    if (d > distance[vertex]) continue;
-    for (int k = graph.start[vertex]; k < graph.start[vertex + 1]; ++k) {
-      const int other = graph.neighbour[k];
-      const double through = d + (positions.row(other) - positions.row(vertex)).norm();
-      if (through < distance[other]) {
-        distance[other] = through;
-        queue.emplace(through, other);
+/// The graph of the matrix's pattern; its arcs have no numbers.
+Adjacency graph_of(const HermitianMatrix& matrix) {
+  return Adjacency::from_arcs(static_cast<int>(matrix.cols()), [&](auto&& visit) {
+    for (int column = 0; column < matrix.outerSize(); ++column) {
+      for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
+        if (it.row() == column) continue;
+        visit(column, -1, static_cast<int>(it.row()));
+        visit(static_cast<int>(it.row()), -1, column);
       }
     }
+  });
+}
+
+std::vector<double> distances_from(int source, const Adjacency& graph, const Eigen::Ref<const Positions>& positions) {
+  ShortestPathSearch search(graph.n_nodes());
+  search.offer(source, 0);
+  for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
+    for (const auto& arc : graph.arcs(vertex)) {
+      search.offer(arc.to, search.distance(vertex) + (positions.row(arc.to) - positions.row(vertex)).norm());
+    }
   }
-  return distance;
+  return search.distances();
 }
 
 }  // namespace
 
 std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
                                               const HermitianMatrix& neighbours) {
-  const EdgeGraph graph(neighbours);
+  const Adjacency graph = graph_of(neighbours);
   std::array<int, 2> pair{loop.front(), loop.front()};
   double farthest = -1;
   constexpr int max_sweeps = 6;     // two are exact on a tree; further ones only lengthen the path

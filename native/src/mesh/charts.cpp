@@ -5,35 +5,11 @@
 #include <utility>
 
 #include "geometry/polygon_triangulation.h"
+#include "graph/disjoint_sets.h"
 #include "mesh/half_edges.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// Disjoint sets of corners; the root of a set is its smallest corner, whatever the order of the unions.
-class CornerSets {
- public:
-  explicit CornerSets(int n) : parent_(static_cast<std::size_t>(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int corner) {
-    while (parent_[corner] != corner) {
-      parent_[corner] = parent_[parent_[corner]];
-      corner = parent_[corner];
-    }
-    return corner;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    if (a < b) {
-      parent_[b] = a;
-    } else {
-      parent_[a] = b;
-    }
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct Components {
   std::vector<int> chart_of_face;
@@ -193,7 +169,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
   Components components = connect(mesh, half_edges);
   result.chart_of_face = std::move(components.chart_of_face);
 
-  CornerSets fans(half_edges.n_corners());
+  DisjointSets fans(half_edges.n_corners());
   for (int c = 0; c < half_edges.n_corners(); ++c) {
     const int other = half_edges.twin(c);
     if (other < c) continue;

@@ -8,12 +8,6 @@
 
 namespace spectral_conformal {
 
-/// Pins on face corners, as a UV map has them, in the caller's arrays. Nothing is owned.
-struct CornerPins {
-  const bool* pinned = nullptr;  ///< (C,) or null for no pins
-  const double* uv = nullptr;    ///< (C, 2) the map so far; finite at pinned corners
-};
-
 /// A mesh whose vertices are split where their pins differ, as Blender does: each selected corner of such a vertex goes
 /// to the copy whose pin is nearest to its UV; the first pin keeps the vertex. Seams run along all copies of an edge.
 class PinSplitMesh {

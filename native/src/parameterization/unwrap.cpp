@@ -4,22 +4,14 @@
 #include <array>
 #include <utility>
 
+#include "conformal/conformal_energy.h"
+#include "mesh/charts.h"
+#include "mesh/corner_pins.h"
+#include "parameterization/chart_metric.h"
 #include "quality/overlap.h"
+#include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
-
-std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric) {
-  std::vector<TriangleMetric> result;
-  if (metric == nullptr) return result;
-  const Positions positions = chart.positions(mesh);
-  result.reserve(chart.triangles.size());
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const auto& [a, b, c] = chart.triangles[t];
-    result.push_back(restrict_to_triangle(metric[chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]],
-                                          positions.row(a), positions.row(b), positions.row(c)));
-  }
-  return result;
-}
 
 namespace {
 
@@ -107,6 +99,9 @@ class ChartUnwrapper {
       report.clamped_triangles = solution.clamped_triangles;
       report.eigenvalue_of = solution.eigenvalue_of;
       report.attempts = solution.attempts;
+      report.relaxation = solution.relaxation;
+      report.scale_deviation_before = solution.scale_deviation_before;
+      report.scale_deviation = solution.scale_deviation;
       report.message = solution.message;
       report.eigenvalue = solution.eigenvalue;
       report.residual = solution.residual;
@@ -199,16 +194,16 @@ void add_degenerate_faces(const Cut& cut, Unwrap& result) {
   result.charts.push_back(std::move(unusable));
 }
 
-/// The share of each chart in the work, by faces: where it begins and ends, 0 to 1.
-std::vector<std::pair<double, double>> shares(const std::vector<Chart>& charts) {
+/// The fraction of the work that each chart takes, by faces: where it begins and ends, 0 to 1.
+std::vector<std::pair<double, double>> work_fractions(const std::vector<Chart>& charts) {
   double total = 1e-9;
   for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
   std::vector<std::pair<double, double>> result;
   double done = 0;
   for (const Chart& chart : charts) {
-    const double share = static_cast<double>(chart.faces.size()) / total;
-    result.push_back({0.05 + 0.95 * done, 0.05 + 0.95 * (done + share)});
-    done += share;
+    const double fraction = static_cast<double>(chart.faces.size()) / total;
+    result.push_back({0.05 + 0.95 * done, 0.05 + 0.95 * (done + fraction)});
+    done += fraction;
   }
   return result;
 }
@@ -219,7 +214,7 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   report(progress, 0.0, "charts");
   Cut cut(mesh, options.corner_pins);
   Unwrap result = empty_result(cut, options.extenders.size());
-  const auto parts = shares(cut.decomposition.charts);
+  const auto parts = work_fractions(cut.decomposition.charts);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     // Moved in, so that each gives its memory back before the next solve.
     ChartUnwrapper chart(cut, std::move(cut.decomposition.charts[i]), options);
@@ -235,7 +230,7 @@ struct Unwrapper::State {
   std::vector<std::pair<double, double>> parts;
   std::vector<ChartUnwrapper> charts;
   State(const PolygonMesh& mesh, const UnwrapOptions& options)
-      : cut(mesh, options.corner_pins), parts(shares(cut.decomposition.charts)) {
+      : cut(mesh, options.corner_pins), parts(work_fractions(cut.decomposition.charts)) {
     charts.reserve(parts.size());
     for (Chart& chart : cut.decomposition.charts) charts.emplace_back(cut, std::move(chart), options);
   }

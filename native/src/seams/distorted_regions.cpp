@@ -8,8 +8,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Extrema of the scale that are less prominent than this, as log2, are left alone.
-constexpr double least_prominence = 0.25;
+/// Extrema of the scale that are less prominent than this, as log2, are left alone: a factor of 1.2, hardly seen.
+constexpr double min_prominence = 0.25;
 
 /// Per vertex of a chart: 0 inside, 1 on the outer loop, 2 on another.
 std::vector<char> loop_of_vertex(const PolygonMesh& mesh, const Chart& chart) {
@@ -23,18 +23,18 @@ std::vector<char> loop_of_vertex(const PolygonMesh& mesh, const Chart& chart) {
 
 }  // namespace
 
-std::vector<DistortedPlace> scale_extrema(const PolygonMesh& mesh, const MappedChart& mapped,
-                                          double median_log2_scale) {
-  std::vector<DistortedPlace> places;
+std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialMap& mapped, double median_log2_scale) {
+  std::vector<DistortedRegion> regions;
   const Chart& chart = mapped.chart;
   std::vector<double> area(chart.vertices.size(), 0);
   std::vector<double> field(chart.vertices.size(), 0);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const int face = chart.triangle_face[t];
-    const double share = chart.triangle_weights[t] * mapped.area[face] + 1e-300;
+    // Above 0 for triangles without area, which count where a vertex has no others.
+    const double weight = chart.triangle_weights[t] * mapped.area[face] + 1e-300;
     for (const int v : chart.triangles[t]) {
-      area[v] += share;
-      field[v] += share * mapped.log2_scale[face];
+      area[v] += weight;
+      field[v] += weight * mapped.log2_scale[face];
     }
   }
   for (std::size_t v = 0; v < field.size(); ++v) {
@@ -44,16 +44,16 @@ std::vector<DistortedPlace> scale_extrema(const PolygonMesh& mesh, const MappedC
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> signed_field = field;
     for (double& value : signed_field) value *= sign;
-    for (const FieldMinimum& minimum : prominent_minima(signed_field, area, chart.triangles, 0, least_prominence)) {
+    for (const FieldMinimum& minimum : prominent_minima(signed_field, area, chart.triangles, 0, min_prominence)) {
       if (loop[minimum.vertex] == 1 || (loop[minimum.vertex] == 2 && sign < 0)) continue;
-      places.push_back({chart.vertices[minimum.vertex], loop[minimum.vertex] == 2, minimum.volume});
+      regions.push_back({chart.vertices[minimum.vertex], loop[minimum.vertex] == 2, minimum.volume});
     }
   }
-  return places;
+  return regions;
 }
 
-std::vector<DistortedPlace> angle_peaks(const PolygonMesh& mesh, const MappedChart& mapped) {
-  std::vector<DistortedPlace> places;
+std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped) {
+  std::vector<DistortedRegion> regions;
   const Chart& chart = mapped.chart;
   std::vector<double> excess(chart.vertices.size(), 0);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
@@ -71,9 +71,9 @@ std::vector<DistortedPlace> angle_peaks(const PolygonMesh& mesh, const MappedCha
   }
   const std::vector<char> loop = loop_of_vertex(mesh, chart);
   for (int v = 0; v < chart.n_vertices(); ++v) {
-    if (highest[v] != 0 && loop[v] != 1) places.push_back({chart.vertices[v], loop[v] == 2, excess[v]});
+    if (highest[v] != 0 && loop[v] != 1) regions.push_back({chart.vertices[v], loop[v] == 2, excess[v]});
   }
-  return places;
+  return regions;
 }
 
 }  // namespace spectral_conformal

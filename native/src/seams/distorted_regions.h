@@ -6,8 +6,8 @@
 
 namespace spectral_conformal {
 
-/// A place where a cut would lower the distortion of a map.
-struct DistortedPlace {
+/// Where a cut would lower the distortion of a map: the surroundings of an extremum.
+struct DistortedRegion {
   int vertex;     ///< of the mesh that the chart is of
   bool on_loop;   ///< on the loop of a hole, not inside
   double volume;  ///< how much distortion there is around, weighted by area
@@ -15,9 +15,9 @@ struct DistortedPlace {
 
 /// The prominent extrema of the scale's logarithm about the median (see field_extrema.h) that are not on the outer
 /// loop: minima, and inside the chart maxima. `mesh` is the one that the chart was built from.
-std::vector<DistortedPlace> scale_extrema(const PolygonMesh& mesh, const MappedChart& mapped, double median_log2_scale);
+std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialMap& mapped, double median_log2_scale);
 
 /// Vertices, not on the outer loop, whose faces have more QC in excess of 1 than those of their neighbours.
-std::vector<DistortedPlace> angle_peaks(const PolygonMesh& mesh, const MappedChart& mapped);
+std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped);
 
 }  // namespace spectral_conformal

@@ -8,7 +8,7 @@ namespace spectral_conformal {
 /// A local minimum of a function on the vertices of a mesh.
 struct FieldMinimum {
   int vertex;
-  double prominence;  ///< how far the function has to rise on the way to a lower minimum
+  double prominence;  ///< how far the function has to rise on every path to a lower minimum
   double volume;      ///< of its basin below that level: the area-weighted sum of (level - value)
 };
 

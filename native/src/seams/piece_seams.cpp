@@ -6,19 +6,19 @@
 #include <utility>
 
 #include "mesh/boundary_loops.h"
-#include "seams/cut_graph.h"
+#include "seams/handle_cuts.h"
 
 namespace spectral_conformal {
 namespace {
 
 /// Edges of the mirror plane are where artists look for seams first.
 constexpr double axis_discount = 0.7;
-/// No island gets less than this part of the area of the chart that it is cut from.
-constexpr double least_island = 0.02;
+/// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
+constexpr double min_island = 0.02;
 
 }  // namespace
 
-PieceSeams::PieceSeams(const SeamPiece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
+PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
     : piece_(&piece),
       graph_(piece.view()),
       mirror_(std::move(mirror)),
@@ -208,7 +208,7 @@ void PieceSeams::clear_of_image(const std::vector<double>& area, std::vector<cha
 
 SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<int>& sources,
                                 const std::vector<int>& sinks, int chart, const std::vector<int>& chart_of_face) const {
-  std::vector<char> side = separating_side(faces, sources, sinks, least_island);
+  std::vector<char> side = separating_side(faces, sources, sinks, min_island);
   if (self_mirrored(chart, chart_of_face)) clear_of_image(faces.area, side);
   SeamEdges cut;
   for (int e = 0; e < n_edges(); ++e) {

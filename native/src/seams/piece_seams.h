@@ -5,8 +5,8 @@
 
 #include "mesh/charts.h"
 #include "mesh/mirror_symmetry.h"
+#include "seams/pieces.h"
 #include "seams/seam_graph.h"
-#include "seams/seam_piece.h"
 #include "seams/separating_cut.h"
 
 namespace spectral_conformal {
@@ -14,14 +14,14 @@ namespace spectral_conformal {
 /// Edges of a SeamGraph, by number.
 using SeamEdges = std::vector<int>;
 
-/// The new seams of a piece, and the ways to extend them. Where the piece is its own mirror image, every cut comes with
-/// its image and keeps to one half, so that both together enclose nothing.
+/// The new seams of a piece, and the cuts that extend them. Where the piece is its own mirror image, every cut comes
+/// with its image and keeps to one half, so that both together enclose nothing.
 class PieceSeams {
  public:
   /// The piece must outlive this object; `index` is its number. Coordinates must be finite.
-  PieceSeams(const SeamPiece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry);
+  PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry);
 
-  const SeamPiece& piece() const { return *piece_; }
+  const Piece& piece() const { return *piece_; }
   const SeamGraph& graph() const { return graph_; }
   /// The new seams so far.
   const SeamEdges& edges() const { return edges_; }
@@ -59,7 +59,7 @@ class PieceSeams {
   SeamEdges symmetric_outer_loop() const;
   void clear_of_image(const std::vector<double>& area, std::vector<char>& side) const;
 
-  const SeamPiece* piece_;
+  const Piece* piece_;
   SeamGraph graph_;
   PieceMirror mirror_;
   bool symmetric_;                 ///< cuts come with their images

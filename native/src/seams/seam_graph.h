@@ -4,11 +4,12 @@
 #include <functional>
 #include <vector>
 
+#include "graph/adjacency.h"
 #include "mesh/charts.h"
 
 namespace spectral_conformal {
 
-/// The edges of a polygon mesh as ways that a seam can take. Edges between two faces are free unless they are seams;
+/// The edges of a polygon mesh as paths that a seam can take. Edges between two faces are free unless they are seams;
 /// all others are cut already.
 class SeamGraph {
  public:
@@ -19,31 +20,25 @@ class SeamGraph {
     double cost;  ///< the length, lowered along sharp edges, most along concave ones, where seams are seen least
     bool cut;     ///< seam, or not between exactly two faces
   };
-  /// An edge as it leaves a vertex.
-  struct Arc {
-    int edge;
-    int to;
-  };
 
   /// Takes the selected faces and the seams of `mesh`. Coordinates must be finite.
   explicit SeamGraph(const PolygonMesh& mesh);
 
-  int n_vertices() const { return static_cast<int>(start_.size()) - 1; }
+  int n_vertices() const { return adjacency_.n_nodes(); }
   const std::vector<Edge>& edges() const { return edges_; }
-  /// The arcs [first_arc(v), first_arc(v + 1)) leave vertex v.
-  int first_arc(int vertex) const { return start_[vertex]; }
-  const Arc& arc(int index) const { return arcs_[index]; }
+  /// The vertices as nodes, with the numbers of the edges.
+  const Adjacency& adjacency() const { return adjacency_; }
   /// The edge between two vertices, or -1.
   int find_edge(int a, int b) const;
   void cut(int edge) { edges_[edge].cut = true; }
   void scale_cost(int edge, double factor) { edges_[edge].cost *= factor; }
 
-  /// Cost of the cheapest way of every vertex to a source along `allowed` edges, cut ones being free; infinite where
-  /// there is no way. With `parent`, the edge by which each vertex is reached from its source, or -1.
+  /// Cost of the cheapest path from every vertex to a source along `allowed` edges, cut ones being free; infinite where
+  /// there is no path. With `parent`, the edge by which each vertex is reached from its source, or -1.
   std::vector<double> distances(const std::vector<int>& sources, const std::function<bool(int edge)>& allowed,
                                 std::vector<int>* parent = nullptr) const;
-  /// The cheapest way from a vertex to the nearest target, as edges in order; empty where there is none or the start is
-  /// a target. Turns cost too, so that of the many shortest ways over a grid a straight one is taken; cut edges are
+  /// The cheapest path from a vertex to the nearest target, as edges in order; empty where there is none or the start
+  /// is a target. Turns cost too, so that of the many shortest paths over a grid a straight one is taken; cut edges are
   /// free. `allowed(edge, from)` says whether an edge may be walked from a vertex.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;
@@ -51,12 +46,11 @@ class SeamGraph {
  private:
   void collect_edges(const PolygonMesh& mesh);
   void price_edges(const PolygonMesh& mesh);
-  double turn_cost(int vertex, const Arc& in, const Arc& out) const;
+  double turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const;
 
   Positions positions_;
   std::vector<Edge> edges_;
-  std::vector<int> start_;
-  std::vector<Arc> arcs_;
+  Adjacency adjacency_;
 };
 
 }  // namespace spectral_conformal

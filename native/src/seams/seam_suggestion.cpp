@@ -6,15 +6,17 @@
 #include <set>
 
 #include "mesh/mirror_symmetry.h"
+#include "seams/cutter.h"
 #include "seams/piece_seams.h"
-#include "seams/seam_piece.h"
+#include "seams/pieces.h"
 
 namespace spectral_conformal {
 namespace {
 
-constexpr int most_steps = 300;
+/// Far above what any mesh took (at most 112 cuts on those of the tests): a bound, not a limit.
+constexpr int max_steps = 300;
 
-bool has_extent(const SeamPiece& piece) {
+bool has_extent(const Piece& piece) {
   if (!piece.positions.allFinite()) return false;
   const double extent = (piece.positions.colwise().maxCoeff() - piece.positions.colwise().minCoeff()).maxCoeff();
   return extent > 0 && std::isfinite(extent);
@@ -27,7 +29,7 @@ class SeamFinder {
       : options_(options), progress_(progress), length_left_(options.max_length) {
     report(progress, 0.0, "charts");
     const ChartDecomposition decomposition = build_charts(mesh);
-    pieces_ = seam_pieces(mesh, decomposition);
+    pieces_ = split_into_pieces(mesh, decomposition);
     symmetry_ = find_mirror_symmetry(mesh);
     mirrors_ = mirror_pieces(mesh, decomposition, pieces_, symmetry_);
     cutters_.resize(pieces_.size());
@@ -38,7 +40,7 @@ class SeamFinder {
     for (auto& cutter : cutters_) {
       if (cutter) cutter->solve(quiet());
     }
-    for (steps_ = 1; steps_ <= most_steps; ++steps_) {
+    for (steps_ = 1; steps_ <= max_steps; ++steps_) {
       const int next = most_urgent();
       if (next < 0) break;
       const auto i = static_cast<std::size_t>(next);
@@ -56,7 +58,7 @@ class SeamFinder {
     report(progress_, 0.02, "seams");
     PieceSeams seams(pieces_[i], static_cast<int>(i), mirrors_[i], symmetry_);
     for (const SeamEdges& cut : seams.open()) add(i, seams, cut);
-    cutters_[i] = std::make_unique<PieceCutter>(std::move(seams), options_);
+    cutters_[i] = std::make_unique<Cutter>(std::move(seams), options_);
   }
   /// Solves report that they go on, not how far they are; the fraction done only rises.
   Progress quiet() const {
@@ -99,10 +101,10 @@ class SeamFinder {
   const Progress& progress_;
   double length_left_;
   int steps_ = 0;
-  std::vector<SeamPiece> pieces_;
+  std::vector<Piece> pieces_;
   MirrorSymmetry symmetry_;
   std::vector<PieceMirror> mirrors_;
-  std::vector<std::unique_ptr<PieceCutter>> cutters_;
+  std::vector<std::unique_ptr<Cutter>> cutters_;
   std::set<std::array<int, 2>> proposed_;
   SeamSuggestion result_;
 };

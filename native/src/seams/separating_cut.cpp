@@ -2,140 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 #include <utility>
+
+#include "graph/adjacency.h"
+#include "graph/maximum_flow.h"
+#include "graph/shortest_paths.h"
 
 namespace spectral_conformal {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// The minimum cut may move by this part of the way from the level to the sources or the sinks.
+/// The minimum cut may move by this fraction of the way from the level to the sources or the sinks. Half of it gave 3 %
+/// longer seams on 12 meshes at the same distortion, twice as much 4 % shorter ones and 2 % more distortion.
 constexpr double leeway = 0.3;
 
-struct Neighbour {
-  int face;
-  int edge;
-};
-
-/// Faces on both sides of the edges that are not cut.
-std::vector<std::vector<Neighbour>> dual_graph(const SeparableFaces& faces) {
-  std::vector<std::vector<Neighbour>> result(faces.member.size());
+/// The member faces as nodes, joined over the edges that are not cut.
+Adjacency dual_graph(const SeparableFaces& faces) {
   const auto& edges = faces.graph->edges();
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (edges[e].cut) continue;
-    const auto [a, b] = edges[e].faces;
-    if (faces.member[a] == 0 || faces.member[b] == 0) continue;
-    result[a].push_back({b, static_cast<int>(e)});
-    result[b].push_back({a, static_cast<int>(e)});
-  }
-  return result;
+  return Adjacency::from_arcs(static_cast<int>(faces.member.size()), [&](auto&& visit) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (edges[e].cut) continue;
+      const auto [a, b] = edges[e].faces;
+      if (faces.member[a] == 0 || faces.member[b] == 0) continue;
+      visit(a, static_cast<int>(e), b);
+      visit(b, static_cast<int>(e), a);
+    }
+  });
 }
 
-std::vector<double> distances(const SeparableFaces& faces, const std::vector<std::vector<Neighbour>>& dual,
-                              const std::vector<int>& sources) {
-  using Item = std::pair<double, int>;
-  std::vector<double> distance(dual.size(), infinite);
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-  for (const int source : sources) {
-    distance[source] = 0;
-    queue.emplace(0.0, source);
-  }
-  while (!queue.empty()) {
-    const auto [d, face] = queue.top();
-    queue.pop();
-    if (d > distance[face]) continue;
-    for (const auto& [other, edge] : dual[face]) {
-      const double through = d + (faces.centre[face] - faces.centre[other]).norm();
-      if (!(through < distance[other])) continue;
-      distance[other] = through;
-      queue.emplace(through, other);
+std::vector<double> distances(const SeparableFaces& faces, const Adjacency& dual, const std::vector<int>& sources) {
+  ShortestPathSearch search(dual.n_nodes());
+  for (const int source : sources) search.offer(source, 0);
+  for (int face = search.settle(); face >= 0; face = search.settle()) {
+    for (const auto& arc : dual.arcs(face)) {
+      search.offer(arc.to, search.distance(face) + (faces.centre[face] - faces.centre[arc.to]).norm());
     }
   }
-  return distance;
+  return search.distances();
 }
-
-/// Maximum flow between two nodes of an undirected graph (Dinic's algorithm).
-class Flow {
- public:
-  explicit Flow(int n_nodes) : out_(static_cast<std::size_t>(n_nodes)) {}
-  void connect(int a, int b, double capacity) {
-    out_[a].push_back(static_cast<int>(links_.size()));
-    links_.push_back({b, capacity});
-    out_[b].push_back(static_cast<int>(links_.size()));
-    links_.push_back({a, capacity});
-    largest_ = std::max(largest_, capacity);
-  }
-  /// Nodes that the source still reaches when the flow is as large as it can be: the smallest of the cheapest sides.
-  std::vector<char> source_side(int source, int sink) {
-    while (reach(source, sink)) {
-      next_.assign(out_.size(), 0);
-      while (push(source, sink)) {
-      }
-    }
-    std::vector<char> side(out_.size());
-    for (std::size_t i = 0; i < side.size(); ++i) side[i] = level_[i] >= 0 ? 1 : 0;
-    return side;
-  }
-
- private:
-  struct Link {
-    int to;
-    double left;
-  };
-  bool open(int link) const { return links_[link].left > 1e-12 * largest_; }
-
-  bool reach(int source, int sink) {
-    level_.assign(out_.size(), -1);
-    level_[source] = 0;
-    std::vector<int> queue{source};
-    for (std::size_t head = 0; head < queue.size(); ++head) {
-      for (const int link : out_[queue[head]]) {
-        const int to = links_[link].to;
-        if (level_[to] >= 0 || !open(link)) continue;
-        level_[to] = level_[queue[head]] + 1;
-        queue.push_back(to);
-      }
-    }
-    return level_[sink] >= 0;
-  }
-
-  /// Sends flow along one way of rising levels; false where there is none left.
-  bool push(int source, int sink) {
-    std::vector<int> way;
-    int node = source;
-    while (node != sink) {
-      if (next_[node] == out_[node].size()) {
-        if (way.empty()) return false;
-        node = links_[way.back() ^ 1].to;
-        way.pop_back();
-        ++next_[node];
-        continue;
-      }
-      const int link = out_[node][next_[node]];
-      if (open(link) && level_[links_[link].to] == level_[node] + 1) {
-        way.push_back(link);
-        node = links_[link].to;
-      } else {
-        ++next_[node];
-      }
-    }
-    double amount = infinite;
-    for (const int link : way) amount = std::min(amount, links_[link].left);
-    for (const int link : way) {
-      links_[link].left -= amount;
-      links_[link ^ 1].left += amount;
-    }
-    return true;
-  }
-
-  std::vector<std::vector<int>> out_;
-  std::vector<Link> links_;
-  std::vector<int> level_;
-  std::vector<std::size_t> next_;
-  double largest_ = 0;
-};
 
 /// The members in rising order of the level function.
 std::vector<int> in_order(const SeparableFaces& faces, const std::vector<double>& level) {
@@ -149,9 +54,8 @@ std::vector<int> in_order(const SeparableFaces& faces, const std::vector<double>
 }
 
 /// The level of the cut with the lowest cost for its area, or a value that is not a number.
-double best_level(const SeparableFaces& faces, const std::vector<std::vector<Neighbour>>& dual,
-                  const std::vector<double>& level, const std::vector<int>& order, double low, double high,
-                  double least_share) {
+double best_level(const SeparableFaces& faces, const Adjacency& dual, const std::vector<double>& level,
+                  const std::vector<int>& order, double low, double high, double min_fraction) {
   double total = 0;
   for (const int face : order) total += faces.area[face];
   std::vector<char> inside(level.size(), 0);
@@ -163,12 +67,12 @@ double best_level(const SeparableFaces& faces, const std::vector<std::vector<Nei
     const int face = order[i];
     inside[face] = 1;
     area += faces.area[face];
-    for (const auto& [other, edge] : dual[face]) {
+    for (const auto& [edge, other] : dual.arcs(face)) {
       cost += (inside[other] != 0 ? -1 : 1) * faces.graph->edges()[edge].cost;
     }
     const double next = level[order[i + 1]];
     const double smaller = std::min(area, total - area);
-    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= least_share * total)) continue;
+    if (!(next > level[face]) || level[face] < low || next > high || !(smaller >= min_fraction * total)) continue;
     const double score = cost / std::sqrt(smaller);
     if (score < best) {
       best = score;
@@ -196,10 +100,10 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
     double area = 0;
     for (std::size_t head = 0; head < part.size(); ++head) {
       area += faces.area[part[head]];
-      for (const auto& [other, edge] : dual[part[head]]) {
-        if (open[other] == 0) continue;
-        open[other] = 0;
-        part.push_back(other);
+      for (const auto& arc : dual.arcs(part[head])) {
+        if (open[arc.to] == 0) continue;
+        open[arc.to] = 0;
+        part.push_back(arc.to);
       }
     }
     parts.emplace_back(-area, std::move(part));
@@ -212,7 +116,7 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
 }
 
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
-                                  const std::vector<int>& sinks, double least_share) {
+                                  const std::vector<int>& sinks, double min_fraction) {
   std::vector<char> side(faces.member.size(), 0);
   const auto dual = dual_graph(faces);
   std::vector<double> level = distances(faces, dual, sources);
@@ -227,7 +131,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
   const std::vector<int> order = in_order(faces, level);
-  const double best = best_level(faces, dual, level, order, low, high, least_share);
+  const double best = best_level(faces, dual, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 
   // Nodes: 0 the source, 1 the sink, then the faces between.
@@ -236,15 +140,15 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   std::vector<int> node(level.size(), -1);
   int n_nodes = 2;
   for (const int face : order) node[face] = level[face] <= lower ? 0 : level[face] >= upper ? 1 : n_nodes++;
-  Flow flow(n_nodes);
+  std::vector<CapacityEdge> between;
   for (const int face : order) {
-    for (const auto& [other, edge] : dual[face]) {
+    for (const auto& [edge, other] : dual.arcs(face)) {
       if (face < other && node[face] != node[other]) {
-        flow.connect(node[face], node[other], faces.graph->edges()[edge].cost);
+        between.push_back({node[face], node[other], faces.graph->edges()[edge].cost});
       }
     }
   }
-  const std::vector<char> reached = flow.source_side(0, 1);
+  const std::vector<char> reached = min_cut_source_side(n_nodes, between, 0, 1);
   for (const int face : order) side[face] = reached[node[face]];
   return side;
 }

@@ -15,7 +15,7 @@ struct SeparableFaces {
 };
 
 /// Distance of every face from the nearest source over the centres of neighbouring faces; infinite where there is no
-/// way.
+/// path.
 std::vector<double> face_distances(const SeparableFaces& faces, const std::vector<int>& sources);
 
 /// The connected parts of some of the faces, the one with the largest area first.
@@ -24,8 +24,8 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
 /// The source's side of a short cut that parts two sets of faces, such as a neck between them: per face of the mesh, 1
 /// on that side. Of the level sets of (distance from the sources - distance from the sinks) the one with the lowest
 /// cost relative to the root of the smaller side's area is taken, and then moved to the cheapest cut nearby (minimum
-/// cut of the dual graph, Dinic's algorithm). All 0 where no level leaves `least_share` of the area on both sides.
+/// cut of the dual graph). All 0 where no level leaves `min_fraction` of the area on both sides.
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
-                                  const std::vector<int>& sinks, double least_share);
+                                  const std::vector<int>& sinks, double min_fraction);
 
 }  // namespace spectral_conformal

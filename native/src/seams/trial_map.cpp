@@ -10,11 +10,12 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double greatest_log2_scale = 16;
-constexpr double greatest_qc = 1000;
+// Faces that a map all but collapses count as much as these, so that one of them does not outweigh all others.
+constexpr double max_log2_scale = 16;
+constexpr double max_qc = 1000;
 
 /// Sums the triangles of each face up, of a quad those of one split.
-void measure_faces(const Eigen::Ref<const Positions>& positions, MappedChart& mapped) {
+void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mapped) {
   const Chart& chart = mapped.chart;
   const Distortion distortion = measure_distortion(positions, chart.triangles, chart.triangle_weights, mapped.z);
   std::vector<double> image(chart.faces.size(), 0);
@@ -24,12 +25,12 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, MappedChart& ma
     const int face = chart.triangle_face[static_cast<std::size_t>(t)];
     mapped.area[face] += distortion.area[t];
     image[face] += distortion.image_area[t];
-    mapped.qc[face] += distortion.area[t] * std::min(distortion.qc[t], greatest_qc);
+    mapped.qc[face] += distortion.area[t] * std::min(distortion.qc[t], max_qc);
   }
   for (std::size_t face = 0; face < chart.faces.size(); ++face) {
     const double area = mapped.area[face];
     const double scale = area > 0 ? 0.5 * std::log2(std::abs(image[face]) / area) : 0;
-    mapped.log2_scale.push_back(std::clamp(scale, -greatest_log2_scale, greatest_log2_scale));
+    mapped.log2_scale.push_back(std::clamp(scale, -max_log2_scale, max_log2_scale));
     mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
   }
 }
@@ -46,8 +47,8 @@ double weighted_median(std::vector<std::pair<double, double>>& value_and_weight,
 
 }  // namespace
 
-MappedChart map_chart(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress) {
-  MappedChart result;
+TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress) {
+  TrialMap result;
   result.chart = std::move(chart);
   const Positions positions = result.chart.positions(mesh);
   try {
@@ -64,10 +65,10 @@ MappedChart map_chart(const PolygonMesh& mesh, Chart chart, const PatchOptions& 
 
 double MapQuality::distortion() const {
   if (!solved) return std::numeric_limits<double>::infinity();
-  return scale_variance + 5 * (mean_qc - 1);
+  return scale_variance + 5 * (mean_qc - 1);  // 0.5^2 = 5 x 0.05
 }
 
-MapQuality map_quality(const std::vector<std::shared_ptr<const MappedChart>>& charts, double scale_limit) {
+MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;
   std::vector<std::pair<double, double>> scales;
   double qc = 0;

@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 
 /// A chart with its spectral map and the distortion of each of its faces. Not solved: no distortion.
-struct MappedChart {
+struct TrialMap {
   Chart chart;
   bool solved = false;
   ComplexVector z;                 ///< (V,) as Solver::solve returns it: its area is that in 3D
@@ -20,13 +20,16 @@ struct MappedChart {
 };
 
 /// Solves a chart of `mesh`. Where it cannot be solved, `solved` is false. Throws Cancelled.
-MappedChart map_chart(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress);
+TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress);
+
+/// Maps of the charts of a mesh, shared by the trials in which a chart stays as it is.
+using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;
 
 /// Distortion of several charts together.
 struct MapQuality {
   bool solved = true;            ///< all charts are
   double median_log2_scale = 0;  ///< weighted by area
-  double within_limit = 1;       ///< share of the area whose scale is within a factor of the median
+  double within_limit = 1;       ///< fraction of the area whose scale is within a factor of the median
   double scale_variance = 0;     ///< mean of (log2_scale - median)^2, weighted by area
   double mean_qc = 1;            ///< weighted by area
   double area = 0;
@@ -38,6 +41,6 @@ struct MapQuality {
 };
 
 /// `scale_limit` is the factor of within_limit, above 1.
-MapQuality map_quality(const std::vector<std::shared_ptr<const MappedChart>>& charts, double scale_limit);
+MapQuality map_quality(const TrialMaps& charts, double scale_limit);
 
 }  // namespace spectral_conformal

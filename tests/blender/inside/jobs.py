@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import bpy
 
 job_operator = importlib.import_module("spectral_unwrap.operators.job_operator")
+worker = importlib.import_module("spectral_unwrap.core.worker")
 
 
 class Instance(SimpleNamespace):
@@ -23,7 +24,7 @@ class Invoked:
         timers: the timers that run.
     """
 
-    def __init__(self, monkeypatch, operator_class, is_waiting=True, **properties):
+    def __init__(self, monkeypatch, operator_class, is_waiting=True, has_window=True, **properties):
         self.reported, self.status, self.timers, self.handlers = [], [], [], []
         self.operator = Instance(**properties, bl_label=operator_class.bl_label)
         self.operator.report = lambda levels, text: self.reported.append((*levels, text))
@@ -31,9 +32,10 @@ class Invoked:
             for name, function in vars(cls).items():
                 if type(function).__name__ == "function" and not name.startswith("__"):
                     setattr(self.operator, name, function.__get__(self.operator))
-        window = SimpleNamespace(screen=SimpleNamespace(areas=[]))
+        screen = SimpleNamespace(areas=[])
+        window = SimpleNamespace(screen=screen) if has_window else None
         manager = SimpleNamespace(
-            windows=[window],
+            windows=[window] if has_window else [],
             modal_handler_add=self.handlers.append,
             event_timer_add=self._add_timer,
             event_timer_remove=self.timers.remove,
@@ -49,12 +51,13 @@ class Invoked:
             window=window,
             objects_in_mode_unique_data=bpy.context.objects_in_mode_unique_data,
             workspace=SimpleNamespace(status_text_set=self.status.append),
-            screen=window.screen,
+            screen=screen,
             temp_override=bpy.context.temp_override,
             window_manager=manager,
         )
         # In background mode it would execute.
-        monkeypatch.setattr(job_operator, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+        in_window = SimpleNamespace(app=SimpleNamespace(background=False), context=self.context)
+        monkeypatch.setattr(job_operator, "bpy", in_window)
         self.result = self.operator.invoke(self.context, self.event())
         if is_waiting:
             self.wait()
@@ -96,3 +99,27 @@ class Invoked:
         """Return whether nothing of the job is left."""
         shown = self.status and self.status[-1] is not None
         return not (shown or self.timers or job_operator.JobOperator._running is not None)
+
+
+def defaults(operator):
+    """Return the default of every property of an operator, such as `bpy.ops.uv.spectral_unwrap`."""
+    properties = operator.get_rna_type().properties
+    return {p.identifier: p.default for p in properties if p.identifier != "rna_type"}
+
+
+def unwrap(monkeypatch, **properties):
+    """Invoke Spectral Unwrap; it waits for its thread however short that takes."""
+    return _waiting(monkeypatch, "operators.unwrap", "UV_OT_spectral_unwrap", bpy.ops.uv.spectral_unwrap, properties)
+
+
+def suggest_seams(monkeypatch, **properties):
+    """Invoke Suggest Seams; it waits for its thread however short that takes."""
+    operator = bpy.ops.uv.spectral_suggest_seams
+    return _waiting(monkeypatch, "operators.suggest_seams", "UV_OT_spectral_suggest_seams", operator, properties)
+
+
+def _waiting(monkeypatch, module, name, operator, properties):
+    operator_class = getattr(importlib.import_module(f"spectral_unwrap.{module}"), name)
+    with monkeypatch.context() as patch:
+        patch.setattr(worker.Worker, "wait", lambda _self, _seconds: False)
+        return Invoked(monkeypatch, operator_class, is_waiting=False, **{**defaults(operator), **properties})

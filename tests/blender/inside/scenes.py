@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes to unwrap, and what the tests look at afterwards."""
 
+import importlib
+
 import bmesh
 import bpy
 import numpy as np
@@ -130,6 +132,23 @@ def corners_of(edited, faces):
     """Return which corners belong to `faces`, (C,) bool."""
     faces = set(faces)
     return np.array([face.index in faces for face in edit_mesh(edited).faces for _ in face.loops])
+
+
+def directly_solved(edited, **options):
+    """Return the map that the native module makes of the whole mesh; an island of the operator's is similar to it."""
+    native = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()
+    bm = edit_mesh(edited)
+    offsets = np.cumsum([0] + [len(face.loops) for face in bm.faces])
+    corners = [loop.vert.index for face in bm.faces for loop in face.loops]
+    seams = np.array([[vertex.index for vertex in edge.verts] for edge in bm.edges if edge.seam], int).reshape(-1, 2)
+    positions = np.array([vertex.co for vertex in bm.verts])
+    return native.unwrap(positions, offsets, corners, seam_edges=seams, **options).uv
+
+
+def normalized(uv):
+    """Return a map without its place, size and orientation: its pairwise distances over their root mean square."""
+    distance = np.linalg.norm(uv[:, None] - uv[None, :], axis=2)
+    return distance / np.sqrt((distance**2).mean())
 
 
 def corner_positions(edited):

@@ -12,7 +12,8 @@ from pathlib import Path
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 ADDON = "spectral_unwrap"
 WATCHED = (

@@ -5,10 +5,10 @@ import contextlib
 import importlib
 
 import bpy
-import digest
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import digest, scenes
 
 core_options = importlib.import_module("spectral_unwrap.core.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")

@@ -2,14 +2,11 @@
 """The demonstration's reader of meshes, on files that are damaged or no meshes at all."""
 
 import struct
-import sys
-from pathlib import Path
 
 import bpy
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools" / "demo"))
-import blender_unwrap  # noqa: E402 - runs as a script beside the modules of its folder
+from tools.demo import blender_unwrap
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 PLY = "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"

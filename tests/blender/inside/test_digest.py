@@ -3,9 +3,9 @@
 
 import bmesh
 import bpy
-import digest
 import pytest
-import scenes
+
+from tests.blender.inside import digest, scenes
 
 
 def scene():

@@ -5,7 +5,8 @@ import re
 
 import bpy
 import numpy as np
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def rough_grid(n=14, roughness=2.0, seed=3):

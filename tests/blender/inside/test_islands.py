@@ -4,7 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def test_cylinder_with_a_seam_unrolls_without_distortion():

@@ -7,7 +7,8 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def module(name):

@@ -4,10 +4,10 @@
 import sys
 
 import bpy
-import digest
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import digest, scenes
 
 NAN, INF = float("nan"), float("inf")
 WHOLE = {"name": "Whole", "strength": 1.0, "use": True, "first_id": 1, "second_id": 20}

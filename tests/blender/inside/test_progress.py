@@ -6,28 +6,16 @@ import re
 import time
 
 import bpy
-import jobs
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import jobs, scenes
 
 options = importlib.import_module("spectral_unwrap.core.options")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 worker = importlib.import_module("spectral_unwrap.core.worker")
 native = importlib.import_module("spectral_unwrap.core.native")
-
-
-def invoked(monkeypatch, **properties):
-    """Invoke the operator in what stands for a window; it waits for its thread however short that takes."""
-    monkeypatch.setattr(jobs.job_operator, "_SECONDS_BEFORE_MODAL", -1.0)
-    operator = importlib.import_module("spectral_unwrap.operators.unwrap").UV_OT_spectral_unwrap
-    rna = bpy.ops.uv.spectral_unwrap.get_rna_type().properties
-    defaults = {p.identifier: p.default for p in rna if p.identifier != "rna_type"}
-    # Not before the operator has begun to wait.
-    with monkeypatch.context() as patch:
-        patch.setattr(worker.Worker, "wait", lambda _self, _seconds: False)
-        return jobs.Invoked(monkeypatch, operator, is_waiting=False, **{**defaults, **properties})
 
 
 def printed(capfd):
@@ -73,7 +61,7 @@ def test_invoked_in_background_mode_the_operator_is_done_when_it_returns():
 def test_unwrap_in_a_thread_gives_what_the_operator_gives(monkeypatch):
     grid = scenes.grid(20, 20)
     scenes.edit(grid)
-    waiting = invoked(monkeypatch)
+    waiting = jobs.unwrap(monkeypatch)
     assert waiting.result == {"RUNNING_MODAL"}
     waiting.wait()
     assert waiting.result == {"FINISHED"}
@@ -89,7 +77,7 @@ def test_cancelled_solve_changes_nothing(key, monkeypatch):
     grid = scenes.grid(100, 100)
     scenes.edit(grid)
     before, state = scenes.read_uv(grid), scenes.state(grid)
-    waiting = invoked(monkeypatch)
+    waiting = jobs.unwrap(monkeypatch)
     solve = waiting.worker
     assert waiting.send(key) == {"CANCELLED"}
     assert waiting.reported == [("INFO", "Spectral Unwrap: Cancelled")]
@@ -109,7 +97,7 @@ def test_error_in_the_thread_is_reported(error, monkeypatch):
     grid = scenes.grid(2, 2)
     scenes.edit(grid)
     before = scenes.read_uv(grid)
-    waiting = invoked(monkeypatch)
+    waiting = jobs.unwrap(monkeypatch)
     waiting.wait()
     assert waiting.result == {"CANCELLED"}
     ((level, text),) = waiting.reported
@@ -170,7 +158,7 @@ def test_changed_meshes_are_noticed(change):
 def test_nothing_is_written_into_changed_meshes(monkeypatch):
     grid = scenes.grid(4, 4)
     scenes.edit(grid)
-    waiting = invoked(monkeypatch)
+    waiting = jobs.unwrap(monkeypatch)
     _turn_face(grid)
     before = scenes.read_uv(grid)
     waiting.wait()
@@ -182,7 +170,7 @@ def test_nothing_is_written_into_changed_meshes(monkeypatch):
 
 def test_operators_are_not_available_while_a_solve_runs(monkeypatch):
     scenes.edit(scenes.grid(4, 4))
-    waiting = invoked(monkeypatch)
+    waiting = jobs.unwrap(monkeypatch)
     with monkeypatch.context() as patch:
         patch.setattr(worker.Worker, "is_wanted", True)
         assert not bpy.ops.uv.spectral_unwrap.poll()

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on in Blender's lists: operator, properties, menus; and nothing left when it is disabled."""
 
+import dataclasses
+import importlib
 import sys
+import types
 
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 ADDON = "spectral_unwrap"
 MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select")
@@ -40,26 +44,16 @@ def test_operator_properties_are_described_as_blender_does():
         assert not item.description.endswith(".")
 
 
-def test_defaults():
-    operator = bpy.ops.uv.spectral_unwrap.get_rna_type()
-    defaults = {prop.identifier: prop.default for prop in operator.properties if prop.identifier != "rna_type"}
-    assert defaults.pop("margin") == pytest.approx(0.001)
-    assert defaults == {
-        "method": "SPECTRAL",
-        "weights": "UNIFORM",
-        "boundary": "LENGTH",
-        "fill_holes": False,
-        "use_subsurf_data": False,
-        "soft_pins": False,
-        "soft_pin_strength": 100.0,
-        "correct_aspect": True,
-        "placement": "PACK",
-        "margin_method": "SCALED",
-        "hole_rigidity": 0.0,
-        "area_blend": 0.0,
-        "fold_free": False,
-        "stretch": 1.0,
-    }
+def test_defaults_are_those_of_the_core_and_of_blenders_own_operator():
+    settings = importlib.import_module("spectral_unwrap.unwrapping.last_settings")
+    ours, theirs = bpy.ops.uv.spectral_unwrap.get_rna_type(), bpy.ops.uv.unwrap.get_rna_type()
+    defaults = {prop.identifier: prop.default for prop in ours.properties if prop.identifier != "rna_type"}
+    made = settings.settings_of(types.SimpleNamespace(**defaults))
+    assert made.margin.size == pytest.approx(settings.Settings().margin.size)
+    assert dataclasses.replace(made, margin=settings.Settings().margin) == settings.Settings()
+    assert made.margin.method == settings.Settings().margin.method
+    for name in ("correct_aspect", "use_subsurf_data", "margin_method", "margin"):
+        assert defaults[name] == pytest.approx(theirs.properties[name].default)
 
 
 def test_shared_properties_are_named_as_in_blenders_own_operator():

@@ -7,7 +7,8 @@ import sys
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def test_solved_islands_are_counted_and_measured(reports):

@@ -3,7 +3,8 @@
 
 import bpy
 import numpy as np
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def selected_faces(edited):

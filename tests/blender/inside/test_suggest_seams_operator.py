@@ -3,13 +3,14 @@
 
 import importlib
 import sys
+from types import SimpleNamespace
 
 import bmesh
 import bpy
-import jobs
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import jobs, scenes
 
 names = importlib.import_module("spectral_unwrap.names")
 
@@ -277,10 +278,11 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert seams(solid)
     assert all(min(edge) >= 8 for edge in seams(solid))
-    warnings = texts(reports, "Warning")
-    assert len(warnings) == 1
-    assert warnings[0].startswith("1 of ")
-    assert "not finite" in warnings[0]
+    # What fails has UVs all over the tile.
+    beside, failed = texts(reports, "Warning")
+    assert "tile beside it" in beside
+    assert failed.startswith("1 of ")
+    assert "not finite" in failed
     assert np.isfinite(scenes.read_uv(solid)).all()
     # Alone, it is told as well.
     scenes.select_faces(solid, range(6))
@@ -326,8 +328,26 @@ def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
     np.testing.assert_array_equal(scenes.read_uv(cube), uv)
 
 
-def test_live_unwrap_does_not_follow():
-    assert "UV_OT_spectral_suggest_seams" in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
+@pytest.mark.parametrize("is_ours", [True, False])
+def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
+    """Seams that Suggest Seams marks come with their map; those that Mark Seam marks get a new one."""
+    ours = module("operators.suggest_seams").UV_OT_spectral_suggest_seams.__name__
+    # Background mode keeps no list of the operators that ended.
+    ended = SimpleNamespace(bl_idname=ours if is_ours else "MESH_OT_mark_seam", as_pointer=lambda: 1)
+    last_operator = module("live.last_operator")
+    monkeypatch.setattr(last_operator, "_last", lambda: None)
+    cylinder = scenes.cylinder(closed_seam=False)
+    scenes.edit(cylinder)
+    bpy.context.scene.spectral_unwrap_live = True
+    before = scenes.read_uv(cylinder)
+    bm = scenes.edit_mesh(cylinder)
+    for row in range(6):
+        bm.edges.get([bm.verts[24 * row], bm.verts[24 * (row + 1)]]).seam = True
+    monkeypatch.setattr(last_operator, "_last", lambda: ended)
+    bmesh.update_edit_mesh(cylinder.data)
+    bpy.context.view_layer.update()
+    module("live.following").look()
+    assert np.array_equal(scenes.read_uv(cylinder), before) == is_ours
 
 
 def invoked(monkeypatch, is_waiting=True):

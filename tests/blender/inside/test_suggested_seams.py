@@ -5,7 +5,8 @@ import sys
 
 import numpy as np
 import pytest
-import seam_measures
+
+from tests.blender.inside import seam_measures
 
 
 @pytest.fixture

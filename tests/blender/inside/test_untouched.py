@@ -4,7 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 def test_unselected_faces_keep_their_uvs():

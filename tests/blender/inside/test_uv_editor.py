@@ -4,7 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-import scenes
+
+from tests.blender.inside import scenes
 
 
 @pytest.fixture(params=["UV", "IMAGE_EDITOR"])

@@ -212,15 +212,15 @@ TEST_CASE("nearly degenerate triangles are clamped, counted and leave the matrix
   }
 }
 
-TEST_CASE("lifting raises thin triangles in the energy and leaves their measured shape alone") {
+TEST_CASE("clamping gives thin triangles a height in the energy and leaves their measured shape alone") {
   Mesh mesh = flat_grid(3, 3);
   mesh.points[5] = mesh.points[6];
   const Patch patch(mesh);
   ConformalEnergy energy = patch.energy(Weights::uniform);
   const double largest = dense(energy.matrix()).cwiseAbs().maxCoeff();
   CHECK(largest > 1e9);
-  CHECK(energy.lift(1e-5) == 2);
-  CHECK(energy.lift(1e-5) == 0);
+  CHECK(energy.clamp(1e-5) == 2);
+  CHECK(energy.clamp(1e-5) == 0);
   CHECK(dense(energy.matrix()).cwiseAbs().maxCoeff() < 1.1e-5 * largest);
   CHECK(energy.clamped_triangles() == 2);
   const ComplexVector ones = ComplexVector::Ones(energy.n_vertices());
@@ -228,7 +228,7 @@ TEST_CASE("lifting raises thin triangles in the energy and leaves their measured
   energy.apply(ones, product);
   CHECK(product.norm() == 0);
   ConformalEnergy clean = Patch(flat_grid(3, 3)).energy(Weights::uniform);
-  CHECK(clean.lift(1e-5) == 0);
+  CHECK(clean.clamp(1e-5) == 0);
 }
 
 TEST_CASE("inverse-area weights of tiny and thin triangles are held back, those of others are not") {

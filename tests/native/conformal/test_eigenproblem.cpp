@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <stdexcept>
 
 #include "conformal/eigenproblem.h"
 #include "meshes.h"
@@ -156,6 +157,26 @@ TEST_CASE("iterations are bounded: what did not converge says so") {
   const Eigenpair pair = solve_eigenproblem(*factored.factorization, form, options, {});
   CHECK_FALSE(pair.converged);
   CHECK(pair.solves < 10);
+}
+
+TEST_CASE("an exception of the listener passes through, a std::runtime_error too") {
+  // Spectra reports its own failures as std::runtime_error: every such exception was taken for one of them.
+  const Patch patch(bumpy_grid(12, 9));
+  const ConformalEnergy energy = patch.energy(Weights::uniform);
+  const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
+  const Factored factored(energy.matrix(), form, FactorizationBackend::automatic, 1e-10);
+  for (const int fails_at : {2, 4}) {
+    int calls = 0;
+    const Progress listener = [&](double, const char*) {
+      if (++calls == fails_at) throw std::runtime_error("the listener's own");
+      return true;
+    };
+    CHECK_THROWS_WITH_AS(solve_eigenproblem(*factored.factorization, form, {}, listener), "the listener's own",
+                         std::runtime_error);
+    calls = 0;
+    CHECK_THROWS_WITH_AS(solve_area_eigenproblem(*factored.factorization, energy, form, factored.shift, {}, listener),
+                         "the listener's own", std::runtime_error);
+  }
 }
 
 TEST_CASE("the listener can stop it") {

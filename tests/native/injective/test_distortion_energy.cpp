@@ -44,9 +44,9 @@ TEST_CASE("weights are shares of the area; an isometry has 4 or 2, a similarity 
 TEST_CASE("the gradient is that of finite differences, soft elements included") {
   const Patch patch(bumpy_grid(4, 3));
   const ComplexVector z = moved(patch);
-  for (const double softening : {0.0, 0.3, std::numeric_limits<double>::infinity()}) {
+  for (const double regularization : {0.0, 0.3, std::numeric_limits<double>::infinity()}) {
     auto elements = patch.elements();
-    elements[3].softening = softening;
+    elements[3].regularization = regularization;
     for (const DistortionMeasure measure : measures) {
       ComplexVector gradient;
       energy_and_gradient(elements, measure, z, gradient);
@@ -74,7 +74,7 @@ TEST_CASE("a flipped triangle costs infinity behind a barrier and a finite amoun
   for (const DistortionMeasure measure : measures) {
     CHECK(std::isinf(energy_of(elements, measure, mirrored)));
     auto soft = elements;
-    for (DistortionElement& element : soft) element.softening = 0.1;
+    for (DistortionElement& element : soft) element.regularization = 0.1;
     CHECK(energy_of(soft, measure, mirrored) > 100);
     CHECK(std::isfinite(energy_of(soft, measure, mirrored)));
   }
@@ -86,9 +86,9 @@ TEST_CASE("the largest step ends where the first triangle loses its area") {
   const ComplexVector z = flat_map(patch.positions);
   ComplexVector direction = ComplexVector::Zero(4);
   direction[1] = Complex(-1, 1);  // reaches the diagonal half way
-  CHECK(largest_step(elements, z, direction) == doctest::Approx(0.5));
-  CHECK(std::isinf(largest_step(elements, z, Complex(1, 0) * z)));
-  CHECK(largest_step(elements, z, -z) == doctest::Approx(1));
+  CHECK(max_step(elements, z, direction) == doctest::Approx(0.5));
+  CHECK(std::isinf(max_step(elements, z, Complex(1, 0) * z)));
+  CHECK(max_step(elements, z, -z) == doctest::Approx(1));
 }
 
 TEST_CASE("the stiffness of the conformal distortion is its second derivative, for |f_z| and |f_zbar| apart") {
@@ -122,7 +122,7 @@ TEST_CASE("degenerate triangles only hold their vertices together, virtual ones 
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const auto elements = distortion_elements(energy.triangles(), energy.shapes(), energy.triangle_weights(), 0);
   CHECK_FALSE(elements.back().measured);
-  CHECK(std::isinf(elements.back().softening));
+  CHECK(std::isinf(elements.back().regularization));
   CHECK(count_flipped(elements, flat_map(patch.positions)) == 0);
   const auto with_virtual = distortion_elements(energy.triangles(), energy.shapes(), energy.triangle_weights(), 2);
   const std::size_t first_virtual = elements.size() - 2;

@@ -16,13 +16,13 @@ TEST_CASE("folds far apart and of different scale are unfolded, and what is far 
   ComplexVector z = flat_map(patch.positions);
   for (Complex& value : z) value = std::exp(0.2 * Complex(value.real(), 0.3 * value.imag()));
   const ComplexVector clean = z;
-  REQUIRE(count_folded(elements, z) == 0);
+  REQUIRE(count_flipped(elements, z, unplaced) == 0);
   const int small = 3 * 21 + 3;
   const int large = 16 * 21 + 16;
   for (const int v : {small, large}) z[v] += 1.7 * (z[v + 1] - z[v]);
-  REQUIRE(count_folded(elements, z) >= 4);
+  REQUIRE(count_flipped(elements, z, unplaced) >= 4);
   CHECK(unfold_locally(elements, {}, FactorizationBackend::automatic, z) == 0);
-  CHECK(count_folded(elements, z) == 0);
+  CHECK(count_flipped(elements, z, unplaced) == 0);
   int unmoved = 0;
   for (Eigen::Index v = 0; v < z.size(); ++v) unmoved += z[v] == clean[v];
   // The corners of the folded triangles may move, no others.
@@ -43,21 +43,22 @@ TEST_CASE("held vertices stay, even where that leaves folds") {
   }
   SUBCASE("none") {
     std::fill(held.begin(), held.end(), 1);
-    CHECK(unfold_locally(elements, held, FactorizationBackend::automatic, z) == count_folded(elements, start));
+    CHECK(unfold_locally(elements, held, FactorizationBackend::automatic, z) ==
+          count_flipped(elements, start, unplaced));
     CHECK(z == start);
   }
 }
 
-TEST_CASE("a collapsed triangle counts as folded, a degenerate one in 3D does not") {
+TEST_CASE("a collapsed triangle counts as flipped, a degenerate one in 3D does not") {
   Mesh mesh = flat_grid(4, 4);
   mesh.points.emplace_back(0.5 * (mesh.points[1] + mesh.points[2]));
   mesh.add({2, 1, static_cast<int>(mesh.points.size()) - 1});
   const Patch patch(mesh);
   const auto elements = patch.elements();
   ComplexVector z = flat_map(patch.positions);
-  CHECK(count_folded(elements, z) == 0);
+  CHECK(count_flipped(elements, z, unplaced) == 0);
   z[12] = z[13];
-  CHECK(count_folded(elements, z) == 2);
+  CHECK(count_flipped(elements, z, unplaced) == 2);
   CHECK(unfold_locally(elements, {}, FactorizationBackend::automatic, z) == 0);
 }
 

@@ -16,8 +16,8 @@ constexpr double pi = 3.14159265358979323846;
 ComplexVector embed(const Patch& patch, FactorizationBackend backend = FactorizationBackend::automatic,
                     const Progress& progress = {}) {
   const auto& loops = patch.chart.boundary_loops;
-  return convex_embedding(patch.chart.triangles, loops, outer_loop(loops, patch.positions), patch.positions, backend,
-                          progress);
+  return tutte_embedding(patch.chart.triangles, loops, outer_loop(loops, patch.positions), patch.positions, backend,
+                         progress);
 }
 
 int count_flipped(const Patch& patch, const ComplexVector& z) {
@@ -87,7 +87,7 @@ TEST_CASE("distances on the circle are those in 3D, to a scale") {
   }
 }
 
-TEST_CASE("limbs that a plain embedding shrinks beyond double precision are embedded, too") {
+TEST_CASE("limbs that equal weights shrink beyond double precision are embedded, too") {
   // By equal weights the rings shrink by about exp(-2 pi / 5) each: to 1e-14 and 1e-55.
   for (const int rings : {30, 100}) {
     const Patch patch(finger(5, rings));

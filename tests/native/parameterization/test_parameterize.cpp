@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "conformal/boundary_form.h"
 #include "conformal/placement.h"
 #include "meshes.h"
 #include "spectral_conformal/distortion.h"
@@ -98,6 +99,32 @@ TEST_CASE("maps are centred, positively oriented and as large as the surface") {
   }
 }
 
+TEST_CASE("a solver of a mesh takes and returns mesh vertices") {
+  Mesh mesh = bumpy_grid(5, 4);
+  mesh.points.insert(mesh.points.begin(), {9, 9, 9});
+  for (int& corner : mesh.corners) ++corner;
+  const Patch patch(mesh);
+  const PolygonMesh view = mesh.view();
+  Solver of_mesh(view, PatchOptions{});
+  Solver of_chart = solver(patch);
+  const Pins in_mesh{{1, {1, 2}}, {6, {6, 2}}, {30, {6, 7}}};
+  const Pins in_chart{{0, {1, 2}}, {5, {6, 2}}, {29, {6, 7}}};
+  const Parameterization map = of_mesh.solve({}, in_mesh);
+  CHECK(map.z[0] == 0.0);
+  CHECK(map.z.tail(30) == of_chart.solve({}, in_chart).z);
+  CHECK(map.timings.front().first == "charts");
+  SolveOptions forced;
+  forced.extenders = {{{1}, {30}, 0.5}};
+  SolveOptions forced_chart;
+  forced_chart.extenders = {{{0}, {29}, 0.5}};
+  CHECK(difference(of_mesh.solve(forced, {}).z.tail(30), of_chart.solve(forced_chart, {}).z) < 1e-6);
+  CHECK_THROWS_WITH_AS(of_mesh.solve({}, {{0, {1, 2}}}), "Vertex 0 is pinned, but no triangle uses it.", InvalidMesh);
+  forced.extenders = {{{0}, {30}, 0.5}};
+  CHECK_THROWS_AS(of_mesh.solve(forced, {}), InvalidMesh);
+  const Mesh closed = tetrahedron();
+  CHECK_THROWS_AS(Solver(closed.view(), PatchOptions{}), InvalidMesh);
+}
+
 TEST_CASE("a solver object gives the same map again, and as a fresh one does") {
   const Patch patch(bumpy_grid(10, 8));
   Solver kept = solver(patch);
@@ -159,6 +186,44 @@ TEST_CASE("hard pins are held by pinned LSCM for 'spectral', and refused by the 
   SolveOptions forced;
   forced.hole_rigidity = 1;
   CHECK_THROWS_AS(solver(patch).solve(forced, pins), InvalidMesh);
+}
+
+TEST_CASE("the fields tell what was solved, and fallbacks can be forbidden") {
+  struct Case {
+    Mesh mesh;
+    Fallback fallback;
+  };
+  const Case cases[] = {{rounded_grid(26, 1.0 / 16), Fallback::clamped_triangles},
+                        {rounded_grid(20, 0.5), Fallback::other_boundary},
+                        {bumpy_grid(6, 5), Fallback::none}};
+  for (const Case& c : cases) {
+    const Patch patch(c.mesh);
+    const Parameterization map = solver(patch, Weights::inverse_area).solve({}, {});
+    CHECK(map.weights == (map.fallback == Fallback::other_weights ? Weights::uniform : Weights::inverse_area));
+    const Parameterization uniform = solver(patch).solve({}, {});
+    CHECK(uniform.fallback == c.fallback);
+    CHECK((uniform.clamped_triangles > 0) == (c.fallback == Fallback::clamped_triangles));
+    CHECK((uniform.boundary == BoundaryMeasure::vertex) == (c.fallback == Fallback::other_boundary));
+    CHECK((uniform.method == Method::spectral && uniform.weights == Weights::uniform));
+    CHECK(uniform.eigenvalue_of == EigenvalueOf::eigenvector);
+    CHECK((uniform.attempts > 2) == (c.fallback != Fallback::none));
+    CHECK((uniform.message.find("instead") != std::string::npos) == (c.fallback != Fallback::none));
+    SolveOptions strict;
+    strict.fallbacks = false;
+    if (c.fallback == Fallback::none) {
+      CHECK(solver(patch).solve(strict, {}).z == uniform.z);
+      continue;
+    }
+    CHECK_THROWS_AS(solver(patch).solve(strict, {}), SolveFailure);
+    // The embedding was asked for, and its eigenvalue is that of the patch's own form.
+    PatchOptions options;
+    options.fold_free = true;
+    const Parameterization embedded = Solver(patch.chart, patch.positions, options).solve(strict, {});
+    CHECK(embedded.fallback == Fallback::tutte_embedding);
+    CHECK(embedded.eigenvalue_of == EigenvalueOf::map);
+    CHECK(embedded.boundary == BoundaryMeasure::length);
+    CHECK(embedded.attempts == 2);
+  }
 }
 
 TEST_CASE("a map that winds twice under forces is a failure that names them") {
@@ -233,7 +298,27 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
   const Progress stop = [](double fraction, const char*) { return fraction < 0.3; };
   PatchOptions options;
   options.area_blend = 1;
+  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  CHECK(map.relaxation == RelaxationStatus::converged);
+  CHECK(map.scale_deviation < 0.8 * map.scale_deviation_before);
+  CHECK(map.message.empty());
+  const Parameterization plain = solver(patch).solve({}, {});
+  CHECK_FALSE(plain.relaxation);
+  CHECK(std::isnan(plain.scale_deviation));
   CHECK_THROWS_AS(Solver(patch.chart, patch.positions, options).solve({}, {}, stop), Cancelled);
+}
+
+TEST_CASE("the area blend of a patch that needs a fallback is that of the fallback") {
+  const Patch patch(rounded_grid(26, 1.0 / 16));
+  PatchOptions options;
+  options.area_blend = 0.5;
+  const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
+  CHECK(map.fallback == Fallback::clamped_triangles);
+  CHECK(map.relaxation);
+  options.fold_free = true;
+  SolveOptions strict;
+  strict.fallbacks = false;
+  CHECK(Solver(patch.chart, patch.positions, options).solve(strict, {}).is_embedding);
 }
 
 TEST_CASE("the area blend with filled holes") {

@@ -8,16 +8,16 @@
 namespace spectral_conformal::test {
 namespace {
 
-MappedChart mapped(const Mesh& mesh) {
+TrialMap mapped(const Mesh& mesh) {
   ChartDecomposition decomposition = build_charts(mesh.view());
   REQUIRE(decomposition.charts.size() == 1);
-  MappedChart chart = map_chart(mesh.view(), std::move(decomposition.charts.front()), {}, {});
+  TrialMap chart = solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, {});
   REQUIRE(chart.solved);
   return chart;
 }
 
-bool names(const std::vector<DistortedPlace>& places, int vertex) {
-  return std::any_of(places.begin(), places.end(), [&](const auto& place) { return place.vertex == vertex; });
+bool names(const std::vector<DistortedRegion>& regions, int vertex) {
+  return std::any_of(regions.begin(), regions.end(), [&](const auto& region) { return region.vertex == vertex; });
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ TEST_SUITE_BEGIN("distorted_regions");
 
 TEST_CASE("the tips of spikes are where the scale is smallest") {
   const Mesh mesh = spiky_grid(2, 6);
-  const std::vector<DistortedPlace> places = scale_extrema(mesh.view(), mapped(mesh), 0);
-  REQUIRE(places.size() >= 2);
-  for (const int tip : {4 * 17 + 4, 4 * 17 + 12}) CHECK(names(places, tip));
-  for (const DistortedPlace& place : places) CHECK_FALSE(place.on_loop);
+  const std::vector<DistortedRegion> regions = scale_extrema(mesh.view(), mapped(mesh), 0);
+  REQUIRE(regions.size() >= 2);
+  for (const int tip : {4 * 17 + 4, 4 * 17 + 12}) CHECK(names(regions, tip));
+  for (const DistortedRegion& region : regions) CHECK_FALSE(region.on_loop);
 }
 
-TEST_CASE("the far end of a tube is a place on a loop") {
+TEST_CASE("the far end of a tube is a region on a loop") {
   Mesh tube;
   constexpr int around = 12, rings = 10;
   for (int j = 0; j < rings; ++j) {
@@ -48,24 +48,25 @@ TEST_CASE("the far end of a tube is a place on a loop") {
       tube.add({j * around + i, j * around + next, (j + 1) * around + next, (j + 1) * around + i});
     }
   }
-  const std::vector<DistortedPlace> places = scale_extrema(tube.view(), mapped(tube), 0);
-  REQUIRE_FALSE(places.empty());
-  CHECK(std::any_of(places.begin(), places.end(),
-                    [](const DistortedPlace& place) { return place.on_loop && place.vertex >= (rings - 1) * around; }));
+  const std::vector<DistortedRegion> regions = scale_extrema(tube.view(), mapped(tube), 0);
+  REQUIRE_FALSE(regions.empty());
+  CHECK(std::any_of(regions.begin(), regions.end(), [](const DistortedRegion& region) {
+    return region.on_loop && region.vertex >= (rings - 1) * around;
+  }));
 }
 
 TEST_CASE("a flat patch has none") {
   const Mesh mesh = quad_grid(6, 6);
   CHECK(scale_extrema(mesh.view(), mapped(mesh), 0).empty());
-  for (const DistortedPlace& place : angle_peaks(mesh.view(), mapped(mesh))) CHECK(place.volume < 1e-9);
+  for (const DistortedRegion& region : angle_peaks(mesh.view(), mapped(mesh))) CHECK(region.volume < 1e-9);
 }
 
 TEST_CASE("the angles are worst at the tip of a coarse spike") {
   const Mesh mesh = spiky_grid(1, 5);
-  const std::vector<DistortedPlace> places = angle_peaks(mesh.view(), mapped(mesh));
-  const auto worst =
-      std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.volume < b.volume; });
-  REQUIRE(worst != places.end());
+  const std::vector<DistortedRegion> regions = angle_peaks(mesh.view(), mapped(mesh));
+  const auto worst = std::max_element(regions.begin(), regions.end(),
+                                      [](const auto& a, const auto& b) { return a.volume < b.volume; });
+  REQUIRE(worst != regions.end());
   const Eigen::Vector3d& p = mesh.points[worst->vertex];
   CHECK((p.head<2>() - Eigen::Vector2d(4, 4)).norm() < 3);
 }

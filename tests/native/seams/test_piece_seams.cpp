@@ -4,7 +4,7 @@
 #include <set>
 
 #include "meshes.h"
-#include "seams/cut_graph.h"
+#include "seams/cut_surface.h"
 #include "seams/piece_seams.h"
 
 namespace spectral_conformal::test {
@@ -14,11 +14,11 @@ namespace {
 struct OnePiece {
   Mesh mesh;
   MirrorSymmetry symmetry;
-  std::vector<SeamPiece> pieces;
+  std::vector<Piece> pieces;
   std::vector<int> one_chart;
 
   explicit OnePiece(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
-    pieces = seam_pieces(mesh.view(), build_charts(mesh.view()));
+    pieces = split_into_pieces(mesh.view(), build_charts(mesh.view()));
     REQUIRE(pieces.size() == 1);
     one_chart.assign(static_cast<std::size_t>(mesh.n_faces()), 0);
   }

@@ -7,6 +7,8 @@
 
 #include "mesh/mirror_symmetry.h"
 #include "meshes.h"
+#include "seams/seam_graph.h"
+#include "seams/trial_map.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/seam_suggestion.h"
 #include "spectral_conformal/unwrap.h"
@@ -39,9 +41,9 @@ SeamSuggestion suggested(const Mesh& mesh, const SeamSuggestionOptions& options 
 
 MapQuality quality_with(Mesh mesh, const std::vector<std::array<int, 2>>& seams) {
   mesh.seams.insert(mesh.seams.end(), seams.begin(), seams.end());
-  std::vector<std::shared_ptr<const MappedChart>> charts;
+  TrialMaps charts;
   for (Chart& chart : build_charts(mesh.view()).charts) {
-    charts.push_back(std::make_shared<const MappedChart>(map_chart(mesh.view(), std::move(chart), {}, {})));
+    charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(mesh.view(), std::move(chart), {}, {})));
   }
   return map_quality(charts, 2);
 }

@@ -9,11 +9,11 @@
 namespace spectral_conformal::test {
 namespace {
 
-std::shared_ptr<const MappedChart> mapped(const Mesh& mesh, const Progress& progress = {}) {
+std::shared_ptr<const TrialMap> mapped(const Mesh& mesh, const Progress& progress = {}) {
   ChartDecomposition decomposition = build_charts(mesh.view());
   REQUIRE(decomposition.charts.size() == 1);
-  return std::make_shared<const MappedChart>(
-      map_chart(mesh.view(), std::move(decomposition.charts.front()), {}, progress));
+  return std::make_shared<const TrialMap>(
+      solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, progress));
 }
 
 }  // namespace
@@ -35,12 +35,12 @@ TEST_CASE("a flat patch is not distorted") {
 }
 
 TEST_CASE("quality is about the median and weighted by area") {
-  MappedChart chart;
+  TrialMap chart;
   chart.solved = true;
   chart.area = {4, 4, 1, 1};
   chart.log2_scale = {0.5, 0.5, 3, -0.25};
   chart.qc = {1, 1, 2, 1};
-  const MapQuality quality = map_quality({std::make_shared<const MappedChart>(chart)}, 2);
+  const MapQuality quality = map_quality({std::make_shared<const TrialMap>(chart)}, 2);
   CHECK(quality.median_log2_scale == 0.5);
   CHECK(quality.within_limit == doctest::Approx(0.9));
   CHECK(quality.scale_variance == doctest::Approx(0.1 * (2.5 * 2.5 + 0.75 * 0.75)));

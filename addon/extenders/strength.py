@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The strength of an extender as a property, wherever it stands."""
+
+from ..core import texts
+
+# Bounds drags and scripts, as the limits of the other soft constraints do.
+STRENGTH_LIMIT = 1e4
+# Arguments of the property.
+STRENGTH = {
+    **texts.STRENGTH_PROPERTY,
+    "default": 1.0,
+    "min": -STRENGTH_LIMIT,
+    "max": STRENGTH_LIMIT,
+    "soft_min": -10.0,
+    "soft_max": 10.0,
+}

@@ -1,0 +1,120 @@
+#include "bindings/options.h"
+
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace spectral_conformal::python {
+
+namespace {
+
+namespace py = pybind11;
+
+template <class T>
+using Name = std::pair<const char*, T>;
+
+constexpr Name<Method> methods[] = {
+    {"spectral", Method::spectral}, {"lscm", Method::lscm}, {"fiedler", Method::fiedler}, {"area", Method::area}};
+constexpr Name<Weights> weights[] = {{"uniform", Weights::uniform}, {"inverse_area", Weights::inverse_area}};
+constexpr Name<BoundaryMeasure> boundaries[] = {{"length", BoundaryMeasure::length},
+                                                {"vertex", BoundaryMeasure::vertex}};
+constexpr Name<FactorizationBackend> backends[] = {{"auto", FactorizationBackend::automatic},
+                                                   {"cholmod", FactorizationBackend::cholmod},
+                                                   {"eigen", FactorizationBackend::eigen}};
+constexpr Name<Fallback> fallbacks[] = {{"clamped_triangles", Fallback::clamped_triangles},
+                                        {"other_boundary", Fallback::other_boundary},
+                                        {"other_weights", Fallback::other_weights},
+                                        {"tutte_embedding", Fallback::tutte_embedding}};
+constexpr Name<RelaxationStatus> relaxations[] = {{"converged", RelaxationStatus::converged},
+                                                  {"factorization_limit", RelaxationStatus::factorization_limit},
+                                                  {"stalled", RelaxationStatus::stalled},
+                                                  {"indefinite_form", RelaxationStatus::indefinite_form},
+                                                  {"no_image_area", RelaxationStatus::no_image_area},
+                                                  {"rejected", RelaxationStatus::rejected}};
+constexpr Name<EigenvalueOf> eigenvalue_owners[] = {{"eigenvector", EigenvalueOf::eigenvector},
+                                                    {"map", EigenvalueOf::map}};
+
+/// The value that an option, a string, names.
+template <class T, std::size_t N>
+T named(const py::object& options, const char* option, const Name<T> (&names)[N]) {
+  const auto given = options.attr(option).cast<std::string>();
+  for (const auto& [name, value] : names) {
+    if (given == name) return value;
+  }
+  throw std::logic_error(std::string(option) + " has the unknown value '" + given + "'");
+}
+
+template <class T, std::size_t N>
+const char* name_in(const Name<T> (&names)[N], T wanted) {
+  for (const auto& [name, value] : names) {
+    if (value == wanted) return name;
+  }
+  throw std::logic_error("a result has a value without a name");
+}
+
+}  // namespace
+
+Pins pins_of(const PinList& list) {
+  Pins pins;
+  for (const auto& [vertex, u, v] : list) pins[vertex] = Complex(u, v);
+  return pins;
+}
+
+std::vector<VertexExtender> extenders_of(const ExtenderList& list) {
+  std::vector<VertexExtender> extenders;
+  for (const auto& [from, to, strength] : list) extenders.push_back({from, to, strength});
+  return extenders;
+}
+
+PatchOptions patch_options_of(const py::object& options) {
+  PatchOptions result;
+  result.weights = named(options, "weights", weights);
+  result.boundary = named(options, "boundary", boundaries);
+  result.backend = named(options, "factorization", backends);
+  result.fill_holes = options.attr("fill_holes").cast<bool>();
+  result.area_blend = options.attr("area_blend").cast<double>();
+  result.fold_free = options.attr("fold_free").cast<bool>();
+  return result;
+}
+
+SolveOptions solve_options_of(const py::object& options) {
+  SolveOptions result;
+  result.method = named(options, "method", methods);
+  result.tolerance = options.attr("tolerance").cast<double>();
+  result.soft_pins = options.attr("soft_pins").cast<double>();
+  result.hole_rigidity = options.attr("hole_rigidity").cast<double>();
+  result.fallbacks = options.attr("fallbacks").cast<bool>();
+  return result;
+}
+
+SeamSuggestionOptions seam_options_of(const py::object& options) {
+  SeamSuggestionOptions result;
+  const py::object max_length = options.attr("max_length");
+  result.max_length = max_length.is_none() ? std::numeric_limits<double>::infinity() : max_length.cast<double>();
+  result.scale_limit = options.attr("scale_limit").cast<double>();
+  result.qc_limit = options.attr("qc_limit").cast<double>();
+  result.map.weights = named(options, "weights", weights);
+  result.map.boundary = named(options, "boundary", boundaries);
+  result.map.backend = named(options, "factorization", backends);
+  return result;
+}
+
+const char* name_of(Method method) { return name_in(methods, method); }
+const char* name_of(Weights value) { return name_in(weights, value); }
+const char* name_of(BoundaryMeasure boundary) { return name_in(boundaries, boundary); }
+const char* name_of(EigenvalueOf eigenvalue_of) { return name_in(eigenvalue_owners, eigenvalue_of); }
+
+py::object name_of(Fallback fallback) {
+  if (fallback == Fallback::none) return py::none();
+  return py::str(name_in(fallbacks, fallback));
+}
+
+py::object name_of(std::optional<RelaxationStatus> relaxation) {
+  if (!relaxation) return py::none();
+  return py::str(name_in(relaxations, *relaxation));
+}
+
+}  // namespace spectral_conformal::python

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "bindings/options.h"
+
+namespace spectral_conformal::python {
+
+/// What a Parameterization and an UnwrappedChart both say: the map's numbers and what was really solved for it.
+template <class Result>
+pybind11::dict solve_record(const Result& result) {
+  pybind11::dict record;
+  record["message"] = result.message;
+  record["eigenvalue"] = result.eigenvalue;
+  record["eigenvalue_of"] = name_of(result.eigenvalue_of);
+  record["residual"] = result.residual;
+  record["iterations"] = result.iterations;
+  record["attempts"] = result.attempts;
+  record["turning_number"] = result.turning_number;
+  record["method"] = name_of(result.method);
+  record["weights"] = name_of(result.weights);
+  record["boundary"] = name_of(result.boundary);
+  record["fallback"] = name_of(result.fallback);
+  record["clamped_triangles"] = result.clamped_triangles;
+  record["relaxation"] = name_of(result.relaxation);
+  record["scale_deviation_before"] = result.scale_deviation_before;
+  record["scale_deviation"] = result.scale_deviation;
+  record["unfolded"] = result.unfolded;
+  record["is_embedding"] = result.is_embedding;
+  record["mean_qc_before"] = result.mean_qc_before;
+  return record;
+}
+
+}  // namespace spectral_conformal::python

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace spectral_conformal {
+
+/// What this build of the library solves with.
+struct BuildInfo {
+  std::string factorization;  ///< the library behind FactorizationBackend::automatic and its version
+  std::string blas;           ///< the BLAS that the factorisation calls, its file and what it says of itself, or ""
+};
+
+BuildInfo build_info();
+
+}  // namespace spectral_conformal

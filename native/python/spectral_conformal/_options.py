@@ -1,0 +1,246 @@
+"""The options of a map: one immutable record, whose fields are keywords of every function that makes maps."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import Any, Literal, TypedDict, TypeVar, get_args
+
+from . import _arguments
+
+Method = Literal["spectral", "lscm", "fiedler", "area"]
+Weights = Literal["uniform", "inverse_area"]
+Boundary = Literal["length", "vertex"]
+Factorization = Literal["auto", "cholmod", "eigen"]
+
+_CHOICES = {
+    "method": get_args(Method),
+    "weights": get_args(Weights),
+    "boundary": get_args(Boundary),
+    "factorization": get_args(Factorization),
+}
+# Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
+STRENGTH_LIMIT = 1e4
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a map is made. Every field is a keyword of `parameterize`, `unwrap`, `Solver` and `Unwrapper`, too.
+
+    Immutable and comparable; `dataclasses.replace` makes a changed copy. A value of the wrong kind, out of its range or
+    at odds with another raises ValueError.
+
+    Attributes:
+        method: "spectral" (Eq. 5), "lscm" (pinned LSCM / DCP, section 2.2), "fiedler" (Eq. 4) or "area" (B = A, section
+            3.3). Two or more hard pins are held by "lscm" where "spectral" is asked for; "fiedler" and "area" hold
+            none.
+        weights: weight of each triangle's conformal energy: "uniform" (1) or "inverse_area" (1 / area, section 4.1).
+        boundary: mass B of a vertex of the outer boundary loop: "length" (half of its two boundary edges) or "vertex"
+            (1, as in the paper).
+        soft_pins: 0 to 1e4, for "spectral": strength of a soft constraint in B that pulls the pinned vertices towards a
+            similar image of their positions, as a fraction of the boundary's total mass. The map then comes with the
+            similarity that fits it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: pins are
+            hard.
+        hole_rigidity: 0 to 1e4, for "spectral": how strongly every boundary loop but the longest is kept from shrinking
+            to a point, as a soft constraint about its barycentre (section 4.2). At 1 a hole counts like the outer
+            boundary.
+        fill_holes: bool, close every boundary loop but the longest by virtual triangles, which keep the holes' shape.
+            They count in the eigenvalue and in no measure of the map.
+        area_blend: 0 to 1. 0 keeps angles; towards 1 the map gives them up for areas: the patch is unfolded
+            conformally, relaxed towards an isometry, and solved again with the metric of that map, blended with the
+            identity (section 4.3). On top of `metric` where both are given.
+        fold_free: bool, end without a flipped triangle and with a turning number of 1 or -1, at some cost in
+            distortion. Flipped triangles are unfolded where they are; where that leaves some, or the map winds round
+            more than once or there is none, a Tutte embedding, one-to-one by theorem, is relaxed without flipping a
+            triangle. `message` says what was done and what it cost, and where several pins leave no room. Triangles
+            without area in 3D cannot flip; of a quad's two splits the first is kept unfolded.
+        fallbacks: bool, whether "spectral" may change the problem where its map fails the checks: clamp thin triangles,
+            then take the other boundary, then the other weights. The result's `fallback` names what was changed. False:
+            such a failure is an error. The embedding of `fold_free` is asked for by that option, and made either way.
+        tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops.
+        factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen; or "cholmod", "eigen".
+    """
+
+    method: Method = "spectral"
+    weights: Weights = "uniform"
+    boundary: Boundary = "length"
+    soft_pins: float = 0.0
+    hole_rigidity: float = 0.0
+    fill_holes: bool = False
+    area_blend: float = 0.0
+    fold_free: bool = False
+    fallbacks: bool = True
+    tolerance: float = 1e-8
+    factorization: Factorization = "auto"
+
+    def __post_init__(self) -> None:
+        """Check every value, and make numbers of any kind float and bool.
+
+        Raises:
+            ValueError: a value is of the wrong kind, out of its range or at odds with another.
+        """
+        _check_choices(self)
+        for name in ("fill_holes", "fold_free", "fallbacks"):
+            _set(self, name, _arguments.checked_flag(getattr(self, name), name))
+        for name, low, high in (
+            ("soft_pins", 0.0, STRENGTH_LIMIT),
+            ("hole_rigidity", 0.0, STRENGTH_LIMIT),
+            ("area_blend", 0.0, 1.0),
+            ("tolerance", 1e-14, 1e-3),
+        ):
+            _set(self, name, _arguments.checked_between(getattr(self, name), low, high, name))
+        for name, needs in (("soft_pins", "soft_pins need"), ("hole_rigidity", "hole_rigidity needs")):
+            if getattr(self, name) > 0.0 and self.method != "spectral":
+                raise ValueError(f"{needs} the method 'spectral', not '{self.method}'.")
+
+
+@dataclass(frozen=True)
+class SeamOptions:
+    """How much seams are to gain. Every field is a keyword of `suggest_seams` and `suggest_cuts`, too.
+
+    Attributes:
+        max_length: limit of the total length of the proposed seams, in the unit of the vertices; None for none. What
+            topology needs counts, but is proposed even beyond the limit.
+        scale_limit: at least 1: a component is good enough when 95 % of its area has a linear scale (root of UV area
+            over 3D area) within this factor of the median, and
+        qc_limit: at least 1: when its mean quasi-conformal distortion is not above this.
+        weights: of the maps, see `Options`.
+        boundary: of the maps, see `Options`.
+        factorization: see `Options`.
+    """
+
+    max_length: float | None = None
+    scale_limit: float = 2.0
+    qc_limit: float = 1.05
+    weights: Weights = "uniform"
+    boundary: Boundary = "length"
+    factorization: Factorization = "auto"
+
+    def __post_init__(self) -> None:
+        """Check every value, and make numbers of any kind float.
+
+        Raises:
+            ValueError: a value is of the wrong kind or out of its range.
+        """
+        _check_choices(self)
+        if self.max_length is not None:
+            _set(self, "max_length", _arguments.checked_at_least(self.max_length, 0.0, "max_length"))
+        for name in ("scale_limit", "qc_limit"):
+            _set(self, name, _arguments.checked_at_least(getattr(self, name), 1.0, name))
+
+
+def _check_choices(options: Options | SeamOptions) -> None:
+    for name, choices in _CHOICES.items():
+        value = getattr(options, name, choices[0])
+        if not isinstance(value, str) or value not in choices:
+            raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, not {value!r}.")
+
+
+def _set(options: Options | SeamOptions, name: str, value: object) -> None:
+    object.__setattr__(options, name, value)  # frozen for everybody else
+
+
+# The same fields as keywords, for type checkers and editors: what a function that takes all, or some of them, may be
+# given. tests/module/test_options.py holds them to the fields.
+
+
+class ResolveChanges(TypedDict, total=False):
+    """What the solves of one `Unwrapper` may vary."""
+
+    hole_rigidity: float
+    tolerance: float
+
+
+class SolveChanges(ResolveChanges, total=False):
+    """What the solves of one `Solver` may vary."""
+
+    method: Method
+    soft_pins: float
+    fallbacks: bool
+
+
+class OptionChanges(SolveChanges, total=False):
+    """All fields of `Options`."""
+
+    weights: Weights
+    boundary: Boundary
+    fill_holes: bool
+    area_blend: float
+    fold_free: bool
+    factorization: Factorization
+
+
+class SeamOptionChanges(TypedDict, total=False):
+    """All fields of `SeamOptions`."""
+
+    max_length: float | None
+    scale_limit: float
+    qc_limit: float
+    weights: Weights
+    boundary: Boundary
+    factorization: Factorization
+
+
+AnyOptions = TypeVar("AnyOptions", Options, SeamOptions)
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def changed(options: AnyOptions | None, default: AnyOptions, changes: dict[str, Any]) -> AnyOptions:
+    """Return `options`, or `default` where they are None, with changes.
+
+    Raises:
+        ValueError: they are no such options, or a value cannot be used.
+    """
+    base = default if options is None else options
+    if not isinstance(base, type(default)):
+        raise ValueError(f"options must be {type(default).__name__}, not {type(options).__name__}.")
+    return replace(base, **changes) if changes else base
+
+
+def takes_options(options: type, changes: type) -> Callable[[Function], Function]:
+    """Make the names of `changes` keywords of a function that is written with **changes.
+
+    Its signature and its help list them, with the defaults and the documentation of the fields of `options`; a name
+    that is not among them raises TypeError and is answered with the closest one.
+    """
+
+    def decorate(function: Function) -> Function:
+        signature = inspect.signature(function)
+        own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
+        chosen = [field for field in fields(options) if field.name in changes.__optional_keys__]
+        keyword_only = inspect.Parameter.KEYWORD_ONLY
+        listed = [inspect.Parameter(f.name, keyword_only, default=f.default, annotation=f.type) for f in chosen]
+        known = {parameter.name for parameter in (*own, *listed)} - {"self"}
+
+        @functools.wraps(function)
+        def checked(*arguments: Any, **keywords: Any) -> Any:  # noqa: ANN401 - of any function
+            for name in keywords:
+                if name not in known:
+                    near = difflib.get_close_matches(name, sorted(known), n=1, cutoff=0.0)[0]
+                    raise TypeError(f"{function.__qualname__}() has no option '{name}'; did you mean '{near}'?")
+            return function(*arguments, **keywords)
+
+        checked.__signature__ = signature.replace(parameters=[*own, *listed])
+        checked.__doc__ = _with_options(function.__doc__, options, [field.name for field in chosen])
+        return checked
+
+    return decorate
+
+
+def _with_options(doc: str | None, options: type, names: list[str]) -> str | None:
+    if doc is None:  # python -OO
+        return doc
+    entries = documented(options)
+    listed = "\n".join(entries[name] for name in names)
+    return f"{inspect.cleandoc(doc)}\n\nOptions, each a keyword (see `{options.__name__}`):\n{listed}\n"
+
+
+def documented(options: type) -> dict[str, str]:
+    """Return what the docstring of a dataclass says of each field, name and indentation included."""
+    attributes = inspect.cleandoc(options.__doc__ or "").partition("\nAttributes:\n")[2]
+    entries = re.split(r"^(?=    \w+: )", attributes, flags=re.MULTILINE)
+    return {entry.split(":")[0].strip(): entry.rstrip() for entry in entries if entry.strip()}

@@ -1,0 +1,138 @@
+"""One disk-like patch of triangles to the plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._arguments import Extenders, Pins, Progress
+from ._options import OptionChanges, Options, SolveChanges, changed, takes_options
+from ._results import Parameterization
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+
+@takes_options(Options, OptionChanges)
+def parameterize(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    *,
+    options: Options | None = None,
+    pins: Pins | None = None,
+    extenders: Extenders | None = None,
+    metric: npt.ArrayLike | None = None,
+    progress: Progress | None = None,
+    **changes: Unpack[OptionChanges],
+) -> Parameterization:
+    """Map one disk-like patch (holes allowed) conformally to the plane.
+
+    Args:
+        vertices: (V, 3) positions, any unit. Vertices that no triangle uses are allowed.
+        triangles: (F, 3) vertex indices. Faces wound against the majority are reoriented.
+        options: how the map is made; its fields may be given one by one as keywords, which go first.
+        pins: vertex -> (u, v). Two or more are held exactly, by pinned LSCM, and the map is returned as solved, with
+            `method` "lscm"; with `soft_pins` they attract the spectral map instead. One: the map is solved free and
+            moved onto it. With "lscm" and none, the two farthest boundary vertices are held.
+        extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
+            that push two vertices apart, or pull them together where the strength is negative. The strength, at most
+            1e4 in size, is a fraction of the boundary's total mass.
+        metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
+            axis runs from its first to its second corner, the second axis is a quarter turn counter-clockwise from it,
+            seen from where the corners run counter-clockwise. A tangent vector t gets the squared length t G t, and the
+            map is conformal for these lengths: quasi-conformal. The scale of a tensor is without effect. See
+            `metric_from_uv`, `metric_from_direction` and `blend_metric`.
+        progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread. Returning
+            False cancels: `Cancelled` is raised. What it raises itself passes through.
+
+    Returns:
+        The map: positively oriented, the mean of its vertices at the origin, its area equal to the area in 3D.
+
+    Raises:
+        InvalidMeshError: (a ValueError) the mesh is not one disk-like patch, or its pins cannot be held; the message
+            names the condition and what to do.
+        ValueError: an array or option is not of the kind described here.
+        TypeError: a keyword is no option; the message names the closest one.
+        SolveError: no attempt passed the numerical checks, or the map winds round more than once: under extenders and
+            hole rigidity, weaken them.
+        Cancelled: `progress` returned False.
+        MemoryError: there is too little memory.
+    """
+    solver = Solver._of(vertices, triangles, metric, changed(options, Options(), changes))
+    return solver._solved(solver._options, pins, extenders, progress)
+
+
+class Solver:
+    """One patch, factored once, solved as often as wanted.
+
+    A solver has work space of its own. Different solvers may run in different threads at once, and give what they give
+    alone. Several threads may share one: they take turns, each waiting without the GIL until the solve before it has
+    ended. Its progress function must not call it again.
+    """
+
+    @takes_options(Options, OptionChanges)
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        *,
+        options: Options | None = None,
+        metric: npt.ArrayLike | None = None,
+        progress: Progress | None = None,
+        **changes: Unpack[OptionChanges],
+    ) -> None:
+        """Assemble and factor the conformal energy of one patch.
+
+        Arguments and errors are those of `parameterize`. Options that a solve may vary are what it starts from.
+        """
+        self._assemble(vertices, triangles, metric, changed(options, Options(), changes))
+        self._native.factorize(_arguments.checked_progress(progress))
+
+    @takes_options(Options, SolveChanges)
+    def solve(
+        self,
+        *,
+        pins: Pins | None = None,
+        extenders: Extenders | None = None,
+        progress: Progress | None = None,
+        **changes: Unpack[SolveChanges],
+    ) -> Parameterization:
+        """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`.
+
+        The options are those of the solver, with the changes given here. Extenders and hole rigidity change the form B
+        only: a solve with them starts from the earlier maps, so that a small change of strength costs a few solves; the
+        result agrees with a fresh one to the tolerance.
+        """
+        return self._solved(changed(self._options, self._options, changes), pins, extenders, progress)
+
+    @classmethod
+    def _of(
+        cls, vertices: npt.ArrayLike, triangles: npt.ArrayLike, metric: npt.ArrayLike | None, options: Options
+    ) -> Solver:
+        """Return a solver that is not factored yet: the first solve does that, within its own progress."""
+        solver = cls.__new__(cls)
+        solver._assemble(vertices, triangles, metric, options)
+        return solver
+
+    def _assemble(
+        self, vertices: npt.ArrayLike, triangles: npt.ArrayLike, metric: npt.ArrayLike | None, options: Options
+    ) -> None:
+        vertices = _arguments.checked_vertices(vertices)
+        triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
+        tensors = _arguments.checked_metric(metric, len(triangles), (2,))
+        self._options = options
+        self._n_vertices = len(vertices)
+        self._native = _native.Solver(vertices, triangles, tensors, options)
+
+    def _solved(
+        self, options: Options, pins: Pins | None, extenders: Extenders | None, progress: Progress | None
+    ) -> Parameterization:
+        solution = self._native.solve(
+            options,
+            _arguments.checked_pins(pins, self._n_vertices),
+            _arguments.checked_extenders(extenders, options.method, self._n_vertices),
+            _arguments.checked_progress(progress),
+        )
+        return Parameterization(**solution)

@@ -1,0 +1,68 @@
+"""What a map is like: its distortion and its defects."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._results import Distortion, MapDefects
+
+
+def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> Distortion:
+    """Measure a map.
+
+    Args:
+        vertices: (V, 3) positions, finite where a triangle uses them.
+        triangles: (F, 3) vertex indices.
+        uv: (V, 2) image of each vertex, finite.
+
+    Raises:
+        ValueError: an array is not of the kind described here.
+    """
+    vertices = _arguments.checked_vertices(vertices)
+    triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
+    if not np.isfinite(vertices[triangles]).all():
+        raise ValueError("vertices has values that are not finite; every vertex that a triangle uses needs a position.")
+    uv = _arguments.checked_floats(uv, "uv", 2)
+    if len(uv) != len(vertices):
+        raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
+    if not np.isfinite(uv).all():
+        raise ValueError("uv has values that are not finite.")
+    return Distortion(**_native.distortion(vertices, triangles, uv))
+
+
+def map_defects(
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    corner_uv: npt.ArrayLike,
+    *,
+    selected_faces: npt.ArrayLike | None = None,
+    between_islands: bool = False,
+) -> MapDefects:
+    """Find flipped and overlapping faces in the UV map of a polygon mesh.
+
+    Islands are the parts of the selected faces that are connected over edges of exactly two faces whose corners' UVs
+    are equal. An island that is mirrored as a whole has no flipped faces, nor has one whose faces are wound
+    inconsistently. Polygons are triangulated in the map: a concave one is not flipped, one that crosses itself is, and
+    one of five corners or more that touches itself may be. UVs are taken to be single precision: contacts and folds
+    less deep than 2.5e-7 of the coordinates do not count, so that collapsed faces are neither flipped nor overlapping.
+    Of several faces on the same vertices with the same UVs the first is looked at only; faces with fewer than three
+    different corners are not looked at.
+
+    Args:
+        face_offsets: as in `unwrap`.
+        corner_vertices: as in `unwrap`.
+        corner_uv: (C, 2) the map, finite at the corners of selected faces.
+        selected_faces: (faces,) bool, all faces when left out; others are not looked at.
+        between_islands: whether faces that cover a face of another island overlap too.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh, or a UV is not finite; the message names its corner.
+    """
+    corners = _arguments.checked_index_vector(corner_vertices, "corner_vertices")
+    offsets = _arguments.checked_face_offsets(face_offsets, len(corners))
+    selected = _arguments.checked_face_selection(selected_faces, len(offsets) - 1)
+    uv = _arguments.checked_corner_uv(corner_uv, len(corners))
+    between = _arguments.checked_flag(between_islands, "between_islands")
+    return MapDefects(**_native.map_defects(offsets, corners, uv, selected, between))

@@ -1,0 +1,177 @@
+"""The results: maps and what is said of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._options import Boundary, Method, Weights
+
+Fallback = Optional[Literal["clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
+"""What was changed about a problem whose own solve failed the checks; None where nothing was. "clamped_triangles": thin
+triangles were given a minimal height in the energy. "other_boundary", "other_weights": the form B with the other
+`boundary`, the energy L with the other `weights`. "tutte_embedding": `fold_free` replaced the map by a relaxed Tutte
+embedding."""
+EigenvalueOf = Literal["eigenvector", "map"]
+"""What an eigenvalue belongs to: the "eigenvector" of the problem that was solved, or a "map" that is none (pinned,
+unfolded, replaced), of which it is the quotient z*Lz / z*Bz of Eq. 5."""
+Relaxation = Optional[
+    Literal["converged", "factorization_limit", "stalled", "indefinite_form", "no_image_area", "rejected"]
+]
+"""How the relaxation towards an isometry that `area_blend` asks for ended; None without it. "converged"; at the
+"factorization_limit", more would change the map further; "stalled": flips or rounding leave no step; "indefinite_form":
+the form of the descent is not positive definite in double precision. Nothing was blended where the conformal map has
+"no_image_area", or the relaxed map was "rejected" because it had more flipped triangles or overflowed."""
+
+
+@dataclass(frozen=True)
+class Parameterization:
+    """A map of one patch to the plane."""
+
+    uv: npt.NDArray[np.float64]
+    """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
+    method: Method
+    """The one used: "lscm" where two or more hard pins are held."""
+    weights: Weights
+    """Of the energy L that was really solved: not those asked for where `fallback` is "other_weights"."""
+    boundary: Boundary
+    """Of the form B that was really solved: not the one asked for where `fallback` is "other_boundary"."""
+    fallback: Fallback
+    """What was changed about the problem because its own solve failed the checks; None where nothing was."""
+    clamped_triangles: int
+    """Thin triangles that the fallback "clamped_triangles" gave a minimal height in the energy."""
+    eigenvalue: float
+    """lambda of L z = lambda B z (Eq. 5) for the given vertices, soft constraints included in B, for the method,
+    weights and boundary above. For "area" B = A."""
+    eigenvalue_of: EigenvalueOf
+    """Whether `eigenvalue` is that of an "eigenvector", or the quotient z*Lz / z*Bz of a "map" that is none."""
+    residual: float
+    """|L z - lambda B z| / (largest diagonal entry of L x |z|). For "lscm" |L z| over the free vertices / (largest
+    diagonal entry x extent of the map); for "area" and with soft constraints (soft pins, extenders, hole rigidity) the
+    last relative change of the map."""
+    iterations: int
+    """Solves with the factor."""
+    attempts: int
+    """Eigenproblems, or pinned systems, solved until one passed the checks, fallbacks included."""
+    turning_number: int
+    """Of the longest boundary loop: 1 for a map that does not wind round itself, -1 if that loop is a hole of it."""
+    relaxation: Relaxation
+    """How the relaxation that `area_blend` asks for ended; None without it."""
+    scale_deviation_before: float
+    """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise not a number."""
+    scale_deviation: float
+    """With `area_blend`: the same of this map. Otherwise not a number."""
+    unfolded: int
+    """Flipped triangles that `fold_free` has unfolded."""
+    is_embedding: bool
+    """Whether `fold_free` had to replace the map by an embedding."""
+    mean_qc_before: float
+    """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
+    message: str
+    """For people: fallbacks that were needed and faces that were repaired; empty when there was none."""
+    timings: dict[str, float]
+    """Seconds per phase, by name."""
+
+
+@dataclass(frozen=True)
+class Distortion:
+    """Distortion of a map from 3D to the plane, per triangle and summed up."""
+
+    qc: npt.NDArray[np.float64]
+    """(F,) quasi-conformal distortion: larger over smaller singular value of the Jacobian, infinite for a collapsed
+    image, 1 for triangles without area in 3D."""
+    mean_qc: float
+    """Weighted by the area in 3D (section 5 of the paper)."""
+    p95_qc: float
+    """95th percentile over the triangles."""
+    p99_qc: float
+    """99th percentile over the triangles."""
+    max_qc: float
+    log2_scale: npt.NDArray[np.float64]
+    """(F,) log2 of the root of image area / area."""
+    log2_scale_deviation: float
+    """Standard deviation of log2_scale, weighted by the area in 3D."""
+    flipped: npt.NDArray[np.bool_]
+    """(F,) image wound against the majority (by area) of its connected patch, after orienting the patch."""
+    turning_number: int
+    """Of the outer boundary loop of the largest patch; 0 for a closed one."""
+    overlapping: npt.NDArray[np.bool_]
+    """(F,) whether the image covers part of another triangle's."""
+
+
+@dataclass(frozen=True)
+class MapDefects:
+    """Faces of a UV map that lie the wrong way round or on others."""
+
+    flipped: npt.NDArray[np.bool_]
+    """(faces,) a triangle of the face is wound against the majority (by UV area) of its island, after orienting the
+    island's faces consistently; False for faces that are not selected."""
+    overlapping: npt.NDArray[np.bool_]
+    """(faces,) covers part of another face; False for faces that are not selected."""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """What became of one chart of `unwrap`. Of a failed one, what was really solved is what was to be solved."""
+
+    faces: npt.NDArray[np.int32]
+    """Faces of the mesh, ascending."""
+    status: Literal["solved", "failed"]
+    message: str
+    """For people: why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
+    method: Method
+    """This and the next four: what was really solved, see `Parameterization`."""
+    weights: Weights
+    boundary: Boundary
+    fallback: Fallback
+    clamped_triangles: int
+    eigenvalue: float
+    """Not a number for a failed chart, like residual, mean_qc and max_qc."""
+    eigenvalue_of: EigenvalueOf
+    """This and the next four: see `Parameterization`."""
+    residual: float
+    iterations: int
+    attempts: int
+    turning_number: int
+    mean_qc: float
+    """As in `Distortion`, over the chart's triangles; of a convex quad's two splits the less distorted counts."""
+    max_qc: float
+    flipped: int
+    """Faces with a flipped triangle."""
+    overlapping: int
+    """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
+    relaxation: Relaxation
+    """See `Parameterization`."""
+    scale_deviation_before: float
+    """See `Parameterization`; so is the next."""
+    scale_deviation: float
+    unfolded: int
+    """Flipped triangles that `fold_free` has unfolded."""
+    is_embedding: bool
+    """Whether `fold_free` had to replace the map by an embedding."""
+    mean_qc_before: float
+    """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
+    n_pins: int
+    """Pinned vertices of the chart."""
+    n_vertices: int
+    """Vertices of the chart; a mesh vertex on a seam counts once for every copy."""
+    area: float
+    """In 3D."""
+
+
+@dataclass(frozen=True)
+class Unwrap:
+    """A polygon mesh unwrapped chart by chart. Charts are not packed: each is centred at the origin, or at its pins."""
+
+    uv: npt.NDArray[np.float64]
+    """(C, 2) per face corner, 0 where not solved."""
+    solved_corners: npt.NDArray[np.bool_]
+    """(C,)"""
+    chart_of_face: npt.NDArray[np.int32]
+    """(faces,) index into charts, -1 for faces that are not selected."""
+    charts: list[Chart]
+    unused_extenders: npt.NDArray[np.bool_]
+    """(number of extenders,) those without effect: no solved chart has both vertices, or its pins hold it."""

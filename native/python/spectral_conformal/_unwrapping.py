@@ -1,0 +1,176 @@
+"""A polygon mesh to the plane, chart by chart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._arguments import Extenders, Pins, Progress
+from ._options import OptionChanges, Options, ResolveChanges, changed, takes_options
+from ._results import Chart, Unwrap
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+
+@takes_options(Options, OptionChanges)
+def unwrap(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    options: Options | None = None,
+    seam_edges: npt.ArrayLike | None = None,
+    selected_faces: npt.ArrayLike | None = None,
+    pins: Pins | None = None,
+    pinned_corners: npt.ArrayLike | None = None,
+    corner_uv: npt.ArrayLike | None = None,
+    extenders: Extenders | None = None,
+    metric: npt.ArrayLike | None = None,
+    progress: Progress | None = None,
+    **changes: Unpack[OptionChanges],
+) -> Unwrap:
+    """Cut a polygon mesh into charts and map each to the plane. A chart that cannot be solved does not stop the others.
+
+    Charts are cut at seams, at the border of the selection, at edges with three or more faces and at bow-tie vertices.
+    Each is solved as by `parameterize`, by the same rules.
+
+    Args:
+        vertices: (V, 3) positions, any unit.
+        face_offsets: (faces + 1,) the corners of face f are face_offsets[f] to face_offsets[f + 1], as in Blender.
+        corner_vertices: (C,) vertex of each corner.
+        options: how the maps are made; its fields may be given one by one as keywords, which go first.
+        seam_edges: (S, 2) vertex pairs in any order; pairs that are no edge are without effect.
+        selected_faces: (faces,) bool, all faces when left out.
+        pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`; pins outside the selection
+            have no effect.
+        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin. A mesh vertex with different pins is split there:
+            each of its corners goes to the nearest. The pin of a chart's vertex is the mean over its pinned corners,
+            and goes before `pins`.
+        corner_uv: (C, 2) the map so far, finite where pinned; needed with `pinned_corners`.
+        extenders: as in `parameterize`, of mesh vertices. An extender acts in every chart that has copies of both
+            vertices; where a seam gives a vertex several copies in one chart, it acts on their barycentre. One whose
+            vertices lie in no common chart has no effect, like all in a chart held by hard pins, where the hole
+            rigidity has none either: `Unwrap.unused_extenders` says which.
+        metric: (faces, 3, 3) symmetric tensor of space for each face: a tangent vector t gets the squared length t G t
+            and the map is conformal for these lengths; positive definite on the face's plane. For a mesh of triangles
+            also (faces, 2, 2) as in `parameterize`.
+        progress: as in `parameterize`.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh, or an option is not of the kind described here.
+        TypeError: a keyword is no option; the message names the closest one.
+        Cancelled: `progress` returned False.
+        MemoryError: there is too little memory.
+    """
+    used = changed(options, Options(), changes)
+    arguments, n_vertices = _checked_mesh(
+        used,
+        vertices,
+        face_offsets,
+        corner_vertices,
+        seam_edges,
+        selected_faces,
+        pins,
+        pinned_corners,
+        corner_uv,
+        metric,
+    )
+    return _result(
+        _native.unwrap(
+            arguments,
+            _arguments.checked_extenders(extenders, used.method, n_vertices),
+            _arguments.checked_progress(progress),
+        )
+    )
+
+
+class Unwrapper:
+    """`unwrap` for several solves of one mesh that differ in extenders, hole rigidity and tolerance only.
+
+    Keeps the charts and their factors; every solve starts from the maps of the last. Threads may use it as they may a
+    `Solver`.
+    """
+
+    @takes_options(Options, OptionChanges)
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        face_offsets: npt.ArrayLike,
+        corner_vertices: npt.ArrayLike,
+        *,
+        options: Options | None = None,
+        seam_edges: npt.ArrayLike | None = None,
+        selected_faces: npt.ArrayLike | None = None,
+        pins: Pins | None = None,
+        pinned_corners: npt.ArrayLike | None = None,
+        corner_uv: npt.ArrayLike | None = None,
+        metric: npt.ArrayLike | None = None,
+        **changes: Unpack[OptionChanges],
+    ) -> None:
+        """Cut the mesh into charts.
+
+        Arguments and errors are those of `unwrap`. Options that a solve may vary are what it starts from.
+        """
+        self._options = changed(options, Options(), changes)
+        arguments, self._n_vertices = _checked_mesh(
+            self._options,
+            vertices,
+            face_offsets,
+            corner_vertices,
+            seam_edges,
+            selected_faces,
+            pins,
+            pinned_corners,
+            corner_uv,
+            metric,
+        )
+        self._native = _native.Unwrapper(arguments)
+
+    @takes_options(Options, ResolveChanges)
+    def solve(
+        self,
+        *,
+        extenders: Extenders | None = None,
+        progress: Progress | None = None,
+        **changes: Unpack[ResolveChanges],
+    ) -> Unwrap:
+        """Solve all charts, with the options of the unwrapper and the changes given here. See `unwrap`."""
+        options = changed(self._options, self._options, changes)
+        return _result(
+            self._native.solve(
+                options,
+                _arguments.checked_extenders(extenders, options.method, self._n_vertices),
+                _arguments.checked_progress(progress),
+            )
+        )
+
+
+def _checked_mesh(
+    options: Options,
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    seam_edges: npt.ArrayLike | None,
+    selected_faces: npt.ArrayLike | None,
+    pins: Pins | None,
+    pinned_corners: npt.ArrayLike | None,
+    corner_uv: npt.ArrayLike | None,
+    metric: npt.ArrayLike | None,
+) -> tuple[Any, int]:
+    """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
+    polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+    vertices, offsets, corners = polygons[:3]
+    pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
+    all_triangles = bool((np.diff(offsets) == 3).all())
+    tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
+    pin_list = _arguments.checked_pins(pins, len(vertices))
+    return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), len(vertices)
+
+
+def _result(result: dict[str, Any]) -> Unwrap:
+    result["charts"] = [Chart(**chart) for chart in result["charts"]]
+    return Unwrap(**result)

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "conformal/boundary_form.h"
+#include "linear_algebra/factorization.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The factor of L + s M of Eq. 7.
+struct ShiftedFactor {
+  std::unique_ptr<Factorization> factorization;  ///< null where L + s M is not positive definite in double precision
+  double shift = 0;                              ///< s, the last one tried
+};
+
+/// Factors L + s M with s = relative_shift times the median of L_ii / M_ii over the vertices with mass, raised a
+/// hundredfold, at most four times, while rounding breaks the factorisation. L is singular (L 1 = 0); the shift by the
+/// form itself leaves the eigenvectors of Eq. 5 as they are. Throws Cancelled, and what Factorization throws.
+ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const BoundaryForm& form, double relative_shift,
+                             FactorizationBackend backend, const Progress& progress);
+
+}  // namespace spectral_conformal

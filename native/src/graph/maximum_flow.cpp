@@ -1,0 +1,72 @@
+#include "graph/maximum_flow.h"
+
+#if defined(__GNUC__) && !defined(__clang__)
+// Boost's iterators and edge descriptors are assigned after their construction, which GCC cannot follow.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace spectral_conformal {
+namespace {
+
+// Flow is counted in integers: sums of doubles would leave residuals of rounding, by which the source would seem to
+// reach what a minimum cut parts from it.
+using Amount = std::int64_t;
+using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
+
+struct Node {
+  boost::default_color_type color = boost::white_color;
+  int distance = 0;
+  Traits::edge_descriptor predecessor;
+};
+struct Arc {
+  Amount capacity = 0;
+  Amount residual = 0;
+  Traits::edge_descriptor reverse;
+};
+using FlowGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, Node, Arc>;
+
+void connect(FlowGraph& graph, int a, int b, Amount capacity) {
+  const auto there = add_edge(a, b, graph).first;
+  const auto back = add_edge(b, a, graph).first;
+  graph[there] = {capacity, 0, back};
+  graph[back] = {capacity, 0, there};
+}
+
+}  // namespace
+
+std::vector<char> min_cut_source_side(int n_nodes, const std::vector<CapacityEdge>& edges, int source, int sink) {
+  double max_capacity = 0;
+  for (const CapacityEdge& edge : edges) max_capacity = std::max(max_capacity, edge.capacity);
+  // The largest capacity is 2^40 units, so that edges of a regular mesh, as long as each other but for rounding
+  // (1e-12), carry the same amount; fewer where that keeps the sum of all below 2^61.
+  const double n_units = std::min(std::ldexp(1.0, 40), std::ldexp(1.0, 61) / static_cast<double>(edges.size() + 1));
+  const auto units = [&](double capacity) -> Amount {
+    return max_capacity > 0 ? std::llround(capacity / max_capacity * n_units) : 0;
+  };
+  FlowGraph graph(static_cast<std::size_t>(n_nodes));
+  for (const CapacityEdge& edge : edges) connect(graph, edge.a, edge.b, units(edge.capacity));
+  boost::boykov_kolmogorov_max_flow(graph, get(&Arc::capacity, graph), get(&Arc::residual, graph),
+                                    get(&Arc::reverse, graph), get(&Node::predecessor, graph), get(&Node::color, graph),
+                                    get(&Node::distance, graph), get(boost::vertex_index, graph), source, sink);
+  std::vector<char> side(static_cast<std::size_t>(n_nodes), 0);
+  std::vector<int> reached{source};
+  side[source] = 1;
+  for (std::size_t head = 0; head < reached.size(); ++head) {
+    for (auto [arc, end] = out_edges(reached[head], graph); arc != end; ++arc) {
+      const auto to = target(*arc, graph);
+      if (side[to] != 0 || graph[*arc].residual <= 0) continue;
+      side[to] = 1;
+      reached.push_back(static_cast<int>(to));
+    }
+  }
+  return side;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,18 @@
+#include "parameterization/chart_metric.h"
+
+namespace spectral_conformal {
+
+std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric) {
+  std::vector<TriangleMetric> result;
+  if (metric == nullptr) return result;
+  const Positions positions = chart.positions(mesh);
+  result.reserve(chart.triangles.size());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const auto& [a, b, c] = chart.triangles[t];
+    result.push_back(restrict_to_triangle(metric[chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]],
+                                          positions.row(a), positions.row(b), positions.row(c)));
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,62 @@
+#include "parameterization/normalized_patch.h"
+
+#include <algorithm>
+#include <string>
+
+#include "mesh/boundary_loops.h"
+#include "mesh/chart_checks.h"
+#include "mesh/hole_filling.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+
+NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions, bool fill_holes) {
+  const std::string problem = why_not_parameterizable(chart, positions);
+  if (!problem.empty()) throw InvalidMesh(problem);
+  NormalizedPatch patch;
+  patch.n_vertices = chart.n_vertices();
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = positions.colwise().maxCoeff();
+  patch.scale = (high - low).maxCoeff();
+  patch.positions = (positions.rowwise() - (low + 0.5 * (high - low))) / patch.scale;
+  const int outer = outer_loop(chart.boundary_loops, patch.positions);
+  for (std::size_t i = 0; i < chart.boundary_loops.size(); ++i) {
+    if (static_cast<int>(i) == outer) {
+      patch.outer = chart.boundary_loops[i];
+    } else {
+      patch.inner.push_back(chart.boundary_loops[i]);
+    }
+  }
+  patch.triangles = chart.triangles;
+  patch.triangle_weights = chart.triangle_weights;
+  if (fill_holes && !patch.inner.empty()) {
+    const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, patch.positions);
+    patch.triangles.insert(patch.triangles.end(), filling.triangles.begin(), filling.triangles.end());
+    patch.triangle_weights.insert(patch.triangle_weights.end(), filling.triangle_weights.begin(),
+                                  filling.triangle_weights.end());
+    patch.positions.conservativeResize(patch.n_vertices + filling.centres.rows(), 3);
+    patch.positions.bottomRows(filling.centres.rows()) = filling.centres;
+    patch.n_virtual = filling.triangles.size();
+  }
+  return patch;
+}
+
+ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexVector& z) {
+  ComplexVector all = ComplexVector::Zero(patch.positions.rows());
+  all.head(patch.n_vertices) = z;
+  Eigen::VectorXd neighbours = Eigen::VectorXd::Zero(all.size());
+  for (std::size_t t = patch.triangles.size() - patch.n_virtual; t < patch.triangles.size(); ++t) {
+    const auto& triangle = patch.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const int centre = triangle[k];
+      const int corner = triangle[(k + 1) % 3];
+      if (centre < patch.n_vertices || corner >= patch.n_vertices) continue;
+      all[centre] += z[corner];
+      neighbours[centre] += 1;
+    }
+  }
+  for (Eigen::Index v = patch.n_vertices; v < all.size(); ++v) all[v] /= std::max(neighbours[v], 1.0);
+  return all;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "mesh/charts.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// A disk-like chart, centred and scaled to extent 1, so that any coordinates give the same numbers; its holes filled
+/// where that was asked for.
+struct NormalizedPatch {
+  Positions positions;  ///< of the chart's vertices, then of those added in filled holes
+  int n_vertices = 0;   ///< of the chart
+  double scale = 1;     ///< input units per unit of `positions`
+  BoundaryLoop outer;   ///< the longest in 3D
+  std::vector<BoundaryLoop> inner;
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise; the chart's, then those in filled holes
+  std::vector<double> triangle_weights;       ///< per triangle, see Chart
+  std::size_t n_virtual = 0;                  ///< triangles in filled holes
+
+  auto surface() const { return positions.topRows(n_vertices); }  ///< positions of the chart's vertices
+};
+
+/// positions (V, 3) of the chart's vertices. Throws InvalidMesh when why_not_parameterizable says so.
+NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions, bool fill_holes);
+
+/// The map z (chart vertices,) with the vertices added in filled holes, each at the mean of its neighbours.
+ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexVector& z);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,252 @@
+#include "parameterization/spectral_solver.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "conformal/correction.h"
+#include "conformal/eigenproblem.h"
+#include "conformal/extended_form.h"
+#include "conformal/pin_attraction.h"
+#include "conformal/placement.h"
+#include "conformal/start_vector.h"
+#include "quality/turning_number.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+
+namespace {
+
+/// The reduced equation must hold at least this well before the corrections, whatever tolerance was asked for: on flat
+/// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which they then take out.
+constexpr double residual_limit = 1e-3;
+/// The corrections must end below this change of z: what is left then lies below single precision, in which UVs are
+/// stored.
+constexpr double resolved = 1e-7;
+
+/// s of the first attempt: well above the 1e-16 that rounding takes from the diagonal of L, well below the lambda of a
+/// patch of a million vertices.
+constexpr double first_relative_shift = 1e-12;
+
+}  // namespace
+
+/// What each attempt at the same eigenproblem changes.
+struct SpectralSolver::Attempt {
+  double relative_shift;  ///< see factor_shifted
+  unsigned start;
+  int krylov_dimension;
+  double tolerance_factor;
+};
+
+/// Of Eq. 5, virtual vertices included, at no particular place and scale.
+struct SpectralSolver::Eigenvector {
+  ComplexVector z;
+  double lambda = 0;    ///< z^H L z / z^H B z
+  double residual = 0;  ///< see Parameterization
+  double change = 0;    ///< the last correction, relative to z
+  double change_limit = resolved;
+  int solves = 0;
+  bool converged = false;
+};
+
+SpectralSolver::SpectralSolver(const NormalizedPatch& patch, Weights weights, BoundaryMeasure boundary,
+                               FactorizationBackend backend)
+    : patch_(&patch),
+      backend_(backend),
+      boundary_(boundary),
+      energy_(std::make_unique<ConformalEnergy>(patch.positions, patch.triangles, patch.triangle_weights, weights,
+                                                patch.n_virtual)),    // Eq. 3
+      form_(boundary_form(patch.outer, patch.positions, boundary)) {  // Eq. 5
+  if (form_.vertices.size() < 2) {
+    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
+  }
+}
+
+SpectralSolver::SpectralSolver(const SpectralSolver& like, Weights weights, BoundaryMeasure boundary)
+    : patch_(like.patch_),
+      backend_(like.backend_),
+      boundary_(boundary),
+      energy_(std::make_unique<ConformalEnergy>(*like.energy_, weights)),
+      form_(boundary_form(patch_->outer, patch_->positions, boundary)) {}
+
+SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attractors, const Progress& progress,
+                                  Timings& timings) {
+  // The first passes nearly always. The second gives way to rounding: a larger shift, a start without preferred shape,
+  // more directions, less error.
+  constexpr Attempt attempts[] = {{first_relative_shift, 0, 6, 1.0}, {1e-10, 1, 24, 0.1}};
+  SpectralMap map;
+  int made = 0;
+  for (const Attempt& attempt : attempts) {
+    // The fraction done only rises: a failed attempt has used it up.
+    const Progress rest = [&progress](double, const char* phase) { return !progress || progress(1.0, phase); };
+    map = this->attempt(options, attractors, attempt, made == 0 ? progress : rest, timings);
+    map.attempts = ++made;
+    // Without a factor the shift has been raised as far as it may be.
+    if (map.rejection == Rejection::none || map.rejection == Rejection::not_factorized) break;
+    // A strong attraction has such maps as its true optimum, so that another attempt would end there too: the pair
+    // meets where the map branches.
+    if (map.rejection == Rejection::winding && options.has_forces()) break;
+  }
+  return map;
+}
+
+SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& attractors, const Attempt& attempt,
+                                    const Progress& progress, Timings& timings) {
+  Stopwatch watch(timings);
+  SpectralMap map;
+
+  // B: of the boundary (Eq. 5), or the identity, which makes z the Fiedler vector of L (Eq. 4).
+  const bool on_boundary = options.method != Method::fiedler;
+  const BoundaryForm identity = on_boundary ? BoundaryForm{} : identity_form(patch_->n_vertices);
+  const BoundaryForm& form = on_boundary ? form_ : identity;
+
+  // The factor of L + s M (Eq. 7).
+  ShiftedFactor own;
+  const bool kept = on_boundary && attempt.relative_shift == first_relative_shift;
+  ShiftedFactor& factor = kept ? factor_ : own;
+  if (!factor.factorization) {
+    factor = factor_shifted(energy_->matrix(), form, attempt.relative_shift, backend_, part(progress, 0.0, 0.6));
+    watch.lap("factorization");
+  }
+  map.shift = factor.shift;
+  if (!factor.factorization) {
+    map.rejection = Rejection::not_factorized;
+    return map;
+  }
+
+  // z: the eigenvector of the smallest nonzero lambda of L z = lambda B z.
+  Eigenvector v = eigenvector(options, attractors, form, factor, attempt, part(progress, 0.6, 1.0));
+  map.solves = v.solves;
+  map.residual = v.residual;
+  map.eigenvalue = v.lambda * eigenvalue_unit(options.method);
+  watch.lap("eigenproblem");
+  if (!v.converged) {
+    map.rejection = Rejection::not_converged;
+    return map;
+  }
+
+  // Check it.
+  const bool finite = v.z.allFinite();
+  if (finite) map.turning_number = turning_number(patch_->outer, patch_->triangles, patch_->triangle_weights, v.z);
+  MapCheck check;
+  check.eigenvalue = v.lambda;
+  check.error = v.change;
+  check.error_limit = v.change_limit;
+  check.area = finite ? signed_area(*energy_, v.z) : 0;
+  check.turning_number = map.turning_number;
+  check.must_wind_once = options.method == Method::spectral;
+  map.rejection = check_map(v.z, check);
+  if (map.rejection != Rejection::none) return map;
+
+  // Place it: centred, with the area in 3D, turned to lie along the axes.
+  map.z = v.z.head(patch_->n_vertices);
+  place(map.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale);
+  if (kept) previous_ = v.z;
+  map.whole = std::move(v.z);
+  watch.lap("placement");
+  return map;
+}
+
+SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& options, const Pins& attractors,
+                                                        const BoundaryForm& form, ShiftedFactor& factor,
+                                                        const Attempt& attempt, const Progress& progress) {
+  EigenproblemOptions iteration;
+  iteration.tolerance = options.tolerance * attempt.tolerance_factor;
+  iteration.start = attempt.start;
+  iteration.krylov_dimension = attempt.krylov_dimension;
+  Factorization& factorization = *factor.factorization;
+  Eigenvector result;
+  const auto take = [&result](Eigenpair&& pair) {
+    result.z = std::move(pair.vector);
+    result.solves = pair.solves;
+    result.residual = pair.residual;
+    result.change = pair.residual;
+    result.converged = pair.converged && pair.residual < residual_limit;
+    return result.converged;
+  };
+
+  if (options.has_forces() || !attractors.empty()) {
+    // B with soft constraints (section 4.2).
+    const ExtendedForm extended = extended_form(form, options, attractors);
+    ComplexVector circle = ComplexVector::Zero(static_cast<Eigen::Index>(extended.support().size()));
+    circle.head(form.mass.size()) =
+        start_vector(form, iteration.start).cwiseQuotient(form.mass.cwiseSqrt().cast<Complex>());
+    std::vector<ComplexVector> starts{circle};
+    const bool kept = &factor == &factor_;
+    if (kept && previous_.size() > 0) starts.push_back(extended.restrict(previous_));
+    RitzBasis fresh;
+    RitzBasis& basis = kept ? ritz_basis_ : fresh;
+    result.change_limit = std::max(resolved, iteration.tolerance);
+    if (take(solve_extended_eigenproblem(factorization, *energy_, extended, iteration, starts, basis, progress))) {
+      result.lambda = energy_->value(result.z) / extended.value(extended.restrict(result.z));
+    }
+  } else if (options.method == Method::area) {
+    // B = A (section 3.3).
+    if (take(solve_area_eigenproblem(factorization, *energy_, form, factor.shift, iteration, progress))) {
+      result.lambda = energy_->value(result.z) / energy_->area_form(result.z);
+    }
+  } else if (take(solve_eigenproblem(factorization, form, iteration, progress))) {
+    // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
+    const QuotientForm quotient = quotient_form(form);
+    CorrectionOptions corrections;
+    corrections.max_corrections = 40;  // each takes out about s / lambda of what is left
+    corrections.negligible = 1e-10;
+    const Correction correction = correct(factorization, *energy_, quotient, corrections, result.z);
+    result.solves += correction.solves;
+    result.change = correction.change;
+    ComplexVector r;
+    result.lambda = eigen_residual(*energy_, quotient, result.z, r);  // Eq. 5
+    result.residual = r.norm() / (energy_->max_diagonal() * result.z.norm());
+  }
+  return result;
+}
+
+ExtendedForm SpectralSolver::extended_form(const BoundaryForm& form, const SolveOptions& options,
+                                           const Pins& attractors) const {
+  ExtendedForm extended(form);
+  if (options.hole_rigidity != 0) {
+    for (const BoundaryLoop& loop : patch_->inner) {
+      const BoundaryForm spread = boundary_form(loop, patch_->positions, boundary_);
+      if (!spread.vertices.empty()) extended.add_spread(spread, options.hole_rigidity);
+    }
+  }
+  for (const Extender& extender : options.extenders) extended.add_extender(extender);
+  if (!attractors.empty()) extended.add_attraction(pin_attraction(attractors, form, options.soft_pins));
+  return extended;
+}
+
+SpectralMap SpectralSolver::factorize(const Progress& progress) {
+  factor_ = factor_shifted(energy_->matrix(), form_, first_relative_shift, backend_, progress);
+  SpectralMap outcome;
+  outcome.attempts = 1;
+  outcome.shift = factor_.shift;
+  if (!is_factored()) outcome.rejection = Rejection::not_factorized;
+  return outcome;
+}
+
+void SpectralSolver::stretch(const std::vector<TriangleMetric>& metric) {
+  energy_->stretch(metric);
+  forget();
+}
+
+void SpectralSolver::forget() {
+  factor_ = {};
+  ritz_basis_ = {};
+  previous_.resize(0);
+}
+
+int SpectralSolver::clamp(double min_relative_height) {
+  forget();
+  return energy_->clamp(min_relative_height);
+}
+
+double SpectralSolver::eigenvalue_unit(Method method) const {
+  if (method == Method::area) return 1;
+  // positions = input / scale. Lengths, and with them M, are divided by scale; L has weight_unit / |T|.
+  const bool uniform = energy_->weights() == Weights::uniform;
+  const double energy_unit = uniform ? 1 : energy_->weight_unit() * patch_->scale * patch_->scale;
+  const bool by_length = method != Method::fiedler && boundary_ == BoundaryMeasure::length;
+  return (by_length ? 1 / patch_->scale : 1) / energy_unit;
+}
+
+}  // namespace spectral_conformal

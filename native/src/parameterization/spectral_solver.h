@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "conformal/extended_eigenproblem.h"
+#include "conformal/shifted_factor.h"
+#include "parameterization/map_check.h"
+#include "parameterization/normalized_patch.h"
+#include "parameterization/stopwatch.h"
+#include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+/// A map found by SpectralSolver, or why there is none.
+struct SpectralMap {
+  Rejection rejection = Rejection::none;
+  ComplexVector z;        ///< (V,) placed; where it was accepted
+  ComplexVector whole;    ///< the same with virtual vertices, at no particular place and scale
+  double eigenvalue = 0;  ///< in the units of the input
+  double residual = 0;    ///< see Parameterization
+  double shift = 0;       ///< s of the last attempt
+  int solves = 0;         ///< with the factor, in the last attempt
+  int turning_number = 0;
+  int attempts = 0;
+};
+
+/// Spectral conformal parameterization of a patch (Mullen et al. 2008):
+///   Eq. 3  L = L_D - A, the conformal energy
+///   Eq. 5  L z = lambda B z, B the form of the boundary, smallest nonzero lambda
+///   Eq. 7  B^ z = mu (L + s M) z, largest mu; B^ is B without the constants
+/// then the checks, and the similarity that the energy leaves free. Keeps the factor of L + s M between solves.
+class SpectralSolver {
+ public:
+  /// The patch must outlive this object. Throws InvalidMesh where the outer loop has no length.
+  SpectralSolver(const NormalizedPatch& patch, Weights weights, BoundaryMeasure boundary, FactorizationBackend backend);
+  /// The same patch and metric with another energy or form.
+  SpectralSolver(const SpectralSolver& like, Weights weights, BoundaryMeasure boundary);
+
+  /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: where memory
+  /// runs out, this object is as it was.
+  void stretch(const std::vector<TriangleMetric>& metric);
+  /// Gives thin triangles a minimal height in the energy and drops the factor. Returns how many.
+  int clamp(double min_relative_height);
+
+  /// Factors L + s M and keeps the factor. The outcome has no map; it is rejected where L + s M is not positive
+  /// definite in double precision.
+  SpectralMap factorize(const Progress& progress);
+  bool is_factored() const { return factor_.factorization != nullptr; }
+
+  /// The map of Method::spectral, fiedler or area; `attractors` are soft pins. Tried again, with a larger shift and
+  /// another start, where it fails its checks. Solves with soft constraints start from the maps of earlier solves.
+  SpectralMap solve(const SolveOptions& options, const Pins& attractors, const Progress& progress, Timings& timings);
+
+  const NormalizedPatch& patch() const { return *patch_; }
+  const ConformalEnergy& energy() const { return *energy_; }
+  const BoundaryForm& form() const { return form_; }
+  BoundaryMeasure boundary() const { return boundary_; }
+  FactorizationBackend backend() const { return backend_; }
+  /// What a quotient z^H L z / z^H B z is multiplied by to be in the units of the input.
+  double eigenvalue_unit(Method method) const;
+
+ private:
+  struct Attempt;
+  struct Eigenvector;
+  SpectralMap attempt(const SolveOptions& options, const Pins& attractors, const Attempt& attempt,
+                      const Progress& progress, Timings& timings);
+  Eigenvector eigenvector(const SolveOptions& options, const Pins& attractors, const BoundaryForm& form,
+                          ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
+  void forget();  ///< what belongs to the factor
+  ExtendedForm extended_form(const BoundaryForm& form, const SolveOptions& options, const Pins& attractors) const;
+
+  const NormalizedPatch* patch_;
+  FactorizationBackend backend_;
+  BoundaryMeasure boundary_;
+  std::unique_ptr<ConformalEnergy> energy_;  ///< L
+  BoundaryForm form_;                        ///< M, and B^ with the constants taken out
+  ShiftedFactor factor_;                     ///< of L + s M
+  RitzBasis ritz_basis_;                     ///< of the last solve with soft constraints and factor_
+  ComplexVector previous_;                   ///< the last accepted map with factor_, virtual vertices included
+};
+
+}  // namespace spectral_conformal

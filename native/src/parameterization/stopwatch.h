@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spectral_conformal {
+
+/// Seconds per phase, in the order of their first appearance.
+using Timings = std::vector<std::pair<std::string, double>>;
+
+/// Adds the seconds that pass until the next call to the phase of the given name.
+class Stopwatch {
+ public:
+  explicit Stopwatch(Timings& timings) : timings_(timings), last_(Clock::now()) {}
+  void lap(const char* phase);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Timings& timings_;
+  Clock::time_point last_;
+};
+
+}  // namespace spectral_conformal

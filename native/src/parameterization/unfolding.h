@@ -1,0 +1,28 @@
+#pragma once
+
+#include "injective/fold_free_map.h"
+#include "parameterization/spectral_solver.h"
+#include "spectral_conformal/distortion.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+/// A map (V,) with its folds taken out, placed as before.
+struct UnfoldedMap {
+  FoldFreeMap fold_free;
+  bool changed = false;       ///< whether the map was unfolded or replaced; otherwise the rest is not filled in
+  double mean_qc_before = 0;  ///< not a number where there was no map
+  double mean_qc = 0;
+  double eigenvalue = 0;  ///< the quotient of Eq. 5, in the units of the input
+  double residual = 0;    ///< |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2)
+  int turning_number = 0;
+};
+
+/// fold_free_map for the map z (V,) of a patch, or for none where z is empty. Pins hold their vertices. Throws
+/// SolveFailure where what it ends with has no area, and what fold_free_map throws.
+UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z, const Progress& progress);
+
+/// Distortion of a map (V,) of the patch in 3D, without virtual triangles.
+Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,175 @@
+#include "seams/cut_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "seams/separating_cut.h"
+
+namespace spectral_conformal {
+namespace {
+
+int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, int from) {
+  const std::vector<double> distance = face_distances(faces, {from});
+  return *std::max_element(among.begin(), among.end(), [&](int a, int b) {
+    return std::isfinite(distance[b]) && (distance[a] < distance[b] || !std::isfinite(distance[a]));
+  });
+}
+
+}  // namespace
+
+CutCandidates::CutCandidates(const PieceSeams& seams, const TrialMaps& charts, const MapQuality& quality)
+    : seams_(seams),
+      charts_(charts),
+      quality_(quality),
+      chart_of_face_(static_cast<std::size_t>(seams.piece().n_faces()), -1) {
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
+  }
+}
+
+bool CutCandidates::is_first_of_mirrored(int chart) const {
+  return seams_.mirrored_chart(chart, chart_of_face_) >= chart;
+}
+
+std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
+  const PolygonMesh mesh = seams_.piece().view();
+  std::vector<Region> result;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
+    const bool halved = seams_.self_mirrored(chart, chart_of_face_);
+    for (DistortedRegion region : kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
+                                                      : angle_peaks(mesh, *charts_[i])) {
+      if (halved) region.vertex = seams_.on_positive_side(region.vertex);
+      result.push_back({region, chart});
+    }
+  }
+  std::stable_sort(result.begin(), result.end(), [](const Region& a, const Region& b) { return a.volume > b.volume; });
+  std::set<int> known;
+  result.erase(std::remove_if(result.begin(), result.end(),
+                              [&](const Region& region) { return !known.insert(region.vertex).second; }),
+               result.end());
+  return result;
+}
+
+SeamEdges CutCandidates::cut_to(const Region& region, const PieceSeams& seams) const {
+  return seams.cut_to(region.vertex, region.on_loop, region.chart, chart_of_face_);
+}
+
+SeamEdges CutCandidates::cut_around(const Region& region) const {
+  const Piece& piece = seams_.piece();
+  const TrialMap& mapped = *charts_[region.chart];
+  const auto offset = [&](std::size_t i) { return mapped.log2_scale[i] - quality_.median_log2_scale; };
+  std::vector<int> sources;
+  double sign = 0;
+  for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+    const int face = mapped.chart.faces[i];
+    const auto first = piece.corner_vertices.begin() + piece.face_offsets[face];
+    const auto last = piece.corner_vertices.begin() + piece.face_offsets[face + 1];
+    if (std::find(first, last, region.vertex) == last) continue;
+    sources.push_back(face);
+    sign += offset(i);
+  }
+  std::vector<int> sinks;
+  for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+    const int face = mapped.chart.faces[i];
+    const bool near = std::find(sources.begin(), sources.end(), face) != sources.end();
+    if (sign * offset(i) <= 0 && !near) sinks.push_back(face);
+  }
+  if (sources.empty() || sinks.empty()) return {};
+  return seams_.cut_apart(separable(region.chart), sources, sinks, region.chart, chart_of_face_);
+}
+
+std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<int>& overlapping) const {
+  const SeparableFaces faces = separable(chart);
+  std::vector<int> covering;
+  covering.reserve(overlapping.size());
+  for (const int face : overlapping) covering.push_back(charts_[chart]->chart.faces[face]);
+  const auto parts = connected_parts(faces, covering);
+  std::vector<SeamEdges> result;
+  const auto cut_apart = [&](const std::vector<int>& sources, const std::vector<int>& sinks) {
+    result.push_back(seams_.cut_apart(faces, sources, sinks, chart, chart_of_face_));
+  };
+  if (seams_.self_mirrored(chart, chart_of_face_)) result.push_back(seams_.cut_along_axis(faces));
+  constexpr std::size_t max_parts = 4;  // each costs two solves
+  for (std::size_t i = 0; i < std::min(parts.size(), max_parts); ++i) {
+    std::vector<int> others;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (j != i) others.insert(others.end(), parts[j].begin(), parts[j].end());
+    }
+    if (!others.empty()) cut_apart(parts[i], others);
+    // One part can cover itself: its ends are farthest apart.
+    const int one = farthest_face(faces, parts[i], parts[i].front());
+    const int two = farthest_face(faces, parts[i], one);
+    if (one != two) cut_apart({one}, {two});
+  }
+  return result;
+}
+
+std::vector<SeamEdges> CutCandidates::halves() const {
+  int chart = -1;
+  double most = 0;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const MapQuality quality = map_quality({charts_[i]}, 2);  // a limit that is not asked for
+    if (quality.area * quality.distortion() <= most) continue;
+    most = quality.area * quality.distortion();
+    chart = static_cast<int>(i);
+  }
+  std::vector<SeamEdges> result;
+  if (chart < 0 || charts_[chart]->chart.faces.size() < 2) return result;
+  const SeparableFaces faces = separable(chart);
+  const std::vector<int>& all = charts_[chart]->chart.faces;
+  const int one = farthest_face(faces, all, all.front());
+  const int two = farthest_face(faces, all, one);
+  result.push_back(seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_));
+  if (seams_.self_mirrored(chart, chart_of_face_)) result.push_back(seams_.cut_along_axis(faces));
+  return result;
+}
+
+SeamEdges CutCandidates::blind_cut() const {
+  std::vector<int> cut_vertices;
+  for (const auto& edge : seams_.graph().edges()) {
+    if (edge.cut) cut_vertices.insert(cut_vertices.end(), edge.vertices.begin(), edge.vertices.end());
+  }
+  const std::vector<double> distance = seams_.graph().distances(cut_vertices, [](int) { return true; });
+  int vertex = -1;
+  int chart = -1;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (charts_[i]->solved) continue;
+    for (const int v : charts_[i]->chart.vertices) {
+      if (!(distance[v] > 0) || !std::isfinite(distance[v])) continue;
+      if (vertex >= 0 && distance[v] <= distance[vertex]) continue;
+      vertex = v;
+      chart = static_cast<int>(i);
+    }
+  }
+  if (vertex < 0) return {};
+  if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
+  return seams_.cut_to(vertex, false, chart, chart_of_face_);
+}
+
+SeparableFaces CutCandidates::separable(int chart) const {
+  const Piece& piece = seams_.piece();
+  const TrialMap& mapped = *charts_[chart];
+  const auto n = static_cast<std::size_t>(piece.n_faces());
+  SeparableFaces faces;
+  faces.graph = &seams_.graph();
+  faces.member.assign(n, 0);
+  faces.area.assign(n, 0);
+  faces.centre.assign(n, Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+    const int face = mapped.chart.faces[i];
+    faces.member[face] = 1;
+    faces.area[face] = mapped.area[i];
+    const int first = piece.face_offsets[face];
+    const int last = piece.face_offsets[face + 1];
+    for (int c = first; c < last; ++c) {
+      faces.centre[face] += piece.positions.row(piece.corner_vertices[c]).transpose() / (last - first);
+    }
+  }
+  return faces;
+}
+
+}  // namespace spectral_conformal

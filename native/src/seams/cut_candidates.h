@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "seams/distorted_regions.h"
+#include "seams/piece_seams.h"
+#include "seams/separating_cut.h"
+#include "seams/trial_map.h"
+
+namespace spectral_conformal {
+
+/// Cuts that may lower the distortion of the maps of a piece's charts, or part what overlaps in them; whether they do
+/// is for a solve to tell. Cuts come with their mirror images where the piece has any (see PieceSeams), and may be
+/// empty.
+class CutCandidates {
+ public:
+  struct Region : DistortedRegion {
+    int chart;
+  };
+  enum class Kind { scale, angle };
+
+  /// The maps of the piece with the seams that it has, and their quality together. All must outlive this object.
+  CutCandidates(const PieceSeams& seams, const TrialMaps& charts, const MapQuality& quality);
+
+  /// False for the second of two charts that mirror each other: cuts of the first are cuts of both.
+  bool is_first_of_mirrored(int chart) const;
+  /// The extrema of the scale, or the peaks of the QC, in falling order of volume; of mirrored ones the one on the
+  /// positive side, of mirrored charts those of the first.
+  std::vector<Region> regions(Kind kind) const;
+  /// The cheapest cut from a region to what is cut in `seams`, those of the piece with perhaps more.
+  SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
+  /// Makes an island of the surroundings of a region, up to where the scale is the median.
+  SeamEdges cut_around(const Region& region) const;
+  /// Cuts that may part the sheets of a chart's map that lie on each other; `overlapping` as overlapping_faces returns
+  /// them.
+  std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& overlapping) const;
+  /// Cuts through the middle of the chart with most distortion.
+  std::vector<SeamEdges> halves() const;
+  /// From the vertex of an unsolved chart that is farthest from all cuts to the nearest of them.
+  SeamEdges blind_cut() const;
+
+ private:
+  SeparableFaces separable(int chart) const;
+
+  const PieceSeams& seams_;
+  const TrialMaps& charts_;
+  const MapQuality& quality_;
+  std::vector<int> chart_of_face_;  ///< of the piece; -1 where a face is in no chart
+};
+
+}  // namespace spectral_conformal

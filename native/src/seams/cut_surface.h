@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/charts.h"
+#include "mesh/half_edges.h"
+#include "seams/seam_graph.h"
+
+namespace spectral_conformal {
+
+/// How many independent closed curves of a chart do not separate it, twice the genus: 0 exactly for a sphere, and for a
+/// disk with or without holes. Of a non-orientable chart it is an upper bound, above 0.
+int handle_curves(const Chart& chart);
+
+/// A connected polygonal surface that is cut open edge by edge. Each cut updates the Euler characteristic and the
+/// number of boundary loops by walks around the cut's vertices and along the boundary that it joins; a search across
+/// the cut tells whether the surface is still connected. What is far from a cut is not visited, except where the
+/// surface is not orientable: then every cut has to find out whether it is now.
+class CutSurface {
+ public:
+  /// `chart` is the only one of `mesh`, and `graph` is that of `mesh`. The arrays of `mesh` must outlive this object.
+  CutSurface(const PolygonMesh& mesh, const SeamGraph& graph, const Chart& chart);
+
+  /// See handle_curves(Chart): the value for the surface as build_charts would cut it.
+  int handle_curves() const { return handle_curves(orientable_, loops_); }
+  /// Cuts along edges of the graph if that leaves the surface connected and with fewer handle curves. Otherwise nothing
+  /// changes.
+  bool try_cut(const std::vector<int>& edges);
+
+ private:
+  /// A corner of a face and one of its two half-edges, by which a walk around the corner's vertex goes on.
+  struct Spoke {
+    int corner;
+    int half_edge;
+  };
+
+  int handle_curves(bool orientable, int loops) const { return 2 - (orientable ? loops : 0) - euler_characteristic_; }
+  int previous(int corner) const;
+  /// The other half-edge at the corner.
+  Spoke turned(const Spoke& spoke) const;
+  /// The half-edge at which the fan of faces around a vertex ends, which is open.
+  Spoke fan_end(Spoke spoke) const;
+  /// The next half-edge along the boundary, and the corner at which it was entered.
+  Spoke next_on_boundary(const Spoke& spoke) const;
+  int count_loops() const;
+  void cut(int edge);
+  bool is_connected_across(const std::vector<int>& edges);
+  bool is_orientable() const;
+
+  PolygonMesh mesh_;
+  HalfEdges half_edges_;
+  std::vector<int> twin_;                   ///< per half-edge: that of half_edges_, -1 where it was cut since
+  std::vector<std::array<int, 2>> halves_;  ///< per edge of the graph: its two half-edges, -1 where they are no twins
+  std::vector<int> side_of_face_;           ///< scratch of is_connected_across, -1 between calls
+  int euler_characteristic_;
+  int loops_;
+  bool orientable_;
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,118 @@
+#include "seams/pieces.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
+  std::vector<std::array<int, 2>> seams;
+  seams.reserve(static_cast<std::size_t>(mesh.n_seam_edges));
+  for (int i = 0; i < mesh.n_seam_edges; ++i) {
+    seams.push_back(sorted_pair(mesh.seam_edges[i][0], mesh.seam_edges[i][1]));
+  }
+  std::sort(seams.begin(), seams.end());
+  return seams;
+}
+
+/// Matches the corners of a piece's faces with those of their images. False when that is no map of the pieces.
+bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const std::vector<int>& face_in_piece,
+                   const MirrorSymmetry& symmetry, PieceMirror& mirror) {
+  const Piece& image = pieces[mirror.image];
+  if (image.faces.size() != piece.faces.size() || image.vertices.size() != piece.vertices.size()) return false;
+  mirror.vertex.assign(piece.vertices.size(), -1);
+  mirror.face.assign(piece.faces.size(), -1);
+  for (int f = 0; f < piece.n_faces(); ++f) {
+    const int other = face_in_piece[symmetry.face[piece.faces[f]]];
+    mirror.face[f] = other;
+    for (int c = piece.face_offsets[f]; c < piece.face_offsets[f + 1]; ++c) {
+      const int v = piece.corner_vertices[c];
+      const int wanted = symmetry.vertex[piece.vertices[v]];
+      int found = -1;
+      for (int d = image.face_offsets[other]; d < image.face_offsets[other + 1]; ++d) {
+        if (image.vertices[image.corner_vertices[d]] == wanted) found = image.corner_vertices[d];
+      }
+      if (found < 0 || (mirror.vertex[v] >= 0 && mirror.vertex[v] != found)) return false;
+      mirror.vertex[v] = found;
+    }
+  }
+  // Cuts on one side only show as copies of vertices, or as seams without an image.
+  std::vector<int> images = mirror.vertex;
+  std::sort(images.begin(), images.end());
+  if (std::adjacent_find(images.begin(), images.end()) != images.end()) return false;
+  return image.seams.size() == piece.seams.size() &&
+         std::all_of(piece.seams.begin(), piece.seams.end(), [&](const auto& seam) {
+           const auto wanted = sorted_pair(mirror.vertex[seam[0]], mirror.vertex[seam[1]]);
+           return std::binary_search(image.seams.begin(), image.seams.end(), wanted);
+         });
+}
+
+}  // namespace
+
+PolygonMesh Piece::view() const {
+  PolygonMesh mesh;
+  mesh.positions = positions.data();
+  mesh.n_vertices = static_cast<int>(positions.rows());
+  mesh.face_offsets = face_offsets.data();
+  mesh.n_faces = n_faces();
+  mesh.corner_vertices = corner_vertices.data();
+  mesh.seam_edges = seams.data();
+  mesh.n_seam_edges = static_cast<int>(seams.size());
+  return mesh;
+}
+
+std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition) {
+  const std::vector<std::array<int, 2>> seams = sorted_seams(mesh);
+  std::vector<Piece> pieces;
+  for (const Chart& chart : decomposition.charts) {
+    Piece piece;
+    piece.positions = chart.positions(mesh);
+    piece.vertices = chart.vertices;
+    piece.faces = chart.faces;
+    for (const int face : chart.faces) {
+      const int first = mesh.face_offsets[face];
+      const int last = mesh.face_offsets[face + 1];
+      for (int c = first; c < last; ++c) {
+        const int v = decomposition.chart_vertex_of_corner[c];
+        const int next = decomposition.chart_vertex_of_corner[c + 1 == last ? first : c + 1];
+        piece.corner_vertices.push_back(v);
+        const auto edge = sorted_pair(piece.vertices[v], piece.vertices[next]);
+        if (std::binary_search(seams.begin(), seams.end(), edge)) piece.seams.push_back(sorted_pair(v, next));
+      }
+      piece.face_offsets.push_back(static_cast<int>(piece.corner_vertices.size()));
+    }
+    std::sort(piece.seams.begin(), piece.seams.end());
+    piece.seams.erase(std::unique(piece.seams.begin(), piece.seams.end()), piece.seams.end());
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
+                                       const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry) {
+  std::vector<int> face_in_piece(static_cast<std::size_t>(mesh.n_faces), -1);
+  for (const Piece& piece : pieces) {
+    for (int f = 0; f < piece.n_faces(); ++f) face_in_piece[piece.faces[f]] = f;
+  }
+  std::vector<PieceMirror> mirrors(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const auto image_of = [&](int face) {
+      const int image = symmetry.face[face];
+      return image < 0 || face_in_piece[image] < 0 ? -1 : decomposition.chart_of_face[image];
+    };
+    PieceMirror mirror;
+    mirror.image = image_of(piece.faces.front());
+    const bool onto_one = std::all_of(piece.faces.begin(), piece.faces.end(),
+                                      [&](int face) { return image_of(face) == mirror.image && mirror.image >= 0; });
+    if (onto_one && match_corners(piece, pieces, face_in_piece, symmetry, mirror)) {
+      mirrors[i] = std::move(mirror);
+    }
+  }
+  return mirrors;
+}
+
+}  // namespace spectral_conformal

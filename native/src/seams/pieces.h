@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/charts.h"
+#include "mesh/mirror_symmetry.h"
+
+namespace spectral_conformal {
+
+/// One chart as a mesh of its own, whose vertices are the chart's: what was cut around it is its border.
+struct Piece {
+  Positions positions;                    ///< (V, 3)
+  std::vector<int> face_offsets{0};       ///< (F + 1,)
+  std::vector<int> corner_vertices;       ///< (C,)
+  std::vector<std::array<int, 2>> seams;  ///< seams inside the chart that do not cut it apart
+  std::vector<int> vertices;              ///< (V,) in the whole mesh
+  std::vector<int> faces;                 ///< (F,) in the whole mesh
+
+  /// Valid while the piece is neither changed nor destroyed.
+  PolygonMesh view() const;
+  int n_faces() const { return static_cast<int>(faces.size()); }
+};
+
+/// The pieces of a mesh, one per chart, in the charts' order.
+std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition);
+
+/// What a mirror symmetry of the mesh does to a piece.
+struct PieceMirror {
+  int image = -1;           ///< the piece that it is mapped onto, itself perhaps; -1: none, and the rest is empty
+  std::vector<int> vertex;  ///< (V,) vertex of the image
+  std::vector<int> face;    ///< (F,) face of the image
+};
+
+/// Per piece. The image is one piece with the same cuts, or there is none.
+std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
+                                       const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,179 @@
+"""Count the instructions of typical calls, for comparisons that a busy machine does not disturb.
+
+    build/venv/bin/python -m tests.benchmarks.instructions OUT.json [case ...]
+    build/venv/bin/python -m tests.benchmarks.instructions --compare BEFORE.json AFTER.json
+
+From the project's folder; PYTHONPATH may name another build of the module. Needs
+valgrind, which the set-up does not install: no test uses it. Each case runs twice under callgrind, calling once and
+twice; the difference is one call, without the start of the interpreter and what a first call sets up. BLAS runs in one
+thread. A few minutes in all; two counts of one build agree to about 0.1 %.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from tests.module import meshes
+
+ROOT = Path(__file__).resolve().parents[2]
+# A change of structure may cost no more than 3 %.
+LIMIT = 1.03
+
+
+def thousand_islands() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A thousand separate curved patches of 5 x 5 vertices, each of a size of its own."""
+    vertices, quads = meshes.saddle_quads(5)
+    n = len(vertices)
+    moved = [vertices * (1 + k / 1000) + [3 * k, 0, 0] for k in range(1000)]
+    return np.concatenate(moved), *meshes.polygons(np.concatenate([quads + n * k for k in range(1000)]))
+
+
+def parameterize_10k() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    return lambda: sc.parameterize(vertices, triangles)
+
+
+def unwrap_1000_islands() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    mesh = thousand_islands()
+    return lambda: sc.unwrap(*mesh)
+
+
+def lscm_10k() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    return lambda: sc.parameterize(vertices, triangles, method="lscm")
+
+
+def fold_free() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.rough_grid(20, 2.0, 3)
+    return lambda: sc.parameterize(vertices, triangles, fold_free=True)
+
+
+def area_blend() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(2_000)
+    return lambda: sc.parameterize(vertices, triangles, area_blend=0.5)
+
+
+def forces() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(5_000, holes=3)
+    pairs = [(5, len(vertices) // 2, 0.5), (40, len(vertices) // 3, 2.0)]
+    return lambda: sc.parameterize(vertices, triangles, extenders=pairs, hole_rigidity=1.0)
+
+
+def suggest_seams() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, quads = meshes.bulge(21, 1.5)
+    mesh = vertices, *meshes.polygons(quads)
+    return lambda: sc.suggest_seams(*mesh)
+
+
+def map_defects() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    n = 100
+    offsets, corners = meshes.polygons(meshes.grid_quads(n, n))
+    uv = np.c_[np.arange(n * n) // n, np.arange(n * n) % n] + np.random.default_rng(0).normal(size=(n * n, 2)) / 5
+    return lambda: sc.map_defects(offsets, corners, uv[corners], between_islands=True)
+
+
+def distortion() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    return lambda: sc.distortion(vertices, triangles, vertices[:, :2])
+
+
+CASES: dict[str, Callable[[], Callable[[], object]]] = {
+    case.__name__: case
+    for case in (
+        parameterize_10k,
+        lscm_10k,
+        unwrap_1000_islands,
+        fold_free,
+        area_blend,
+        forces,
+        suggest_seams,
+        map_defects,
+        distortion,
+    )
+}
+
+
+def instructions(case: str, calls: int) -> int:
+    """Return the instructions of a process that makes some calls."""
+    environ = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PYTHONHASHSEED": "0"}
+    valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+    result = subprocess.run(
+        [*valgrind, sys.executable, "-m", "tests.benchmarks.instructions", "--call", case, str(calls)],
+        cwd=ROOT,
+        env=environ,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    counted = re.search(r"Collected : (\d+)", result.stderr)
+    if result.returncode or not counted:
+        raise SystemExit(f"{case}: {result.stderr[-2000:]}")
+    return int(counted[1])
+
+
+def compare(before: Path, after: Path) -> int:
+    """Print the ratios; return 1 when one is above the limit."""
+    first, second = (json.loads(path.read_text()) for path in (before, after))
+    slower = False
+    for case in first:
+        if case in second:
+            ratio = second[case] / first[case]
+            slower |= ratio > LIMIT
+            print(f"{case:24}{first[case]:>16,}{second[case]:>16,}{ratio:9.4f}{'  slower' if ratio > LIMIT else ''}")
+    return int(slower)
+
+
+def main() -> int:
+    """Count, or compare counts."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--compare", nargs=2, type=Path, metavar=("BEFORE.json", "AFTER.json"))
+    parser.add_argument("--call", nargs=2, metavar=("CASE", "TIMES"), help=argparse.SUPPRESS)
+    parser.add_argument("file", nargs="?", type=Path, metavar="OUT.json")
+    parser.add_argument("cases", nargs="*", metavar="case", help=", ".join(CASES))
+    options = parser.parse_args()
+    if options.compare:
+        return compare(*options.compare)
+    if options.call:
+        call = CASES[options.call[0]]()
+        for _ in range(int(options.call[1])):
+            call()
+        return 0
+    if not options.file or not set(options.cases) <= CASES.keys():
+        parser.error(f"give OUT.json, then cases among {', '.join(CASES)}")
+    counts = {}
+    for case in options.cases or CASES:
+        counts[case] = instructions(case, 2) - instructions(case, 1)
+        print(f"{case:24}{counts[case]:>16,}", flush=True)
+    options.file.write_text(json.dumps(counts, indent=1) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A fresh Blender with the add-on enabled for every test, and what the operator reported.
+
+A plugin and no conftest.py, which the pytest outside of Blender would import.
+"""
+
+import bpy  # isort: skip - makes addon_utils importable
+import addon_utils
+import pytest
+
+ADDON = "spectral_unwrap"
+
+
+@pytest.fixture(autouse=True)
+def fresh_blender():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Loading the settings disables every add-on.
+    assert addon_utils.enable(ADDON, default_set=True) is not None
+
+
+@pytest.fixture
+def reports(capfd):
+    """A function that returns what Blender has reported since the last call, as (level, text) pairs."""
+
+    def read():
+        lines = capfd.readouterr().out.splitlines()
+        pairs = (line.partition(": ") for line in lines)
+        return [(level, text) for level, _, text in pairs if level in {"Info", "Warning", "Error"}]
+
+    read()
+    return read

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where an island fails, the others are packed off it."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+GRID, CUBE = range(6), range(6, 12)
+
+
+def prepare(low, high, uv_map=True):
+    """A flat grid, which is solved, and a closed cube, which fails; the cube's UVs fill a box."""
+    both = scenes.grid_and_cube(uv_map=uv_map)
+    scenes.edit(both)
+    if uv_map:
+        uv = scenes.read_uv(both)
+        cube = scenes.corners_of(both, CUBE)
+        (x0, y0), (x1, y1) = low, high
+        # A cross would do; six cells in two rows fill the box as well.
+        cells = [(i % 3, i // 3) for i in range(6)]
+        corners = [(c + dx, r + dy) for c, r in cells for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        uv[cube] = np.array(corners) / (3, 2) * (x1 - x0, y1 - y0) + (x0, y0)
+        scenes.write_uv(both, uv)
+    return both
+
+
+def unwrapped(both):
+    """Unwrap; return the UVs of the grid and of the cube, which must be what they were."""
+    before = scenes.read_uv(both)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    after = scenes.read_uv(both)
+    grid, cube = (scenes.corners_of(both, faces) for faces in (GRID, CUBE))
+    np.testing.assert_array_equal(after[cube], before[cube])
+    # Squares, as the grid has.
+    assert np.ptp(scenes.stretches(both, GRID)) < 1e-3 * scenes.stretches(both, GRID).max()
+    return after[grid], after[cube]
+
+
+@pytest.mark.parametrize("low", [(0.0, 0.0), (0.7, 0.0), (0.0, 0.6), (0.7, 0.7)])
+def test_solved_islands_are_packed_into_the_room_that_failed_ones_leave(low):
+    grid, cube = unwrapped(prepare(low, np.add(low, 0.3)))
+    assert not scenes.overlap(grid, cube)
+    assert grid.min() >= 0.0
+    assert grid.max() <= 1.0
+    assert np.ptp(grid, axis=0).max() > 0.5
+
+
+def test_without_room_they_get_a_tile_of_their_own(reports):
+    both = prepare((0.1, 0.1), (0.9, 0.9))
+    reports()
+    grid, cube = unwrapped(both)
+    assert not scenes.overlap(grid, cube)
+    assert grid[:, 0].min() >= 1.0
+    assert grid[:, 0].max() <= 2.0
+    assert [text for level, text in reports() if level == "Warning"][0].startswith("Failed islands leave too little")
+
+
+@pytest.mark.parametrize("low", [(1.0, 0.0), (-2.0, 0.3)])
+def test_failed_islands_outside_the_tile_change_nothing(low):
+    grid, _ = unwrapped(prepare(low, np.add(low, 0.5)))
+    assert np.ptp(grid, axis=0).max() > 0.9
+
+
+@pytest.mark.parametrize("reset", [False, True], ids=["no map", "map that Blender filled"])
+def test_a_map_that_nobody_has_made_takes_no_room(reset):
+    both = prepare((0.0, 0.0), (1.0, 1.0), uv_map=False)
+    if reset:
+        bpy.ops.mesh.uv_texture_add()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    grid = scenes.read_uv(both)[scenes.corners_of(both, GRID)]
+    assert grid.max() <= 1.0
+    assert np.ptp(grid, axis=0).max() > 0.9
+
+
+def test_failed_islands_of_other_meshes_count_too():
+    both, cube = scenes.grid(3, 2), scenes.cube(name="Cube")
+    scenes.edit(both, cube)
+    scenes.write_uv(cube, np.tile([(0.0, 0.0), (0.3, 0.0), (0.3, 0.3), (0.0, 0.3)], (6, 1)))
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert not scenes.overlap(scenes.read_uv(both), scenes.read_uv(cube))
+
+
+def test_kept_in_place_nothing_moves():
+    both = prepare((0.0, 0.0), (0.5, 0.5))
+    former = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])
+    assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
+    new = scenes.bounds(scenes.read_uv(both)[scenes.corners_of(both, GRID)])
+    centre = (np.add(*former) / 2.0, np.add(*new) / 2.0)
+    np.testing.assert_allclose(*centre, atol=1e-5)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extenders and the live toggle in linked and overridden data: nothing in them changes, and nothing fails beside them."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+
+@pytest.fixture
+def library(tmp_path):
+    """The path of a file with a grid that has a map, a pin and an extender, and a scene with live unwrapping on."""
+    grid = scenes.bumpy_grid(name="Linked")
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    bpy.ops.mesh.select_all(action="DESELECT")
+    for vertex in (0, 20):
+        scenes.edit_mesh(grid).verts[vertex].select_set(True)
+    assert bpy.ops.mesh.spectral_extender_add(strength=3.0) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.scene.spectral_unwrap_live = True
+    bpy.context.scene.name = "Linked scene"
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    return path
+
+
+def link(path):
+    """Link the object and the scene of the library into the file, and return the object."""
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects, wanted.scenes = ["Linked"], ["Linked scene"]
+    bpy.context.collection.objects.link(wanted.objects[0])
+    return wanted.objects[0]
+
+
+def contents(linked):
+    mesh = linked.data
+    uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
+    mesh.uv_layers.active.data.foreach_get("uv", uv)
+    listed = [(e.name, e.strength, e.use, e.first_id, e.second_id) for e in mesh.spectral_extenders]
+    return uv.tolist(), listed, mesh.spectral_extenders_layer, [attribute.name for attribute in mesh.attributes]
+
+
+def call_handlers():
+    for event in ("undo_pre", "undo_post", "redo_pre", "redo_post"):
+        for handler in getattr(bpy.app.handlers, event):
+            handler(bpy.context.scene, None)
+    bpy.context.view_layer.update()
+
+
+@pytest.mark.parametrize("override", [False, True], ids=["linked", "overridden"])
+def test_linked_data_stay_as_they_are_beside_meshes_that_are_edited(library, override, capfd):
+    linked = link(library)
+    if override:
+        linked = linked.override_create(remap_local_usages=True)
+        assert linked.override_library
+    before = contents(linked)
+    assert before[1][0][1] == 3.0
+    grid = scenes.bumpy_grid(name="Local")
+    bpy.context.scene.spectral_unwrap_live = True
+    scenes.edit(grid)
+    call_handlers()
+    capfd.readouterr()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    bpy.ops.mesh.select_all(action="DESELECT")
+    for vertex in (0, 20):
+        scenes.edit_mesh(grid).verts[vertex].select_set(True)
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
+    call_handlers()
+    assert contents(linked) == before
+    assert "could not" not in capfd.readouterr().out
+
+
+def test_operators_are_not_offered_on_linked_data(library):
+    linked = link(library)
+    bpy.context.view_layer.objects.active = linked
+    linked.select_set(True)
+    # Blender refuses to edit it.
+    try:
+        bpy.ops.object.mode_set(mode="EDIT")
+    except RuntimeError as error:
+        assert "link" in str(error).lower() or "edit" in str(error).lower()
+    assert bpy.context.mode == "OBJECT"
+    before = contents(linked)
+    for name in ("add", "adjust", "remove", "select"):
+        assert not getattr(bpy.ops.mesh, f"spectral_extender_{name}").poll()
+    assert not bpy.ops.uv.spectral_unwrap.poll()
+    assert contents(linked) == before

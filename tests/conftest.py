@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every test is marked with the name of its folder; --blender leaves out the tests in other Blenders."""
+
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).resolve().parent
+
+
+def pytest_addoption(parser):
+    parser.addoption(
+        "--blender", action="append", metavar="NAME", help="of the tests in Blender, run those in this one only"
+    )
+
+
+def pytest_collection_modifyitems(config, items):
+    for item in items:
+        item.add_marker(item.path.relative_to(TESTS).parts[0])
+    wanted = config.getoption("--blender")
+    if not wanted:
+        return
+    from tests.blender import blenders
+
+    known = [blender.name for blender in blenders.all_blenders()]
+    if not set(wanted) <= set(known):
+        raise pytest.UsageError(f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}")
+    left_out = [item for item in items if blender_of(item) not in (None, *wanted)]
+    if left_out:
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item not in left_out]
+
+
+def blender_of(item):
+    """Return the name of the Blender that a test runs in, None for other tests."""
+    parameters = item.callspec.params if hasattr(item, "callspec") else {}
+    blender = getattr(item, "blender", None) or parameters.get("blender")
+    return blender.name if blender else None

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options record: the same names, defaults, checks and documentation wherever they can be given."""
+
+import dataclasses
+import inspect
+import pydoc
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+TAKE_OPTIONS = {
+    "parameterize": sc.parameterize,
+    "unwrap": sc.unwrap,
+    "Solver": sc.Solver.__init__,
+    "Unwrapper": sc.Unwrapper.__init__,
+    "Solver.solve": sc.Solver.solve,
+    "Unwrapper.solve": sc.Unwrapper.solve,
+    "suggest_seams": sc.suggest_seams,
+    "suggest_cuts": sc.suggest_cuts,
+}
+# What a kept factor, or kept charts, leave open.
+MAY_VARY = {
+    "Solver.solve": {"method", "soft_pins", "hole_rigidity", "fallbacks", "tolerance"},
+    "Unwrapper.solve": {"hole_rigidity", "tolerance"},
+}
+
+
+def record_of(name):
+    return sc.SeamOptions if name.startswith("suggest") else sc.Options
+
+
+def field_names(record):
+    return {field.name for field in dataclasses.fields(record)}
+
+
+@pytest.mark.parametrize(
+    ("record", "changes"), [(sc.Options, sc.OptionChanges), (sc.SeamOptions, sc.SeamOptionChanges)]
+)
+def test_the_keywords_that_type_checkers_know_are_the_fields(record, changes):
+    assert changes.__optional_keys__ == field_names(record)
+    types = {field.name: field.type for field in dataclasses.fields(record)}
+    assert {name: hint.__forward_arg__ for name, hint in changes.__annotations__.items()} == types
+
+
+@pytest.mark.parametrize("name", TAKE_OPTIONS)
+def test_every_option_is_a_keyword_with_its_default_and_its_documentation(name):
+    record, function = record_of(name), TAKE_OPTIONS[name]
+    expected = MAY_VARY.get(name, field_names(record))
+    parameters = inspect.signature(function).parameters
+    assert expected <= set(parameters)
+    assert not field_names(record) - expected & set(parameters)
+    text = pydoc.plain(pydoc.render_doc(function))
+    for field in dataclasses.fields(record):
+        if field.name in expected:
+            assert parameters[field.name].default == field.default
+            assert f"{field.name}: " in text.partition("Options, each a keyword")[2]
+
+
+@pytest.mark.parametrize("record", [sc.Options, sc.SeamOptions])
+def test_every_field_is_documented(record):
+    for name in field_names(record):
+        assert inspect.cleandoc(record.__doc__).count(f"\n    {name}: ") == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "keyword", "closest"),
+    [
+        ("parameterize", "weight", "weights"),
+        ("parameterize", "foldfree", "fold_free"),
+        ("unwrap", "seams", "seam_edges"),
+        ("Solver", "fill_hole", "fill_holes"),
+        ("Unwrapper", "boundry", "boundary"),
+        ("Solver.solve", "tolerence", "tolerance"),
+        ("Unwrapper.solve", "rigidity", "hole_rigidity"),
+        ("suggest_seams", "maximal_length", "max_length"),
+    ],
+)
+def test_an_unknown_keyword_is_answered_with_the_closest(name, keyword, closest):
+    with pytest.raises(TypeError, match=rf"{name}.* has no option '{keyword}'; did you mean '{closest}'\?"):
+        TAKE_OPTIONS[name](None, **{keyword: 1})
+
+
+BAD = [
+    ({"method": "magic"}, "method must be one of 'spectral', 'lscm', 'fiedler', 'area', not 'magic'"),
+    ({"method": None}, "method must be one of"),
+    ({"weights": "magic"}, "weights must be one of"),
+    ({"boundary": 3}, "boundary must be one of"),
+    ({"factorization": "magic"}, "factorization must be one of"),
+    ({"soft_pins": -1.0}, "soft_pins must lie between 0 and 10000"),
+    ({"soft_pins": 1.0, "method": "lscm"}, "soft_pins need the method 'spectral'"),
+    ({"hole_rigidity": np.nan}, "hole_rigidity must lie between"),
+    ({"hole_rigidity": 1.0, "method": "area"}, "hole_rigidity needs the method 'spectral'"),
+    ({"fill_holes": 1}, "fill_holes must be True or False"),
+    ({"fold_free": "yes"}, "fold_free must be True or False"),
+    ({"fallbacks": None}, "fallbacks must be True or False"),
+    ({"area_blend": 1.5}, "area_blend must lie between 0 and 1"),
+    ({"tolerance": 0}, "tolerance must lie between 1e-14 and 0.001"),
+    ({"tolerance": "a"}, "tolerance must lie"),
+]
+
+
+@pytest.mark.parametrize(("values", "said"), BAD)
+def test_bad_values_are_named_alike_everywhere(values, said):
+    vertices, triangles = meshes.bumpy_disk(60)
+    polygons = meshes.polygons(triangles)
+    for call in (
+        lambda: sc.Options(**values),
+        lambda: sc.parameterize(vertices, triangles, **values),
+        lambda: sc.unwrap(vertices, *polygons, **values),
+        lambda: sc.Solver(vertices, triangles, **values),
+        lambda: sc.Unwrapper(vertices, *polygons, **values),
+    ):
+        with pytest.raises(ValueError, match=said):
+            call()
+
+
+def test_options_are_values():
+    options = sc.Options(weights="inverse_area", tolerance=np.float32(1e-6), fold_free=np.bool_(True))
+    same = dataclasses.replace(sc.Options(), weights="inverse_area", tolerance=float(np.float32(1e-6)), fold_free=True)
+    assert options == same
+    assert hash(options) == hash(same)
+    assert (type(options.tolerance), type(options.fold_free)) == (float, bool)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        options.weights = "uniform"
+
+
+def test_options_and_keywords_are_the_same_and_keywords_go_first():
+    vertices, triangles = meshes.bumpy_disk(300, 2)
+    polygons = meshes.polygons(triangles)
+    options = sc.Options(weights="inverse_area", boundary="vertex", hole_rigidity=0.5)
+    expected = sc.parameterize(vertices, triangles, weights="inverse_area", boundary="vertex", hole_rigidity=0.5).uv
+    assert np.array_equal(sc.parameterize(vertices, triangles, options=options).uv, expected)
+    assert np.array_equal(sc.Solver(vertices, triangles, options=options).solve().uv, expected)
+    assert np.array_equal(sc.unwrap(vertices, *polygons, options=options).uv, expected[triangles.ravel()])
+    unwrapper = sc.Unwrapper(vertices, *polygons, options=options)
+    assert np.array_equal(unwrapper.solve().uv, expected[triangles.ravel()])
+    other = sc.parameterize(vertices, triangles, options=options, weights="uniform")
+    assert np.array_equal(other.uv, sc.parameterize(vertices, triangles, boundary="vertex", hole_rigidity=0.5).uv)
+    with pytest.raises(ValueError, match="options must be Options, not SeamOptions"):
+        sc.parameterize(vertices, triangles, options=sc.SeamOptions())
+
+
+def test_a_solve_varies_the_options_of_its_solver_for_itself_only():
+    vertices, triangles = meshes.bumpy_disk(300, 2)
+    solver = sc.Solver(vertices, triangles, method="lscm")
+    assert solver.solve().method == "lscm"
+    assert solver.solve(method="fiedler").method == "fiedler"
+    assert solver.solve().method == "lscm"
+    rigid = sc.Unwrapper(vertices, *meshes.polygons(triangles), hole_rigidity=1.0)
+    plain = sc.unwrap(vertices, *meshes.polygons(triangles))
+    assert meshes.similarity_deviation(rigid.solve().uv, plain.uv) > 1e-4
+    assert meshes.similarity_deviation(rigid.solve(hole_rigidity=0.0).uv, plain.uv) < 1e-7
+
+
+def test_seam_options_and_keywords_are_the_same():
+    vertices, quads = meshes.bulge(5, 2.0)
+    polygons = meshes.polygons(quads)
+    options = sc.SeamOptions(scale_limit=1.2, qc_limit=1.01)
+    expected = sc.suggest_seams(vertices, *polygons, scale_limit=1.2, qc_limit=1.01)
+    assert len(expected)
+    assert np.array_equal(sc.suggest_seams(vertices, *polygons, options=options), expected)
+    for values, said in (
+        ({"max_length": -1.0}, "max_length must be a number of at least 0"),
+        ({"scale_limit": 0.5}, "scale_limit must be a number of at least 1"),
+        ({"qc_limit": "a"}, "qc_limit must be a number of at least 1"),
+        ({"weights": "magic"}, "weights must be one of"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            sc.SeamOptions(**values)

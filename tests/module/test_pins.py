@@ -1,0 +1,215 @@
+"""Pins: held by pinned LSCM, one that only moves the map, soft ones; of vertices and of corners."""
+
+import igl
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes, reference
+
+
+def test_lscm_holds_pins_exactly_and_minimises():
+    vertices, triangles = meshes.bumpy_disk(3000, 5)
+    pins = {5: (0.1, 0.7), 10: (100.3, 3.0), 700: (20.0, 44.4)}
+    for weights in ("uniform", "inverse_area"):
+        uv = sc.parameterize(vertices, triangles, method="lscm", weights=weights, pins=pins).uv
+        assert all(tuple(uv[vertex]) == position for vertex, position in pins.items())
+        gradient = reference.conformal_energy_matrix(vertices, triangles) @ (uv @ [1, 1j])
+        if weights == "uniform":
+            free = np.delete(gradient, list(pins))
+            assert np.abs(free).max() < 1e-10 * np.ptp(uv, axis=0).max()
+
+
+def test_lscm_agrees_with_libigl():
+    vertices, triangles = meshes.bumpy_disk(2000, 3)
+    pins = {3: (0.0, 0.0), 9: (1.0, 0.2)}
+    expected, _ = igl.lscm(vertices, triangles, np.array(list(pins)), np.array(list(pins.values())))
+    uv = sc.parameterize(vertices, triangles, method="lscm", pins=pins).uv
+    assert np.abs(uv - expected).max() < 1e-8 * np.ptp(uv)
+
+
+def test_lscm_without_pins_takes_far_apart_boundary_vertices():
+    t = np.linspace(0, 1, 11)
+    x, y = (a.ravel() for a in np.meshgrid(10 * t, t, indexing="ij"))
+    vertices = np.c_[x, y, y * np.sin(x)]
+    quads = meshes.grid_quads(11, 11)
+    triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
+    solution = sc.parameterize(vertices, triangles, method="lscm")
+    gradient = np.abs(reference.conformal_energy_matrix(vertices, triangles) @ (solution.uv @ [1, 1j]))
+    pinned = np.flatnonzero(gradient > 1e-9)
+    assert len(pinned) == 2
+    assert np.ptp(x[pinned]) == 10
+
+
+@pytest.mark.parametrize("method", ["spectral", "lscm", "fiedler", "area"])
+def test_one_pin_moves_the_free_map(method):
+    vertices, triangles = meshes.bumpy_disk(300)
+    free = sc.parameterize(vertices, triangles, method=method)
+    moved = sc.parameterize(vertices, triangles, method=method, pins={7: (3.0, 4.0)})
+    assert moved.method == method
+    assert tuple(moved.uv[7]) == pytest.approx((3.0, 4.0), abs=1e-14)
+    assert np.allclose(moved.uv - moved.uv[7], free.uv - free.uv[7], atol=1e-12)
+    (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles), method=method, pins={7: (3.0, 4.0)}).charts
+    assert (chart.status, chart.method, chart.n_pins) == ("solved", method, 1)
+
+
+def pinned_corners(vertices, triangles, pins):
+    """The arguments of `unwrap` that pin the same vertices by all of their corners."""
+    offsets, corners = meshes.polygons(triangles)
+    uv = np.zeros((len(corners), 2))
+    for vertex, position in pins.items():
+        uv[corners == vertex] = position
+    return (vertices, offsets, corners), {"pinned_corners": np.isin(corners, list(pins)), "corner_uv": uv}
+
+
+def test_hard_pins_are_held_by_lscm_whoever_asks():
+    # `pins` raised with "spectral", where `pinned_corners` were held.
+    vertices, triangles = meshes.bumpy_disk(300)
+    pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
+    expected = sc.parameterize(vertices, triangles, method="lscm", pins=pins)
+    mesh, corner_pins = pinned_corners(vertices, triangles, pins)
+    for solution in (
+        sc.parameterize(vertices, triangles, pins=pins),
+        sc.Solver(vertices, triangles).solve(pins=pins),
+    ):
+        assert (solution.method, solution.eigenvalue_of) == ("lscm", "map")
+        assert np.array_equal(solution.uv, expected.uv)
+    for result in (
+        sc.unwrap(*mesh, pins=pins),
+        sc.unwrap(*mesh, **corner_pins),
+        sc.Unwrapper(*mesh, pins=pins).solve(),
+    ):
+        (chart,) = result.charts
+        assert (chart.status, chart.method, chart.eigenvalue_of) == ("solved", "lscm", "map")
+        assert np.abs(result.uv - expected.uv[triangles.ravel()]).max() < 1e-12
+
+
+@pytest.mark.parametrize("method", ["fiedler", "area"])
+def test_methods_that_hold_no_pins_say_so_whoever_asks(method):
+    vertices, triangles = meshes.bumpy_disk(300)
+    pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
+    with pytest.raises(sc.InvalidMeshError, match="hold no pins; use 'spectral' or 'lscm'"):
+        sc.parameterize(vertices, triangles, method=method, pins=pins)
+    mesh, corner_pins = pinned_corners(vertices, triangles, pins)
+    for given in ({"pins": pins}, corner_pins):
+        (chart,) = sc.unwrap(*mesh, method=method, **given).charts
+        assert chart.status == "failed"
+        assert "hold no pins; use 'spectral' or 'lscm'" in chart.message
+
+
+def test_hard_pins_and_soft_constraints_do_not_go_together():
+    vertices, triangles = meshes.bumpy_disk(300, 2)
+    pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
+    for forces in ({"extenders": [(3, 90, 1.0)]}, {"hole_rigidity": 1.0}):
+        with pytest.raises(sc.InvalidMeshError, match="pins that are soft"):
+            sc.parameterize(vertices, triangles, pins=pins, **forces)
+        assert sc.parameterize(vertices, triangles, pins=pins, soft_pins=1.0, **forces).method == "spectral"
+    # Of several charts some may be held: there the extenders are reported as unused.
+    result = sc.unwrap(vertices, *meshes.polygons(triangles), pins=pins, extenders=[(3, 90, 1.0)])
+    assert (result.charts[0].method, result.unused_extenders.tolist()) == ("lscm", [True])
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e-170, 1e12, 1e160])
+def test_pins_of_any_magnitude(unit):
+    vertices, triangles = meshes.bumpy_disk(400)
+    expected = sc.parameterize(vertices, triangles, method="lscm", pins={0: (0, 0), 7: (1, 0.5)})
+    scaled = sc.parameterize(vertices, triangles, method="lscm", pins={0: (0, 0), 7: (unit, 0.5 * unit)})
+    assert tuple(scaled.uv[7]) == (unit, 0.5 * unit)
+    assert np.allclose(scaled.uv / unit, expected.uv, atol=1e-9)
+    assert scaled.turning_number == expected.turning_number == 1
+    assert scaled.eigenvalue == pytest.approx(expected.eigenvalue)
+
+
+def test_pins_hold_all_copies():
+    vertices, quads = meshes.saddle_quads(7)
+    offsets, corners = meshes.polygons(quads)
+    seam = np.c_[21 + np.arange(6), 22 + np.arange(6)]  # cuts the grid in two
+    pins = {21: (0.0, 0.0), 27: (1.0, 0.5)}
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, method="lscm", pins=pins)
+    assert len(result.charts) == 2
+    for vertex, position in pins.items():
+        assert (result.uv[corners == vertex] == position).all()
+
+
+def cut_grid():
+    """The bumpy grid of 9 x 9 vertices cut in two charts along vertices 36 to 44, and its corner UVs in the plane."""
+    vertices, quads = meshes.saddle_quads(9)
+    offsets, corners = meshes.polygons(quads)
+    seam = np.c_[np.arange(36, 44), np.arange(37, 45)]
+    return vertices, offsets, corners, seam, vertices[corners, :2].copy()
+
+
+def solved_with_pins(pins, **options):
+    """`unwrap` the cut grid with {corner: uv} and return its charts, uv and corners."""
+    vertices, offsets, corners, seam, uv = cut_grid()
+    pinned = np.zeros(len(corners), bool)
+    for corner, position in pins.items():
+        pinned[corner] = True
+        uv[corner] = position
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seam, pinned_corners=pinned, corner_uv=uv, **options)
+    return result.charts, result.uv, corners
+
+
+def test_charts_with_several_pinned_corners_are_solved_by_lscm():
+    pins = {0: (0.25, 0.5), 100: (1.0, 0.75)}
+    charts, uv, corners = solved_with_pins(pins)
+    assert [(chart.method, chart.n_pins) for chart in charts] == [("lscm", 2), ("spectral", 0)]
+    for corner, position in pins.items():
+        assert tuple(uv[corner]) == position
+    vertices, offsets, corners, seam, _ = cut_grid()
+    named = {int(corners[corner]): position for corner, position in pins.items()}
+    expected = sc.unwrap(vertices, offsets, corners, seam_edges=seam, method="lscm", pins=named)
+    first = np.isin(np.arange(len(corners)), np.arange(128))
+    assert np.abs(uv - expected.uv)[first].max() < 1e-12
+
+
+def test_one_pinned_corner_only_moves_its_chart():
+    charts, uv, _ = solved_with_pins({5: (3.0, 4.0)})
+    _, free, _ = solved_with_pins({})
+    assert [(chart.method, chart.n_pins) for chart in charts] == [("spectral", 1), ("spectral", 0)]
+    moved = uv - free
+    assert np.abs(moved[:128] - moved[0]).max() < 1e-13
+    assert tuple(uv[5]) == pytest.approx((3.0, 4.0), abs=1e-14)
+    assert (moved[128:] == 0).all()
+
+
+def test_different_pins_on_one_vertex_split_it():
+    vertices, offsets, corners, _, uv = cut_grid()
+    middle = np.flatnonzero(corners == 40)
+    pinned = np.zeros(len(corners), bool)
+    pinned[middle] = True
+    uv[middle] = [(-0.1, 0), (-0.1, 0), (0.1, 0), (0.1, 0)]
+    pinned[0] = True
+    result = sc.unwrap(vertices, offsets, corners, pinned_corners=pinned, corner_uv=uv)
+    (chart,) = result.charts
+    assert (chart.status, chart.method, chart.n_pins, chart.n_vertices) == ("solved", "lscm", 3, 82)
+    assert (result.uv[pinned] == uv[pinned]).all()
+
+
+def test_stronger_soft_pins_come_nearer():
+    pins = {0: (-1.3, -1.0), 31: (-1.0, 1.2), 100: (-0.2, -0.6), 127: (0.1, 0.9)}
+    distances = []
+    for strength in (0.1, 10.0, 100.0, 1000.0, 1e4):
+        charts, uv, _ = solved_with_pins(pins, soft_pins=strength)
+        assert [(chart.status, chart.method, chart.n_pins) for chart in charts] == [
+            ("solved", "spectral", 4),
+            ("solved", "spectral", 0),
+        ]
+        distances.append(np.linalg.norm([uv[corner] - position for corner, position in pins.items()]))
+    assert (np.diff(distances) < 0).all()
+    assert distances[-1] < 0.02 * distances[0]
+
+
+def test_two_soft_pins_are_met_by_a_similarity_of_the_free_map():
+    charts, uv, _ = solved_with_pins({0: (0.0, 0.0), 100: (0.0, 5.0)}, soft_pins=10.0)
+    _, free, _ = solved_with_pins({})
+    assert np.abs(uv[0]).max() < 1e-13
+    assert uv[100] == pytest.approx((0.0, 5.0), abs=1e-12)
+    assert meshes.similarity_deviation(uv[:128], free[:128]) < 1e-9
+
+
+def test_pins_that_are_not_finite_fail_their_chart_only():
+    charts, uv, _ = solved_with_pins({0: (np.nan, 0.0), 3: (0.0, 0.0)})
+    assert [chart.status for chart in charts] == ["failed", "solved"]
+    assert "pinned UV" in charts[0].message
+    assert np.isfinite(uv).all()

@@ -1,0 +1,97 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "meshes.h"
+#include "seams/cut_candidates.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// A mesh of one piece, opened and solved. Keeps what the candidates refer to.
+struct Solved {
+  Mesh mesh;
+  MirrorSymmetry symmetry;
+  std::vector<Piece> pieces;
+  std::unique_ptr<PieceSeams> seams;
+  TrialMaps charts;
+  MapQuality quality;
+
+  explicit Solved(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
+    const ChartDecomposition whole = build_charts(mesh.view());
+    pieces = split_into_pieces(mesh.view(), whole);
+    REQUIRE(pieces.size() == 1);
+    seams =
+        std::make_unique<PieceSeams>(pieces[0], 0, mirror_pieces(mesh.view(), whole, pieces, symmetry)[0], symmetry);
+    seams->open();
+    for (Chart& chart : charts_with({})) {
+      charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(pieces[0].view(), std::move(chart), {}, {})));
+    }
+    quality = map_quality(charts, 2);
+  }
+  std::vector<Chart> charts_with(const SeamEdges& more) const {
+    PolygonMesh view = pieces[0].view();
+    const auto edges = seams->with(more);
+    view.seam_edges = edges.data();
+    view.n_seam_edges = static_cast<int>(edges.size());
+    return build_charts(view).charts;
+  }
+  CutCandidates candidates() const { return {*seams, charts, quality}; }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("cut_candidates");
+
+TEST_CASE("regions come in falling order, of mirrored ones one, and are joined to the boundary") {
+  const Solved spikes(spiky_grid(2, 8));
+  const CutCandidates candidates = spikes.candidates();
+  for (const auto kind : {CutCandidates::Kind::scale, CutCandidates::Kind::angle}) {
+    const auto regions = candidates.regions(kind);
+    REQUIRE_FALSE(regions.empty());
+    CHECK(std::is_sorted(regions.begin(), regions.end(), [](auto& a, auto& b) { return a.volume > b.volume; }));
+    for (const auto& region : regions) {
+      const int image = spikes.symmetry.vertex[region.vertex];
+      CHECK(std::count_if(regions.begin(), regions.end(),
+                          [&](auto& other) { return other.vertex == region.vertex || other.vertex == image; }) == 1);
+    }
+    const SeamEdges cut = candidates.cut_to(regions.front(), *spikes.seams);
+    REQUIRE_FALSE(cut.empty());
+    CHECK(spikes.charts_with(cut).size() == 1);
+  }
+}
+
+TEST_CASE("the cut around a region makes an island, and halves are two charts") {
+  const Solved spikes(spiky_grid(2, 8));
+  const CutCandidates candidates = spikes.candidates();
+  CHECK(spikes.charts_with(candidates.cut_around(candidates.regions(CutCandidates::Kind::scale).front())).size() > 1);
+  const auto halves = candidates.halves();
+  REQUIRE_FALSE(halves.empty());
+  for (const SeamEdges& cut : halves) CHECK(spikes.charts_with(cut).size() > 1);
+}
+
+TEST_CASE("sheets that lie on each other are parted") {
+  const Solved strip(quad_grid(12, 2));
+  const auto cuts = strip.candidates().cuts_between(0, {0, 1, 10, 11});
+  REQUIRE_FALSE(cuts.empty());
+  CHECK(std::any_of(cuts.begin(), cuts.end(), [&](const SeamEdges& cut) {
+    const auto charts = strip.charts_with(cut);
+    return charts.size() > 1;
+  }));
+}
+
+TEST_CASE("without a map the cut starts far from all cuts") {
+  Solved disk(quad_grid(8, 8));
+  TrialMap unsolved = *disk.charts[0];
+  unsolved.solved = false;
+  disk.charts[0] = std::make_shared<const TrialMap>(std::move(unsolved));
+  const SeamEdges cut = disk.candidates().blind_cut();
+  CHECK(disk.seams->length(cut) >= 4);
+  CHECK(disk.charts_with(cut).size() == 1);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

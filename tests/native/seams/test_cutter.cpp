@@ -1,0 +1,98 @@
+#include <doctest/doctest.h>
+
+#include "meshes.h"
+#include "seams/cutter.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+PieceSeams opened(const Mesh& mesh, std::vector<Piece>& pieces) {
+  const ChartDecomposition decomposition = build_charts(mesh.view());
+  pieces = split_into_pieces(mesh.view(), decomposition);
+  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
+  PieceSeams seams(pieces[0], 0, mirror_pieces(mesh.view(), decomposition, pieces, symmetry)[0], symmetry);
+  seams.open();
+  return seams;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("cutter");
+
+TEST_CASE("every step lowers the distortion, until the limits are met") {
+  for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(24, 12)}) {
+    std::vector<Piece> pieces;
+    const SeamSuggestionOptions options;
+    Cutter cutter(opened(mesh, pieces), options);
+    cutter.solve({});
+    int steps = 0;
+    double before = cutter.quality().distortion();
+    while (!cutter.step(unlimited, {}).empty()) {
+      ++steps;
+      REQUIRE(steps < 100);
+      // A cut against overlaps may cost a little.
+      CHECK(cutter.quality().distortion() < 1.051 * before);
+      before = cutter.quality().distortion();
+    }
+    CHECK(steps > 0);
+    CHECK(cutter.finished());
+    CHECK(cutter.quality().within_limit >= 0.95);
+    CHECK(cutter.quality().mean_qc <= options.qc_limit);
+  }
+}
+
+TEST_CASE("no step is longer than allowed") {
+  std::vector<Piece> pieces;
+  const SeamSuggestionOptions options;
+  const Mesh mesh = spiky_grid(2, 8);
+  Cutter cutter(opened(mesh, pieces), options);
+  cutter.solve({});
+  const double before = cutter.quality().distortion();
+  CHECK(cutter.step(0.5, {}).empty());
+  CHECK(cutter.finished());
+  CHECK(cutter.quality().distortion() == before);
+  Cutter other(opened(mesh, pieces), options);
+  other.solve({});
+  for (SeamEdges cut = other.step(20, {}); !cut.empty(); cut = other.step(20, {})) {
+    CHECK(other.seams().length(cut) <= 20);
+  }
+}
+
+TEST_CASE("a good map is left alone") {
+  std::vector<Piece> pieces;
+  const SeamSuggestionOptions options;
+  const Mesh mesh = bumpy_grid(6, 6);
+  Cutter cutter(opened(mesh, pieces), options);
+  cutter.solve({});
+  CHECK(cutter.step(unlimited, {}).empty());
+}
+
+TEST_CASE("where the first map fails the surface is cut further") {
+  // A tall closed tower, slit along its foot only: its map shrinks beyond what double precision resolves.
+  Mesh mesh = cell_surface(60, [](int i, int j, int k) { return i < 2 && j < 2 && k < 60; });
+  mesh.seams = {{0, 1}};
+  std::vector<Piece> pieces;
+  const SeamSuggestionOptions options;
+  Cutter cutter(opened(mesh, pieces), options);
+  cutter.solve({});
+  while (!cutter.step(unlimited, {}).empty()) {
+  }
+  CHECK(cutter.quality().solved);
+  CHECK(cutter.quality().within_limit >= 0.95);
+}
+
+TEST_CASE("cancelling passes through") {
+  std::vector<Piece> pieces;
+  const SeamSuggestionOptions options;
+  const Mesh mesh = spiky_grid(2, 8);
+  Cutter cutter(opened(mesh, pieces), options);
+  cutter.solve({});
+  CHECK_THROWS_AS(cutter.step(unlimited, [](double, const char*) { return false; }), Cancelled);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

@@ -1,0 +1,69 @@
+#include <doctest/doctest.h>
+
+#include "meshes.h"
+#include "seams/pieces.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+struct Pieces {
+  ChartDecomposition decomposition;
+  std::vector<Piece> pieces;
+  std::vector<PieceMirror> mirrors;
+
+  explicit Pieces(const Mesh& mesh) : decomposition(build_charts(mesh.view())) {
+    pieces = split_into_pieces(mesh.view(), decomposition);
+    mirrors = mirror_pieces(mesh.view(), decomposition, pieces, find_mirror_symmetry(mesh.view()));
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("pieces");
+
+TEST_CASE("a piece is its chart as a mesh of its own, cut as the chart was") {
+  Mesh mesh = quad_grid(6, 3);
+  mesh.seams = {{3, 10}, {10, 17}, {17, 24}, {8, 9}, {9, 10}};  // across, and a slit into the left half
+  const Pieces cut(mesh);
+  REQUIRE(cut.pieces.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ChartDecomposition again = build_charts(cut.pieces[i].view());
+    REQUIRE(again.charts.size() == 1);
+    const Chart& expected = cut.decomposition.charts[i];
+    CHECK(again.charts[0].n_vertices() == expected.n_vertices());
+    CHECK(again.charts[0].euler_characteristic == expected.euler_characteristic);
+    CHECK(cut.pieces[i].faces == expected.faces);
+    CHECK(cut.pieces[i].vertices == expected.vertices);
+  }
+}
+
+TEST_CASE("a seam whose ends stay whole remains a seam of the piece") {
+  Mesh mesh = quad_grid(4, 4);
+  mesh.seams = {{13, 12}};
+  const Pieces slit(mesh);
+  REQUIRE(slit.pieces.size() == 1);
+  CHECK(slit.pieces[0].seams == std::vector<std::array<int, 2>>{{12, 13}});
+  CHECK(slit.mirrors[0].image == -1);  // the seam is on one side only
+}
+
+TEST_CASE("pieces are mapped onto themselves or each other") {
+  const Pieces whole(quad_grid(6, 3));
+  CHECK(whole.mirrors[0].image == 0);
+  CHECK(whole.mirrors[0].vertex[0] == 6);
+  CHECK(whole.mirrors[0].face[0] == 5);
+  Mesh halved = quad_grid(6, 3);
+  halved.seams = {{3, 10}, {10, 17}, {17, 24}};
+  const Pieces halves(halved);
+  CHECK(halves.mirrors[0].image == 1);
+  CHECK(halves.mirrors[1].image == 0);
+  for (std::size_t v = 0; v < halves.mirrors[0].vertex.size(); ++v) {
+    CHECK(halves.mirrors[1].vertex[halves.mirrors[0].vertex[v]] == static_cast<int>(v));
+  }
+  Mesh uneven = quad_grid(6, 3);
+  uneven.seams = {{2, 9}, {9, 16}, {16, 23}};
+  for (const PieceMirror& mirror : Pieces(uneven).mirrors) CHECK(mirror.image == -1);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

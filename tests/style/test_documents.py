@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What README.md and docs/ name exists."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+FOLDERS = ("addon", "docs", "native", "tests", "tools")
+
+
+def named(text):
+    """Return the paths and modules in code spans and blocks, and the bare names of headers and sources."""
+    paths = set(re.findall(rf"\b(?:{'|'.join(FOLDERS)})/[\w./-]*\w/?", text))
+    modules = {name.replace(".", "/") + ".py" for name in re.findall(r"-m ((?:tests|tools)\.[\w.]+)", text)}
+    headers = set(re.findall(r"(?<![\w/<>_-])([a-z]\w*\.(?:h|cpp))\b", text))
+    return paths | modules, headers
+
+
+def is_there(path):
+    # A path may end before a placeholder, as native/src/ of native/src/<floor>/.
+    return (ROOT / path).exists()
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_paths_exist(document):
+    paths, headers = named(document.read_text(encoding="utf-8"))
+    sources = {path.name for folder in ("native", "tests") for path in (ROOT / folder).rglob("*.*")}
+    assert sorted(path for path in paths if not is_there(path)) == []
+    assert sorted(headers - sources) == []
+
+
+def test_the_scan_sees_paths_modules_and_headers():
+    text = "`native/src/no.cpp`, `gone.h`: `tests/native/<floor>/test_x.cpp`; `python -m tests.benchmarks.none`"
+    paths, headers = named(text)
+    assert {"native/src/no.cpp", "tests/benchmarks/none.py", "tests/native/"} <= paths
+    assert headers == {"gone.h"}
+    assert not is_there("native/src/no.cpp")
