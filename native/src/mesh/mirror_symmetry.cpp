@@ -185,6 +185,7 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
     if (near.size() > 1) ambiguous.emplace_back(v, std::move(near));
   }
   std::vector<int> chosen;
+  chosen.reserve(ambiguous.size());
   const AmbiguousMatch match(mesh, faces, image);
   for (const auto& [v, candidates] : ambiguous) chosen.push_back(match.choose(v, candidates));
   for (std::size_t i = 0; i < chosen.size(); ++i) image[ambiguous[i].first] = chosen[i];
