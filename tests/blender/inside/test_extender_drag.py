@@ -8,9 +8,9 @@ import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import numpy as np
 import pytest
-from test_control import add_extender, hill
 
 from tests.blender.inside import scenes
+from tests.blender.inside.test_control import add_extender, hill
 
 
 def module(name):
