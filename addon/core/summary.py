@@ -25,7 +25,7 @@ class Summary:
         embedded: number of charts whose map was replaced by an embedding on request.
         mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
         failures: how many charts failed for each reason.
-        remedies: how many charts were solved after each repair or change of method.
+        repairs: how many charts were solved after each repair or fallback.
         pinned: how many charts with two or more pins were solved by each method.
         refused: why meshes were refused as a whole, one "name: reason" each.
     """
@@ -39,7 +39,7 @@ class Summary:
     embedded: int
     mean_qc_change: tuple[float, float] | None
     failures: Counter[str]
-    remedies: Counter[str]
+    repairs: Counter[str]
     pinned: Counter[str]
     refused: tuple[str, ...]
 
@@ -66,7 +66,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         mean_qc_change=_mean_qc_change(changed),
         failures=Counter(chart.message for chart in charts if chart.status != "solved"),
         # What unfolding did has a sentence of its own, with numbers that differ from chart to chart.
-        remedies=Counter(chart.message for chart in solved if chart.message and not _is_unfolded(chart)),
+        repairs=Counter(chart.message for chart in solved if chart.message and not _is_unfolded(chart)),
         pinned=Counter(chart.method for chart in solved if chart.n_pins > 1),
         refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
     )

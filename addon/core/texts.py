@@ -310,11 +310,11 @@ def failures(summary: Summary) -> str:
     return ". ".join(parts)
 
 
-def remedies(summary: Summary) -> str:
+def repairs(summary: Summary) -> str:
     """Return what was repaired or done differently to solve some charts; empty if nothing was."""
-    if not summary.remedies:
+    if not summary.repairs:
         return ""
-    return f"{_count(sum(summary.remedies.values()), 'island')} needed a remedy: {_grouped(summary.remedies)}"
+    return f"{_count(sum(summary.repairs.values()), 'island')} needed a repair or fallback: {_grouped(summary.repairs)}"
 
 
 def pinned(summary: Summary) -> str:

@@ -133,7 +133,7 @@ def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
     summary = outcome.summary
     pairs = (
         *(("INFO", note) for note in outcome.notes),
-        ("INFO", texts.remedies(summary)),
+        ("INFO", texts.repairs(summary)),
         ("INFO", texts.unfolded(summary)),
         ("INFO", texts.pinned(summary)),
         ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),

@@ -102,17 +102,17 @@ def test_unfolding_tells_what_it_cost():
         "Fold-free: 6 folded triangles unfolded, 2 islands replaced by an embedding, relaxed without folding it; "
         "mean QC of these islands 1.1000 before, 1.3125 after"
     )
-    assert texts.remedies(result) == ""
+    assert texts.repairs(result) == ""
     assert texts.unfolded(summary(without_map)).endswith("relaxed without folding it")
     assert texts.unfolded(summary(solved())) == ""
 
 
-def test_what_could_not_be_unfolded_is_a_remedy_that_failed():
+def test_what_could_not_be_unfolded_is_reported_as_a_fallback_that_failed():
     stuck = solved(unfolded=2, flipped=1, mean_qc_before=1.1)
     stuck.message = "1 triangle could not be unfolded between the pins; move or remove pins."
     result = summary(stuck)
     assert texts.unfolded(result) == ""
-    assert "could not be unfolded" in texts.remedies(result)
+    assert "could not be unfolded" in texts.repairs(result)
 
 
 def test_faces_below_single_precision():
@@ -133,11 +133,11 @@ def test_equal_reasons_are_grouped():
     assert two == "3 of 3 islands failed, UVs unchanged: 2: closed; 1: flat"
 
 
-def test_remedies_are_told():
-    assert texts.remedies(summary(solved())) == ""
+def test_repairs_and_fallbacks_are_reported():
+    assert texts.repairs(summary(solved())) == ""
     charts = [solved(), solved(), solved()]
     charts[0].message = charts[1].message = "3 faces were turned."
-    assert texts.remedies(summary(*charts)) == "2 islands needed a remedy: 3 faces were turned"
+    assert texts.repairs(summary(*charts)) == "2 islands needed a repair or fallback: 3 faces were turned"
 
 
 def test_pins_tell_how_islands_were_solved():

@@ -21,7 +21,7 @@ def test_solved_islands_are_counted_and_measured(reports):
     assert re.fullmatch(r"Unwrapped 6 islands: mean QC 1\.0000, maximum QC 1\.0000, 0 flipped faces, \d+\.\d\d s", text)
 
 
-def test_failed_islands_are_counted_with_reason_and_remedy(reports):
+def test_failed_islands_are_counted_with_reason_and_advice(reports):
     both = scenes.grid_and_cube()
     scenes.edit(both)
     reports()
@@ -44,7 +44,7 @@ def test_only_failures_report_no_success(reports):
     assert text.startswith("1 of 1 island failed")
 
 
-def test_remedies_are_told(reports):
+def test_repairs_and_fallbacks_are_reported(reports):
     grid = scenes.grid(2, 1)
     scenes.edit(grid)
     scenes.edit_mesh(grid).faces[0].normal_flip()
@@ -52,7 +52,7 @@ def test_remedies_are_told(reports):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     (level, text), _ = reports()
     assert level == "Info"
-    assert text.startswith("1 island needed a remedy: 1 face wound the other way")
+    assert text.startswith("1 island needed a repair or fallback: 1 face wound the other way")
 
 
 def test_packer_that_does_not_run_is_an_error_and_changes_nothing(monkeypatch):
