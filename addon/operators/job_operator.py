@@ -4,7 +4,7 @@
 from collections.abc import Callable, Generator
 from contextlib import closing
 from dataclasses import dataclass
-from typing import Any, Protocol, Union
+from typing import Any, Protocol
 
 import bpy
 
@@ -59,7 +59,8 @@ class Done:
     is_late: bool
 
 
-Job = Generator[Union[Work, Choice], Done, "set[str]"]
+# Not typing.Union: its cache keeps this module until Python is gone, and bpy 4.2 and 4.5 then crash on leaving.
+Job = Generator[Work | Choice, Done, "set[str]"]
 
 
 class _Running:
