@@ -33,7 +33,12 @@ def reload_scripts():
     bpy.utils.load_scripts(reload_scripts=True)
 
 
-@pytest.mark.parametrize("end", [disable, load_file, reload_scripts], ids=lambda end: end.__name__)
+# Without any add-on, bpy 4.2 and 4.5 crash or hang on leaving Python once scripts have been reloaded.
+MAY_RELOAD = bpy.app.version >= (5, 0, 0) or not getattr(bpy.app, "module", False)
+ENDS = [disable, load_file, *([reload_scripts] if MAY_RELOAD else [])]
+
+
+@pytest.mark.parametrize("end", ENDS, ids=lambda end: end.__name__)
 @pytest.mark.parametrize("operator", WAITING)
 def test_nothing_is_left_of_a_job(operator, end, monkeypatch):
     scenes.edit(scenes.cylinder())
