@@ -1,11 +1,28 @@
 #pragma once
 
+#include <cmath>
+
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
+/// The orientation of the triangle a b c, without the filter of orientation(): CGAL's exact predicate.
+int exact_orientation(Complex a, Complex b, Complex c);
+
 /// The orientation of the triangle a b c: 1 counter-clockwise, -1 clockwise, 0 where the points lie on one line. Exact
-/// for finite coordinates, whatever rounding does to the area (CGAL's filtered predicate).
-int orientation(Complex a, Complex b, Complex c);
+/// for finite coordinates, whatever rounding does to the area.
+inline int orientation(Complex a, Complex b, Complex c) {
+  // Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), bound A:
+  // a determinant above (3 + 16 u) u of the sum of its terms, u = 2^-53, has the right sign.
+  constexpr double error_bound = 3.3306690738754716e-16;
+  // Below, products may have lost digits to underflow, which the bound does not cover.
+  constexpr double underflow = 1e-280;
+  const double left = (a.real() - c.real()) * (b.imag() - c.imag());
+  const double right = (a.imag() - c.imag()) * (b.real() - c.real());
+  const double terms = std::abs(left) + std::abs(right);
+  const double determinant = left - right;
+  if (std::abs(determinant) > error_bound * terms && terms > underflow) return determinant > 0 ? 1 : -1;
+  return exact_orientation(a, b, c);
+}
 
 }  // namespace spectral_conformal
