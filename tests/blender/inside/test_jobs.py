@@ -34,7 +34,7 @@ def reload_scripts():
 
 
 # Without any add-on, bpy 4.2 and 4.5 crash or hang on leaving Python once scripts have been reloaded.
-MAY_RELOAD = bpy.app.version >= (5, 0, 0) or not getattr(bpy.app, "module", False)
+MAY_RELOAD = not (4, 2, 0) <= bpy.app.version < (5, 0, 0)
 ENDS = [disable, load_file, *([reload_scripts] if MAY_RELOAD else [])]
 
 
