@@ -240,7 +240,19 @@ def _add_extender(rng, edited):
         "pairs": str(rng.choice(["IN_ORDER", "TO_ACTIVE"])),
         "strength": float(rng.choice([1.0, -1.0, 0.0, 1e4, -1e4])),
     }
-    return Call(f"add extender {properties}", lambda: bpy.ops.mesh.spectral_extender_add(**properties), EXTENDERS)
+    return Call(
+        f"add extender {properties}",
+        lambda: bpy.ops.mesh.spectral_extender_add(**properties),
+        EXTENDERS,
+        _followed_corners,
+    )
+
+
+def _followed_corners():
+    """Return the corners that may follow an extender at once: those of visible faces, with Live Spectral Unwrap on."""
+    if not bpy.context.scene.spectral_unwrap_live:
+        return {}
+    return {mesh.name: _chosen_corners(mesh, all_visible=True) for mesh in _meshes()}
 
 
 def _adjust_extender(rng, edited):
@@ -262,5 +274,8 @@ def _choose_extender(rng, edited):
         return Call("select extender", lambda: bpy.ops.mesh.spectral_extender_select(), SELECTION)
     broken = bool(rng.random() < 0.5)
     return Call(
-        f"remove extender, broken={broken}", lambda: bpy.ops.mesh.spectral_extender_remove(broken=broken), EXTENDERS
+        f"remove extender, broken={broken}",
+        lambda: bpy.ops.mesh.spectral_extender_remove(broken=broken),
+        EXTENDERS,
+        _followed_corners,
     )
