@@ -252,6 +252,10 @@ def _followed_corners():
     """Return the corners that may follow an extender at once: those of visible faces, with Live Spectral Unwrap on."""
     if not bpy.context.scene.spectral_unwrap_live:
         return {}
+    return _visible_corners()
+
+
+def _visible_corners():
     return {mesh.name: _chosen_corners(mesh, all_visible=True) for mesh in _meshes()}
 
 
@@ -263,7 +267,7 @@ def _adjust_extender(rng, edited):
         f"adjust extender to {strength}",
         lambda: bpy.ops.mesh.spectral_extender_adjust(strength=strength),
         EXTENDERS,
-        lambda: {mesh.name: _chosen_corners(mesh, all_visible=True) for mesh in _meshes()},
+        _visible_corners,
     )
 
 
