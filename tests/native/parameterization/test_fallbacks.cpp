@@ -11,7 +11,7 @@ namespace spectral_conformal::test {
 TEST_SUITE_BEGIN("fallbacks");
 
 TEST_CASE("a patch that is thin to a point is solved with clamped triangles") {
-  const Patch patch(rounded_grid(26, 1.0 / 16));
+  const Patch patch(rounded_grid(40, 1.0 / 20));
   const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
   SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
   Timings timings;

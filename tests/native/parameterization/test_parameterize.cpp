@@ -193,7 +193,7 @@ TEST_CASE("the fields tell what was solved, and fallbacks can be forbidden") {
     Mesh mesh;
     Fallback fallback;
   };
-  const Case cases[] = {{rounded_grid(26, 1.0 / 16), Fallback::clamped_triangles},
+  const Case cases[] = {{rounded_grid(40, 1.0 / 20), Fallback::clamped_triangles},
                         {rounded_grid(20, 0.5), Fallback::other_boundary},
                         {bumpy_grid(6, 5), Fallback::none}};
   for (const Case& c : cases) {
@@ -309,7 +309,7 @@ TEST_CASE("the area blend: at 1 the map is the relaxed one, between it lies betw
 }
 
 TEST_CASE("the area blend of a patch that needs a fallback is that of the fallback") {
-  const Patch patch(rounded_grid(26, 1.0 / 16));
+  const Patch patch(rounded_grid(40, 1.0 / 20));
   PatchOptions options;
   options.area_blend = 0.5;
   const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
