@@ -21,7 +21,7 @@ class Summary:
         max_qc: largest quasi-conformal distortion of a triangle.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that cover others of their chart.
-        unfolded: number of folded triangles that were unfolded on request.
+        unfolded: number of flipped triangles that were unfolded on request.
         embedded: number of charts whose map was replaced by an embedding on request.
         mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
         failures: how many charts failed for each reason.

@@ -275,7 +275,7 @@ def unfolded(summary: Summary) -> str:
     """Return what was unfolded on request and what it cost; empty if nothing was."""
     parts = []
     if summary.unfolded:
-        parts.append(f"{_count(summary.unfolded, 'folded triangle')} unfolded")
+        parts.append(f"{_count(summary.unfolded, 'flipped triangle')} unfolded")
     if summary.embedded:
         parts.append(f"{_count(summary.embedded, 'island')} replaced by an embedding, relaxed without folding it")
     if not parts:

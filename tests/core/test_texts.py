@@ -99,7 +99,7 @@ def test_unfolding_tells_what_it_cost():
         chart.message = "what the module says"
     result = summary(unfolded, replaced, without_map, solved())
     assert texts.unfolded(result) == (
-        "Fold-free: 6 folded triangles unfolded, 2 islands replaced by an embedding, relaxed without folding it; "
+        "Fold-free: 6 flipped triangles unfolded, 2 islands replaced by an embedding, relaxed without folding it; "
         "mean QC of these islands 1.1000 before, 1.3125 after"
     )
     assert texts.repairs(result) == ""

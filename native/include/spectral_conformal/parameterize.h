@@ -70,7 +70,7 @@ struct Parameterization {
   double residual = 0;
   int iterations = 0;         ///< solves with the factor
   int turning_number = 0;     ///< of the outer boundary loop
-  int unfolded = 0;           ///< folded triangles that PatchOptions::fold_free has unfolded
+  int unfolded = 0;           ///< flipped triangles that PatchOptions::fold_free has unfolded
   bool is_embedding = false;  ///< whether it had to replace the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
   double mean_qc_before = std::numeric_limits<double>::quiet_NaN();

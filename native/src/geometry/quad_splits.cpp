@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "geometry/signed_area.h"
 
@@ -20,6 +22,8 @@ bool second_split_is_better(const std::array<double, 4>& area) {
   return second - first > equal_areas * std::abs(area[0] + area[1]);
 }
 
+std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
 }  // namespace
 
 std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,
@@ -36,6 +40,48 @@ std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& tri
       continue;
     }
     const bool second = second_split_is_better({area(t), area(t + 1), area(t + 2), area(t + 3)});
+    const int chosen = static_cast<int>(t) + (second ? 2 : 0);
+    result.insert(result.end(), {chosen, chosen + 1});
+    t += 3;
+  }
+  return result;
+}
+
+std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& triangles,
+                                        const std::vector<double>& triangle_weights) {
+  const auto is_first_of_quad = [&](std::size_t t) {
+    return !triangle_weights.empty() && begins_quad(triangle_weights[t]);
+  };
+  std::vector<int> result;
+  result.reserve(triangles.size());
+  bool has_quads = false;
+  for (std::size_t t = 0; t < triangles.size() && !has_quads; ++t) {
+    has_quads = is_first_of_quad(t);
+    if (!has_quads) result.push_back(static_cast<int>(t));
+  }
+  if (!has_quads) return result;
+  result.clear();
+  std::set<std::pair<int, int>> edges;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    edges.insert({edge(a, b), edge(b, c)});
+    if (!is_first_of_quad(t)) {
+      edges.insert(edge(c, a));
+      continue;
+    }
+    const int d = triangles[t + 1][2];
+    edges.insert({edge(c, d), edge(d, a)});
+    t += 3;
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!is_first_of_quad(t)) {
+      result.push_back(static_cast<int>(t));
+      continue;
+    }
+    const auto first_diagonal = edge(triangles[t][0], triangles[t][2]);
+    const auto second_diagonal = edge(triangles[t][1], triangles[t + 1][2]);
+    const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;
+    edges.insert(second ? second_diagonal : first_diagonal);
     const int chosen = static_cast<int>(t) + (second ? 2 : 0);
     result.insert(result.end(), {chosen, chosen + 1});
     t += 3;

@@ -27,4 +27,11 @@ inline bool begins_quad(double triangle_weight) { return triangle_weight == quad
 std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,
                                       const std::vector<double>& triangle_weights, const ComplexVector& z);
 
+/// The triangulation that a map without flips is required to keep, chosen before there is a map, as ascending indices
+/// into `triangles`: every triangle of weight 1, and of a quad with both splits the first, unless its diagonal is an
+/// edge already, which no straight lines can draw twice, and that of the second is none. Where it has no flip,
+/// mapped_triangulation has none. triangle_weights as there.
+std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& triangles,
+                                        const std::vector<double>& triangle_weights);
+
 }  // namespace spectral_conformal

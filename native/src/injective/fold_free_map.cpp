@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <set>
 #include <utility>
 
 #include "geometry/quad_splits.h"
@@ -29,71 +28,35 @@ class FoldFree {
     const std::vector<double> triangle_weights(energy.triangle_weights().begin(),
                                                energy.triangle_weights().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
-    choose_splits(energy.triangle_weights());
+    std::size_t next = 0;
+    for (const int t : drawable_triangulation(triangles_, triangle_weights)) {
+      const auto chosen = static_cast<std::size_t>(t);
+      for (; next < chosen; ++next) elements_[next].measured = false;
+      single_.push_back(triangles_[chosen]);
+      ++next;
+    }
+    for (; next < elements_.size(); ++next) elements_[next].measured = false;
   }
 
   FoldFreeMap run(ComplexVector given) {
     FoldFreeMap result;
     result.z = std::move(given);
     if (result.z.size() > 0) {
-      result.folded_before = result.folded = count_flipped(elements_, result.z, unplaced);
-      if (result.folded > 0) {
+      result.flipped_before = result.flipped = count_flipped(elements_, result.z, unplaced);
+      if (result.flipped > 0) {
         const Progress first = part(progress_, 0, 0.3);
-        result.folded = unfold_locally(elements_, patch_.held, patch_.backend, result.z, first);
+        result.flipped = unfold_locally(elements_, patch_.held, patch_.backend, result.z, first);
       }
-      result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
+      result.is_locally_injective = result.flipped == 0 && goes_round_once(result.z);
       if (result.is_locally_injective || !patch_.held.empty()) return result;
     }
     FoldFreeMap embedded = embed();
-    embedded.folded_before = result.folded_before;
+    embedded.flipped_before = result.flipped_before;
     if (result.z.size() > 0 && !embedded.is_locally_injective) return result;
     return embedded;
   }
 
  private:
-  static std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-  /// Of a quad's two splits only one can be required to have no fold: the first, unless its diagonal is an edge
-  /// already, which no straight lines can draw twice. Chosen before there is a map; mapped_triangulation then finds a
-  /// split without a fold.
-  void choose_splits(const std::vector<double>& triangle_weights) {
-    const auto n = static_cast<std::ptrdiff_t>(triangles_.size());
-    if (std::all_of(triangle_weights.begin(), triangle_weights.begin() + n,
-                    [](double share) { return share == 1.0; })) {
-      single_ = triangles_;
-      return;
-    }
-    std::set<std::pair<int, int>> edges;
-    const auto is_first_of_quad = [&](std::size_t t) { return begins_quad(triangle_weights[t]); };
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const auto& [a, b, c] = triangles_[t];
-      edges.insert({edge(a, b), edge(b, c)});
-      if (!is_first_of_quad(t)) {
-        edges.insert(edge(c, a));
-        continue;
-      }
-      // The four triangles in a row: quad_splits.
-      const int d = triangles_[t + 1][2];
-      edges.insert({edge(c, d), edge(d, a)});
-      t += 3;
-    }
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (!is_first_of_quad(t)) {
-        single_.push_back(triangles_[t]);
-        continue;
-      }
-      const auto first_diagonal = edge(triangles_[t][0], triangles_[t][2]);
-      const auto second_diagonal = edge(triangles_[t][1], triangles_[t + 1][2]);
-      const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;
-      const std::size_t chosen = second ? t + 2 : t;
-      edges.insert(second ? second_diagonal : first_diagonal);
-      single_.insert(single_.end(), {triangles_[chosen], triangles_[chosen + 1]});
-      const std::size_t other = second ? t : t + 2;
-      elements_[other].measured = elements_[other + 1].measured = false;
-      t += 3;
-    }
-  }
-
   /// Whether the triangles go round every inner vertex once, and the outer loop round the map.
   bool goes_round_once(const ComplexVector& z) const {
     const std::vector<double> whole(single_.size(), 1.0);
@@ -122,8 +85,8 @@ class FoldFree {
     }
     relax(clamped, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
     result.relaxation = relax(clamped, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
-    result.folded = count_flipped(elements_, result.z, unplaced);
-    result.is_locally_injective = result.folded == 0 && goes_round_once(result.z);
+    result.flipped = count_flipped(elements_, result.z, unplaced);
+    result.is_locally_injective = result.flipped == 0 && goes_round_once(result.z);
     return result;
   }
 

@@ -22,18 +22,18 @@ struct FoldFreePatch {
 
 struct FoldFreeMap {
   ComplexVector z;            ///< (V,)
-  int folded_before = 0;      ///< triangles without positive image area in the given map
-  int folded = 0;             ///< the same of z
+  int flipped_before = 0;      ///< triangles without positive image area in the given map
+  int flipped = 0;            ///< the same of z
   bool is_embedding = false;  ///< whether the given map had to be given up for an embedding
   /// Of an embedding: how the last descent, of its conformal distortion, ended. None where there was no such descent,
   /// or its result was rejected.
   std::optional<Descent> relaxation;
-  /// z has no folded triangle, its triangles go round every inner vertex once, and the outer loop round the map once:
+  /// z has no flipped triangle, its triangles go round every inner vertex once, and the outer loop round the map once:
   /// it is locally one-to-one.
   bool is_locally_injective = false;
 };
 
-/// A map without folds, as near to a conformal one as it can be brought. Folded triangles of the given map are unfolded
+/// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are unfolded
 /// where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary winds
 /// round more than once, a Tutte embedding of the chart (tutte_embedding.h) is relaxed, first towards an isometry,
 /// then towards the least conformal distortion, without a step that folds a triangle (descent.h); not with

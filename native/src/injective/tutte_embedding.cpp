@@ -2,12 +2,15 @@
 
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "graph/adjacency.h"
+#include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
 #include "quality/flips.h"
 #include "spectral_conformal/errors.h"
@@ -154,31 +157,14 @@ void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_s
   }
 }
 
-/// For every vertex the least number of edges to the circle.
-std::vector<int> edges_from_circle(const std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
-  std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(n));
-  for (const WeightedEdge& edge : edges) {
-    neighbours[edge.i].push_back(edge.j);
-    neighbours[edge.j].push_back(edge.i);
-  }
-  std::vector<int> steps(neighbours.size(), -1);
-  std::vector<int> reached(circle.begin(), circle.end());
-  for (const int v : circle) steps[v] = 0;
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    for (const int v : neighbours[reached[k]]) {
-      if (steps[v] >= 0) continue;
-      steps[v] = steps[reached[k]] + 1;
-      reached.push_back(v);
-    }
-  }
-  return steps;
-}
-
 /// Nearly removes the edges between vertices that are equally far from the circle: what goes round a limb then no
 /// longer contracts it, so that its rings follow each other at even distances.
 void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
   constexpr double weak = 1e-6;  // positive, as the theorem asks, and far above rounding beside 1
-  const std::vector<int> steps = edges_from_circle(edges, circle, n);
+  std::vector<std::array<int, 2>> ends;
+  ends.reserve(edges.size());
+  for (const WeightedEdge& edge : edges) ends.push_back({edge.i, edge.j});
+  const std::vector<int> steps = steps_from(Adjacency(static_cast<int>(n), ends), circle);
   for (WeightedEdge& edge : edges) edge.weight = steps[edge.i] == steps[edge.j] ? weak : 1;
 }
 

@@ -30,16 +30,15 @@ class EigenFactorization final : public Factorization {
   void select(std::vector<int> vertices) override { selected_ = std::move(vertices); }
 
   void solve_selected(const ComplexVector& b, ComplexVector& x) override {
-    ComplexVector full;
-    solve_from_selected(b, full);
+    solve_from_selected(b, solved_);
     x.resize(b.size());
-    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = full[selected_[i]];
+    for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = solved_[selected_[i]];
   }
 
   void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
-    ComplexVector full = ComplexVector::Zero(ldlt_.rows());
-    for (Eigen::Index i = 0; i < b.size(); ++i) full[selected_[i]] = b[i];
-    x = ldlt_.solve(full);
+    scattered_.setZero(ldlt_.rows());
+    for (Eigen::Index i = 0; i < b.size(); ++i) scattered_[selected_[i]] = b[i];
+    x = ldlt_.solve(scattered_);
   }
 
   double factor_nonzeros() const override {
@@ -50,6 +49,9 @@ class EigenFactorization final : public Factorization {
  private:
   SimplicialLdlt ldlt_;
   std::vector<int> selected_;
+  // Work space.
+  ComplexVector scattered_;
+  ComplexVector solved_;
 };
 
 }  // namespace

@@ -188,7 +188,7 @@ void Solver::State::unfold(const Pins& held, const std::optional<SolveFailure>& 
     result.eigenvalue = unfolded.eigenvalue;
     result.eigenvalue_of = EigenvalueOf::map;
     result.residual = unfolded.residual;
-    result.unfolded = map.is_embedding ? map.folded_before : map.folded_before - map.folded;
+    result.unfolded = map.is_embedding ? map.flipped_before : map.flipped_before - map.flipped;
     result.is_embedding = map.is_embedding;
     result.mean_qc_before = unfolded.mean_qc_before;
     // The quotient is that of the patch's own energy and form.

@@ -156,12 +156,12 @@ std::string describe_unfolding(const FoldFreeMap& map, const std::string& failur
     text = failure.empty() ? "The folds left no room to unfold them" : failure;
     text += ": replaced by an embedding, relaxed without folding it; mean QC ";
     text += failure.empty() ? five_digits(before) + " -> " + five_digits(after) + ". " : five_digits(after) + ". ";
-  } else if (map.folded < map.folded_before) {
-    text = count(map.folded_before - map.folded, "folded triangle", "folded triangles") + " unfolded; mean QC " +
+  } else if (map.flipped < map.flipped_before) {
+    text = count(map.flipped_before - map.flipped, "flipped triangle", "flipped triangles") + " unfolded; mean QC " +
            five_digits(before) + " -> " + five_digits(after) + ". ";
   }
-  if (map.folded > 0) {
-    text += count(map.folded, "triangle", "triangles") +
+  if (map.flipped > 0) {
+    text += count(map.flipped, "triangle", "triangles") +
             (held ? " could not be unfolded between the pins; move or remove pins. "
                   : " could not be unfolded in double precision; add seams that make the island flatter. ");
   } else if (!map.is_locally_injective) {

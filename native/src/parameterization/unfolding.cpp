@@ -32,7 +32,7 @@ UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const Complex
   map = fold_free_map({energy, patch.surface(), loops, held_vertices, solver.backend()},
                       mirrored ? ComplexVector(z.conjugate()) : z, progress);
   if (mirrored) map.z = map.z.conjugate().eval();
-  result.changed = map.is_embedding || map.folded != map.folded_before;
+  result.changed = map.is_embedding || map.flipped != map.flipped_before;
   result.mean_qc = result.mean_qc_before;
   if (!result.changed) return result;
   if (held.empty() && !place(map.z, energy, patch.outer, patch.surface(), energy.area() * patch.scale * patch.scale)) {

@@ -97,6 +97,7 @@ class OverlapTest {
       boxes.push_back(box_of(static_cast<std::size_t>(triangle)));
     }
     const BoxTree tree(boxes);
+    const bool all = some.size() == triangles_.size();
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (one_is_enough && overlapping_[t]) continue;
       std::optional<PlaneTriangle> own;
@@ -104,6 +105,8 @@ class OverlapTest {
         const auto other = static_cast<std::size_t>(some[static_cast<std::size_t>(k)]);
         if (other == t || (!face_.empty() && face_[other] == face_[t])) return true;
         if (overlapping_[t] && overlapping_[other]) return true;
+        // It has met all triangles, this one among them, and overlapped none.
+        if (all && other < t && !overlapping_[other]) return true;
         if (!own) own = place(t);
         if (!overlap(*own, placed[static_cast<std::size_t>(k)])) return true;
         overlapping_[t] = true;

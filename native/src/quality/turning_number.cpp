@@ -1,5 +1,6 @@
 #include "quality/turning_number.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spectral_conformal {
@@ -7,7 +8,8 @@ namespace spectral_conformal {
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
                    const std::vector<double>& triangle_weights, const ComplexVector& map) {
   // Products of coordinates must neither overflow nor vanish, whatever the unit.
-  const double extent = map.size() == 0 ? 0 : map.cwiseAbs().maxCoeff();
+  double extent = 0;
+  for (const Complex p : map) extent = std::max({extent, std::abs(p.real()), std::abs(p.imag())});
   if (!(extent > 0)) return 0;
   const ComplexVector z = map / extent;
   constexpr double pi = 3.14159265358979323846;

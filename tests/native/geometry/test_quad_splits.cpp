@@ -90,6 +90,25 @@ TEST_CASE("rounding does not choose the split, but the slightest fold does") {
   CHECK(split_of({Complex(0.5 + 1e-13, 0.5), Complex(1, 0), Complex(1, 1), Complex(0, 1)}) == first);
 }
 
+TEST_CASE(
+    "a map without flips keeps the first split of a quad, unless its diagonal is an edge and the second's is none") {
+  const auto quads = [](const std::vector<std::array<int, 4>>& faces) {
+    std::vector<std::array<int, 3>> triangles;
+    for (const auto& face : faces) {
+      for (const auto& [a, b, c] : quad_splits) triangles.push_back({face[a], face[b], face[c]});
+    }
+    return triangles;
+  };
+  const std::vector<double> two(8, quad_split_weight);
+  CHECK(drawable_triangulation(quad_triangles, quad_weights) == std::vector<int>{0, 1});
+  CHECK(drawable_triangulation(quad_triangles, {}) == std::vector<int>{0, 1, 2, 3});
+  CHECK(drawable_triangulation(quads({{0, 1, 2, 3}, {0, 3, 4, 5}}), two) == std::vector<int>{0, 1, 4, 5});
+  // The second quad has the diagonal 0-2 of the first as an edge.
+  CHECK(drawable_triangulation(quads({{0, 1, 2, 3}, {0, 4, 5, 2}}), two) == std::vector<int>{2, 3, 4, 5});
+  // Its diagonal is that of the first: each edge is drawn once.
+  CHECK(drawable_triangulation(quads({{0, 1, 2, 3}, {0, 4, 2, 5}}), two) == std::vector<int>{0, 1, 6, 7});
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -72,7 +72,7 @@ TEST_CASE("fixed vertices stay exactly, the others move") {
   CHECK(moved > 0);
 }
 
-TEST_CASE("a folded triangle is pulled in and then keeps its area") {
+TEST_CASE("a flipped triangle is pulled in and then keeps its area") {
   const Patch patch(flat_grid(6, 6));
   for (const auto measure : {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal}) {
     auto elements = patch.elements();

@@ -57,7 +57,7 @@ TEST_CASE("a map without folds is returned as it is") {
   const ComplexVector z = conformal_map(input.patch);
   const FoldFreeMap map = input.solve(z);
   CHECK(map.z == z);
-  CHECK(map.folded_before == 0);
+  CHECK(map.flipped_before == 0);
   CHECK_FALSE(map.is_embedding);
   CHECK_FALSE(map.relaxation);
   CHECK(map.is_locally_injective);
@@ -68,8 +68,8 @@ TEST_CASE("Floater's three triangles are unfolded in place") {
     const Input input(floater(offset));
     const ComplexVector z = conformal_map(input.patch);
     const FoldFreeMap map = input.solve(z);
-    CHECK(map.folded_before >= 1);
-    CHECK(map.folded == 0);
+    CHECK(map.flipped_before >= 1);
+    CHECK(map.flipped == 0);
     CHECK(map.is_locally_injective);
     CHECK(input.is_fold_free(map.z));
   }
@@ -116,7 +116,7 @@ TEST_CASE("held vertices stay, and no embedding replaces them") {
   z[14] += Complex(2.0, 0);
   input.held.assign(static_cast<std::size_t>(z.size()), 1);
   const FoldFreeMap map = input.solve(z);
-  CHECK(map.folded > 0);
+  CHECK(map.flipped > 0);
   CHECK_FALSE(map.is_embedding);
   CHECK(map.z == z);
 }

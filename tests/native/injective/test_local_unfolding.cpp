@@ -25,7 +25,7 @@ TEST_CASE("folds far apart and of different scale are unfolded, and what is far 
   CHECK(count_flipped(elements, z, unplaced) == 0);
   int unmoved = 0;
   for (Eigen::Index v = 0; v < z.size(); ++v) unmoved += z[v] == clean[v];
-  // The corners of the folded triangles may move, no others.
+  // The corners of the flipped triangles may move, no others.
   CHECK(unmoved >= z.size() - 14);
 }
 

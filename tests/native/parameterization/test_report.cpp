@@ -98,16 +98,16 @@ TEST_CASE("unfolding tells what it cost and what it left") {
   FoldFreeMap map;
   map.is_locally_injective = true;
   CHECK(describe_unfolding(map, "", 1, 1, 1, false).empty());
-  map.folded_before = 3;
+  map.flipped_before = 3;
   CHECK(describe_unfolding(map, "", 1.021234, 1.05, 1, false) ==
-        "3 folded triangles unfolded; mean QC 1.0212 -> 1.05. ");
-  map.folded = 2;
+        "3 flipped triangles unfolded; mean QC 1.0212 -> 1.05. ");
+  map.flipped = 2;
   map.is_locally_injective = false;
   CHECK(describe_unfolding(map, "", 1.25, 1.5, 1, true) ==
-        "1 folded triangle unfolded; mean QC 1.25 -> 1.5. 2 triangles could not be unfolded between the pins; move or "
+        "1 flipped triangle unfolded; mean QC 1.25 -> 1.5. 2 triangles could not be unfolded between the pins; move or "
         "remove pins. ");
-  map.folded = 0;
-  map.folded_before = 0;
+  map.flipped = 0;
+  map.flipped_before = 0;
   CHECK(describe_unfolding(map, "", 1, 1, 2, false) ==
         "The boundary of the map winds round 2 times instead of once; add seams. ");
   CHECK(describe_unfolding(map, "", 1, 1, 1, true) ==

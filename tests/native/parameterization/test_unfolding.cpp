@@ -18,13 +18,13 @@ TEST_CASE("a map without folds is left as it is, one with a fold is unfolded, no
   const UnfoldedMap same = unfold(solver, {}, z, {});
   CHECK_FALSE(same.changed);
   CHECK(same.mean_qc == same.mean_qc_before);
-  ComplexVector folded = z;
-  folded[24] += 1.5 * (z[25] - z[24]);
-  const UnfoldedMap unfolded = unfold(solver, {}, folded, {});
+  ComplexVector flipped = z;
+  flipped[24] += 1.5 * (z[25] - z[24]);
+  const UnfoldedMap unfolded = unfold(solver, {}, flipped, {});
   CHECK(unfolded.changed);
   CHECK_FALSE(unfolded.fold_free.is_embedding);
-  CHECK(unfolded.fold_free.folded_before > 0);
-  CHECK(unfolded.fold_free.folded == 0);
+  CHECK(unfolded.fold_free.flipped_before > 0);
+  CHECK(unfolded.fold_free.flipped == 0);
   CHECK(unfolded.turning_number == 1);
   CHECK(unfolded.mean_qc == doctest::Approx(chart_distortion(normalized, unfolded.fold_free.z).mean_qc));
   CHECK(unfolded.eigenvalue > 0);

@@ -151,7 +151,7 @@ TEST_CASE("agrees with the test of all triangles on random maps") {
     CAPTURE(seed);
     // In doubt only where the boundary touches itself, which random numbers do not make it do.
     CHECK(certainly_injective(patch, z) == (!folded && !found));
-    // Where the boundary leaves the folded triangles to look at, they find all that the test of all pairs finds.
+    // Where the boundary leaves the flipped triangles to look at, they find all that the test of all pairs finds.
     const std::vector<bool> all_pairs = overlapping_triangles(patch.chart.triangles, z);
     std::vector<int> expected;
     for (std::size_t t = 0; t < all_pairs.size(); ++t) {
