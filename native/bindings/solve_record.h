@@ -3,12 +3,12 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/options.h"
+#include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::python {
 
-/// What a Parameterization and an UnwrappedChart both say: the map's numbers and what was really solved for it.
-template <class Result>
-pybind11::dict solve_record(const Result& result) {
+/// The fields of a record, by their names in Python.
+inline pybind11::dict solve_record(const SolveRecord& result) {
   pybind11::dict record;
   record["message"] = result.message;
   record["eigenvalue"] = result.eigenvalue;

@@ -62,32 +62,35 @@ struct SolveOptions {
   bool has_forces() const;  ///< whether extenders or hole rigidity change the form B
 };
 
-struct Parameterization {
-  ComplexVector z;        ///< (V,) u + i v
+/// The numbers of a map, and what was really solved for it.
+struct SolveRecord {
   double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
+  EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
   /// |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with forces: the last
   /// relative change.
   double residual = 0;
   int iterations = 0;         ///< solves with the factor
+  int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
   int turning_number = 0;     ///< of the outer boundary loop
   int unfolded = 0;           ///< flipped triangles that PatchOptions::fold_free has unfolded
   bool is_embedding = false;  ///< whether it had to replace the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
   double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
-  // What was really solved.
   Method method = Method::spectral;    ///< Method::lscm for two or more hard pins, whichever was asked for
   Weights weights = Weights::uniform;  ///< of the energy L
   BoundaryMeasure boundary = BoundaryMeasure::length;  ///< of the form B
   Fallback fallback = Fallback::none;
-  int clamped_triangles = 0;  ///< those that Fallback::clamped_triangles gave a minimal height
-  EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
-  int attempts = 1;  ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
+  int clamped_triangles = 0;                   ///< those that Fallback::clamped_triangles gave a minimal height
   std::optional<RelaxationStatus> relaxation;  ///< of PatchOptions::area_blend, where there was one
   /// Standard deviation of log2 of the scale, weighted by area in 3D (Distortion::log2_scale_deviation): of the
   /// conformal map, and of this one. Not a number without an area blend.
   double scale_deviation_before = std::numeric_limits<double>::quiet_NaN();
   double scale_deviation = std::numeric_limits<double>::quiet_NaN();
-  std::string message;                                  ///< fallbacks and repairs that were needed; empty when none was
+  std::string message;  ///< fallbacks and repairs that were needed; empty when none was
+};
+
+struct Parameterization : SolveRecord {
+  ComplexVector z;                                      ///< (V,) u + i v
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 

@@ -29,38 +29,26 @@ struct UnwrapOptions {
   const SpaceMetric* metric = nullptr;
 };
 
-struct UnwrappedChart {
+/// One chart of an unwrap. Of a failed one the record says what was to be solved, and its message why it failed and
+/// what to do.
+struct UnwrappedChart : SolveRecord {
   /// Not a number: what a failed chart has no value for.
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   std::vector<int> faces;  ///< in the mesh, ascending
   bool solved = false;
-  std::string message;  ///< why it failed and what to do, or what had to be done to solve it; may be empty
-  double eigenvalue = unknown;
-  double residual = unknown;
-  int iterations = 0;
-  int turning_number = 0;
   double mean_qc = unknown;  ///< this and the next two: as measure_distortion finds them
   double max_qc = unknown;
-  int flipped = 0;   ///< faces with a flipped triangle
-  int unfolded = 0;  ///< this and the next two: see Parameterization
-  bool is_embedding = false;
-  double mean_qc_before = unknown;
+  int flipped = 0;      ///< faces with a flipped triangle
   int overlapping = 0;  ///< faces that cover part of another face; duplicates are not looked at
-  // What was really solved, see Parameterization; of a failed chart, what was to be solved.
-  Method method = Method::spectral;
-  Weights weights = Weights::uniform;
-  BoundaryMeasure boundary = BoundaryMeasure::length;
-  Fallback fallback = Fallback::none;
-  int clamped_triangles = 0;
-  EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
-  int attempts = 0;
-  std::optional<RelaxationStatus> relaxation;
-  double scale_deviation_before = unknown;
-  double scale_deviation = unknown;
-  int n_pins = 0;  ///< pinned vertices
+  int n_pins = 0;       ///< pinned vertices
   int n_vertices = 0;
   double area = 0;  ///< in 3D
+
+  UnwrappedChart() {
+    eigenvalue = residual = unknown;
+    attempts = 0;
+  }
 };
 
 struct Unwrap {

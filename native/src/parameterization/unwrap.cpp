@@ -89,27 +89,10 @@ class ChartUnwrapper {
         options.extenders = own(extenders, acting);
       }
       const Parameterization solution = solver_->solve(options, pins_, progress);
+      static_cast<SolveRecord&>(report) = solution;
       report.solved = true;
       measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
       report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
-      report.method = solution.method;
-      report.weights = solution.weights;
-      report.boundary = solution.boundary;
-      report.fallback = solution.fallback;
-      report.clamped_triangles = solution.clamped_triangles;
-      report.eigenvalue_of = solution.eigenvalue_of;
-      report.attempts = solution.attempts;
-      report.relaxation = solution.relaxation;
-      report.scale_deviation_before = solution.scale_deviation_before;
-      report.scale_deviation = solution.scale_deviation;
-      report.message = solution.message;
-      report.eigenvalue = solution.eigenvalue;
-      report.residual = solution.residual;
-      report.iterations = solution.iterations;
-      report.turning_number = solution.turning_number;
-      report.unfolded = solution.unfolded;
-      report.is_embedding = solution.is_embedding;
-      report.mean_qc_before = solution.mean_qc_before;
       for (const std::size_t k : acting) result.unused_extenders[k] = false;
       write(report.faces, solution.z, result);
     } catch (const InvalidMesh& problem) {
