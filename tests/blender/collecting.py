@@ -4,13 +4,15 @@
     pytest tests/blender/inside/test_pins.py::test_name            in every Blender
     pytest tests/blender/inside/test_pins.py --blender bpy-5.0.1   in one
 
-A file runs in one process per Blender, with the functions that are selected.
+A file runs in one process per Blender, with the functions that are selected; as many at once as there are cores.
 """
 
 import ast
+import os
 import subprocess
 import tempfile
 import xml.etree.ElementTree
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -19,8 +21,32 @@ from tests.blender import blenders
 
 INSIDE = Path(__file__).with_name("inside")
 SECONDS = 600
-# What became of the functions of a file in a Blender.
-OUTCOMES = pytest.StashKey[dict[tuple[Path, str], dict[str, str]]]()
+
+
+class Runs:
+    """The runs of all selected files, begun in their order by as many workers as there are cores.
+
+    Attributes:
+        outcomes: of a file in a Blender, by path and name: what became of its functions.
+    """
+
+    KEY = pytest.StashKey["Runs"]()
+
+    def __init__(self, session: pytest.Session) -> None:
+        functions: dict[tuple[Path, str], list[str]] = {}
+        blender = {}
+        for item in session.items:
+            if isinstance(item, InsideTest):
+                functions.setdefault(item.key, []).append(item.inner)
+                blender[item.key] = item.blender
+        self._workers = ThreadPoolExecutor(os.cpu_count())
+        self.outcomes: dict[tuple[Path, str], Future[dict[str, str]]] = {
+            key: self._workers.submit(run, key[0], names, blender[key]) for key, names in functions.items()
+        }
+
+    def end(self) -> None:
+        """Begin no more of them."""
+        self._workers.shutdown(wait=False, cancel_futures=True)
 
 
 class InsideFile(pytest.File):
@@ -40,16 +66,14 @@ class InsideTest(pytest.Item):
         super().__init__(**rest)
         self.inner = inner
         self.blender = blender
+        self.key = (self.path, blender.name)
 
     def runtest(self):
-        known = self.session.stash.setdefault(OUTCOMES, {})
-        key = (self.path, self.blender.name)
-        if key not in known:
-            inside = (item for item in self.session.items if isinstance(item, InsideTest))
-            functions = [item.inner for item in inside if (item.path, item.blender.name) == key]
-            known[key] = run(self.path, functions, self.blender)
-        if known[key][self.inner]:
-            pytest.fail(known[key][self.inner], pytrace=False)
+        if Runs.KEY not in self.session.stash:
+            self.session.stash[Runs.KEY] = Runs(self.session)
+        wrong = self.session.stash[Runs.KEY].outcomes[self.key].result()[self.inner]
+        if wrong:
+            pytest.fail(wrong, pytrace=False)
 
     def reportinfo(self):
         return self.path, None, f"{self.path.stem}.{self.name}"

@@ -22,8 +22,8 @@ SEEDS = 100
 
 def build():
     """Build the targets; returns their folder."""
-    folder = flavours.configure("fuzzers")
-    flavours.run(flavours.TOOLS / "cmake", "--build", folder)
+    folder = flavours.configure("sanitized")
+    flavours.run(flavours.TOOLS / "cmake", "--build", folder, "--target", *TARGETS)
     return folder / "tests" / "fuzz"
 
 

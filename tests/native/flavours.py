@@ -16,10 +16,13 @@ COMMON = {
 }
 FLAVOURS = {
     "release": {"CMAKE_BUILD_TYPE": "Release"},
+    # With clang, for libFuzzer's targets, which share the library with the tests.
     "sanitized": {
         "CMAKE_BUILD_TYPE": "Debug",
+        "CMAKE_CXX_COMPILER": "clang++",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
-        "SPECTRAL_CONFORMAL_SANITIZE": "address,undefined",
+        "SPECTRAL_CONFORMAL_FUZZERS": "ON",
+        "SPECTRAL_CONFORMAL_SANITIZE": "fuzzer-no-link,address,undefined",
     },
     # Runs one executable only; the others have no threads. OpenBLAS, CHOLMOD and METIS are not instrumented.
     "thread": {
@@ -29,15 +32,6 @@ FLAVOURS = {
     },
     # What is built where SuiteSparse is absent.
     "eigen_only": {"CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
-}
-# libFuzzer's targets, with clang.
-FUZZERS = {
-    "CMAKE_BUILD_TYPE": "Debug",
-    "CMAKE_CXX_COMPILER": "clang++",
-    "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
-    "SPECTRAL_CONFORMAL_TESTS": "OFF",
-    "SPECTRAL_CONFORMAL_FUZZERS": "ON",
-    "SPECTRAL_CONFORMAL_SANITIZE": "fuzzer-no-link,address,undefined",
 }
 # What a flavour builds and tests, where that is not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
@@ -55,7 +49,6 @@ def run(*command):
 def configure(flavour):
     """Configure a flavour and return its build folder, which holds compile_commands.json."""
     build = ROOT / "build" / "tests-native" / flavour
-    own = {**FLAVOURS, "fuzzers": FUZZERS}[flavour]
-    definitions = [f"-D{name}={value}" for name, value in {**COMMON, **own}.items()]
+    definitions = [f"-D{name}={value}" for name, value in {**COMMON, **FLAVOURS[flavour]}.items()]
     run(TOOLS / "cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *definitions)
     return build

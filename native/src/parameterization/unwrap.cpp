@@ -177,15 +177,17 @@ void add_degenerate_faces(const Cut& cut, Unwrap& result) {
   result.charts.push_back(std::move(unusable));
 }
 
-/// The fraction of the work that each chart takes, by faces: where it begins and ends, 0 to 1.
+/// The fraction of the work that each chart takes, by faces: where it begins and ends, 0 to 1. About a twentieth goes
+/// into cutting the mesh into charts.
 std::vector<std::pair<double, double>> work_fractions(const std::vector<Chart>& charts) {
+  constexpr double cutting = 0.05;
   double total = 1e-9;
   for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
   std::vector<std::pair<double, double>> result;
   double done = 0;
   for (const Chart& chart : charts) {
     const double fraction = static_cast<double>(chart.faces.size()) / total;
-    result.push_back({0.05 + 0.95 * done, 0.05 + 0.95 * (done + fraction)});
+    result.push_back({cutting + (1 - cutting) * done, cutting + (1 - cutting) * (done + fraction)});
     done += fraction;
   }
   return result;

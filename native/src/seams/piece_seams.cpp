@@ -11,7 +11,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Edges of the mirror plane are where artists look for seams first.
+/// Edges of the mirror plane are where artists look for seams first. A matter of taste: without the discount seams are
+/// 2 % shorter on 12 meshes at the same distortion, at 0.5 they are 3 % longer.
 constexpr double axis_discount = 0.7;
 /// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
 constexpr double min_island = 0.02;
