@@ -12,6 +12,7 @@ from tests.blender import blenders
 HERE = Path(__file__).resolve().parent
 SCREENSHOTS = HERE.parents[1] / "build" / "interface"
 SIZE = (1600, 1000)
+SECONDS = 900  # ends what hangs; the longest driver takes some 60 s on an idle machine
 
 
 @pytest.fixture
@@ -47,7 +48,7 @@ def test_by_mouse_and_keyboard(driver, display, tmp_path):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        timeout=300,
+        timeout=SECONDS,
     )
     outcome = verdict.read_text() if verdict.exists() else "Blender ended without a verdict"
     if outcome != "passed":
