@@ -4,14 +4,15 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <stdexcept>
+#include <utility>
 
 #include "mesh/boundary_loops.h"
 #include "mesh/chart_checks.h"
+#include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A grid of points, each moved by up to 0.25 within the plane and lifted by `height` (x, y).
 template <class Height>
@@ -299,6 +300,36 @@ std::vector<FactorizationBackend> backends() {
 #else
   return {FactorizationBackend::eigen};
 #endif
+}
+
+Chart only_chart(const Mesh& mesh) {
+  std::vector<Chart> charts = build_charts(mesh.view()).charts;
+  if (charts.size() != 1) throw std::invalid_argument("not one chart, but " + std::to_string(charts.size()));
+  return std::move(charts.front());
+}
+
+bool says(const std::string& message, const std::string& words) { return message.find(words) != std::string::npos; }
+
+ComplexVector conformal_map(const Patch& patch) {
+  return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
+}
+
+int count_flipped(const Patch& patch, const ComplexVector& z) {
+  return static_cast<int>(
+      std::count_if(patch.chart.triangles.begin(), patch.chart.triangles.end(), [&](const auto& triangle) {
+        return !(std::imag(std::conj(z[triangle[1]] - z[triangle[0]]) * (z[triangle[2]] - z[triangle[0]])) > 0);
+      }));
+}
+
+double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z) {
+  ComplexVector gradient;
+  return energy_and_gradient(elements, measure, z, gradient);
+}
+
+HermitianMatrix shifted_energy(int size) {
+  HermitianMatrix matrix = Patch(perforated_grid(size, size)).energy(Weights::inverse_area).matrix();
+  for (int v = 0; v < matrix.cols(); ++v) matrix.coeffRef(v, v) += 0.01;
+  return matrix;
 }
 
 }  // namespace spectral_conformal::test

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <string>
 #include <vector>
 
 #include "conformal/conformal_energy.h"
@@ -79,6 +80,19 @@ double difference(const ComplexVector& a, const ComplexVector& b);
 double difference_up_to_similarity(const ComplexVector& a, const ComplexVector& b);
 /// The area inside a loop of the map, positive when it runs counter-clockwise.
 double shoelace_area(const BoundaryLoop& loop, const ComplexVector& z);
+
+/// The chart of a mesh that has one.
+Chart only_chart(const Mesh& mesh);
+/// Whether a message contains these words.
+bool says(const std::string& message, const std::string& words);
+
+/// The least conformal map by the default method.
+ComplexVector conformal_map(const Patch& patch);
+/// Triangles of the chart, of quads those of both splits, whose image is not counter-clockwise.
+int count_flipped(const Patch& patch, const ComplexVector& z);
+double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z);
+/// L + 0.01 I of a perforated grid: positive definite, complex away from the boundary too.
+HermitianMatrix shifted_energy(int size);
 
 /// The backends of this build.
 std::vector<FactorizationBackend> backends();

@@ -8,6 +8,8 @@
 
 namespace spectral_conformal {
 
+constexpr double pi = 3.14159265358979323846;  // std::numbers::pi of C++20
+
 using Complex = std::complex<double>;
 /// One complex number u + i v per vertex.
 using ComplexVector = Eigen::VectorXcd;

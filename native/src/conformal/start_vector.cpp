@@ -6,8 +6,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Deterministic numbers in (-1, 1) (SplitMix64, Steele et al. 2014): the same on every platform.
 class PseudoRandom {
  public:

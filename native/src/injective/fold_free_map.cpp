@@ -15,8 +15,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 class FoldFree {
  public:
   FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {

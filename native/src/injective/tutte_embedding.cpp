@@ -68,7 +68,6 @@ void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& 
     const double edge = (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
     reached.push_back(reached.back() + std::max(edge, min_length));
   }
-  constexpr double pi = 3.14159265358979323846;
   for (std::size_t i = 0; i < loop.size(); ++i) z[loop[i]] = std::polar(1.0, 2 * pi * reached[i] / reached.back());
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// |L z| of a pinned map over its free vertices, relative to its extent and the largest entry of L: what the refinement
 /// leaves is near 1e-16.
-constexpr double residual_limit = 1e-10;
+constexpr double pinned_residual_limit = 1e-10;
 
 /// Pins in a unit of their own, so that pins of any magnitude solve alike: z = origin + unit * held.
 struct ScaledPins {
@@ -71,7 +71,7 @@ SpectralMap solve_pinned(const SpectralSolver& solver, const Pins& pins, const P
   MapCheck check;
   check.eigenvalue = map.eigenvalue;
   check.error = solution.residual;
-  check.error_limit = residual_limit;
+  check.error_limit = pinned_residual_limit;
   check.area = finite ? signed_area(energy, z) : 0;
   check.turning_number = map.turning_number;
   check.may_be_mirrored = hold;

@@ -19,7 +19,7 @@ namespace {
 
 /// The reduced equation must hold at least this well before the corrections, whatever tolerance was asked for: on flat
 /// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which they then take out.
-constexpr double residual_limit = 1e-3;
+constexpr double eigenproblem_residual_limit = 1e-3;
 /// The corrections must end below this change of z: what is left then lies below single precision, in which UVs are
 /// stored.
 constexpr double resolved = 1e-7;
@@ -161,7 +161,7 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     result.solves = pair.solves;
     result.residual = pair.residual;
     result.change = pair.residual;
-    result.converged = pair.converged && pair.residual < residual_limit;
+    result.converged = pair.converged && pair.residual < eigenproblem_residual_limit;
     return result.converged;
   };
 

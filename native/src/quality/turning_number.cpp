@@ -12,7 +12,6 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
   for (const Complex p : map) extent = std::max({extent, std::abs(p.real()), std::abs(p.imag())});
   if (!(extent > 0)) return 0;
   const ComplexVector z = map / extent;
-  constexpr double pi = 3.14159265358979323846;
   std::vector<int> index_on_loop(static_cast<std::size_t>(z.size()), -1);
   for (std::size_t i = 0; i < loop.size(); ++i) index_on_loop[loop[i]] = static_cast<int>(i);
   std::vector<double> interior(loop.size(), 0);

@@ -30,7 +30,7 @@ PolygonTriangulation triangulate(const Positions& corners) {
   return result;
 }
 
-double signed_area(const Points& polygon, const std::array<int, 3>& triangle) {
+double area_of_triangle(const Points& polygon, const std::array<int, 3>& triangle) {
   const auto &a = polygon[triangle[0]], &b = polygon[triangle[1]], &c = polygon[triangle[2]];
   return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
 }
@@ -78,9 +78,9 @@ TEST_CASE("concave polygons are filled without overlap by the same triangles, wh
       for (std::size_t t = 0; t < result.triangles.size(); ++t) {
         auto triangle = result.triangles[t];
         for (int& corner : triangle) corner = (corner + first) % n;
-        CHECK(signed_area(polygon, triangle) > 0);
+        CHECK(area_of_triangle(polygon, triangle) > 0);
         CHECK(result.triangle_weights[t] == 1);
-        area += signed_area(polygon, triangle);
+        area += area_of_triangle(polygon, triangle);
       }
       CHECK(area == doctest::Approx(shoelace(polygon)).epsilon(1e-14));
     }
@@ -130,7 +130,7 @@ TEST_CASE("collinear corners in a larger polygon are no obstacle") {
   const PolygonTriangulation result = triangulate(tilted(polygon));
   CHECK(result.simple);
   double area = 0;
-  for (const auto& triangle : result.triangles) area += signed_area(polygon, triangle);
+  for (const auto& triangle : result.triangles) area += area_of_triangle(polygon, triangle);
   CHECK(area == doctest::Approx(4));
 }
 

@@ -8,14 +8,7 @@
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::test {
-namespace {
-
-double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z) {
-  ComplexVector gradient;
-  return energy_and_gradient(elements, measure, z, gradient);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_SUITE_BEGIN("descent");
 

@@ -11,11 +11,6 @@ namespace {
 
 constexpr DistortionMeasure measures[] = {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal};
 
-double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z) {
-  ComplexVector gradient;
-  return energy_and_gradient(elements, measure, z, gradient);
-}
-
 /// The flat map, moved a little.
 ComplexVector moved(const Patch& patch) {
   const ComplexVector flat = flat_map(patch.positions);

@@ -38,10 +38,6 @@ struct Input {
   }
 };
 
-ComplexVector conformal_map(const Patch& patch) {
-  return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
-}
-
 /// Three triangles around an inner vertex that stands aside (Floater, Parametric Tilings and Scattered Data
 /// Approximation, 1998): beyond -1 the conformal map folds one of them.
 Mesh floater(double offset) {

@@ -14,8 +14,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 IsometricMap relax(const ConformalEnergy& energy, const ComplexVector& z, const IsometryOptions& options = {},
                    FactorizationBackend backend = FactorizationBackend::automatic, const Progress& progress = {}) {
   return relax_to_isometry(energy.triangles(), energy.shapes(), energy.triangle_weights(), energy.n_virtual(), z,
@@ -25,10 +23,6 @@ IsometricMap relax(const ConformalEnergy& energy, const ComplexVector& z, const 
 IsometricMap relax(const Patch& patch, const ComplexVector& z, const IsometryOptions& options = {},
                    FactorizationBackend backend = FactorizationBackend::automatic, const Progress& progress = {}) {
   return relax(patch.energy(Weights::uniform), z, options, backend, progress);
-}
-
-ComplexVector conformal_map(const Patch& patch) {
-  return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
 }
 
 Distortion distortion(const Patch& patch, const ComplexVector& z) {
@@ -54,14 +48,6 @@ double symmetric_dirichlet_energy(const Patch& patch, const ComplexVector& z) {
     area += weight;
   }
   return sum / area;
-}
-
-int count_flipped(const Patch& patch, const ComplexVector& z) {
-  int count = 0;
-  for (const auto& [a, b, c] : patch.chart.triangles) {
-    if (!(std::imag(std::conj(z[b] - z[a]) * (z[c] - z[a])) > 0)) ++count;
-  }
-  return count;
 }
 
 /// A grid bent along its columns, hence developable, and the plane it came from.

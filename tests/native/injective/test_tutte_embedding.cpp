@@ -11,20 +11,11 @@
 namespace spectral_conformal::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 ComplexVector embed(const Patch& patch, FactorizationBackend backend = FactorizationBackend::automatic,
                     const Progress& progress = {}) {
   const auto& loops = patch.chart.boundary_loops;
   return tutte_embedding(patch.chart.triangles, loops, outer_loop(loops, patch.positions), patch.positions, backend,
                          progress);
-}
-
-int count_flipped(const Patch& patch, const ComplexVector& z) {
-  return static_cast<int>(
-      std::count_if(patch.chart.triangles.begin(), patch.chart.triangles.end(), [&](const auto& triangle) {
-        return !(std::imag(std::conj(z[triangle[1]] - z[triangle[0]]) * (z[triangle[2]] - z[triangle[0]])) > 0);
-      }));
 }
 
 /// A tube closed at its far end: `rings` rings of `sides` vertices each, as high as wide.

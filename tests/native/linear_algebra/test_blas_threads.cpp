@@ -37,12 +37,6 @@ class Setting {
   std::optional<int> before_;
 };
 
-HermitianMatrix shifted_energy(int size) {
-  HermitianMatrix matrix = Patch(bumpy_grid(size, size)).energy(Weights::uniform).matrix();
-  for (int v = 0; v < matrix.cols(); ++v) matrix.coeffRef(v, v) += 0.01;
-  return matrix;
-}
-
 }  // namespace
 
 TEST_SUITE_BEGIN("blas_threads");

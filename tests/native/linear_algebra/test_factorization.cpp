@@ -8,13 +8,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-/// L + M of a perforated grid: positive definite, complex away from the boundary too.
-HermitianMatrix shifted_energy(int size) {
-  HermitianMatrix matrix = Patch(perforated_grid(size, size)).energy(Weights::inverse_area).matrix();
-  for (int v = 0; v < matrix.cols(); ++v) matrix.coeffRef(v, v) += 0.01;
-  return matrix;
-}
-
 ComplexVector product(const HermitianMatrix& matrix, const ComplexVector& z) {
   return matrix.selfadjointView<Eigen::Lower>() * z;
 }

@@ -32,8 +32,6 @@ std::string message_of_solver(const Mesh& mesh) {
   return "";
 }
 
-bool says(const std::string& message, const char* what) { return message.find(what) != std::string::npos; }
-
 }  // namespace
 
 TEST_SUITE_BEGIN("chart_checks");

@@ -48,8 +48,7 @@ void check_consistent(const Mesh& mesh, const ChartDecomposition& decomposition)
   }
 }
 
-/// One chart, checked.
-Chart only_chart(const Mesh& mesh) {
+Chart checked_chart(const Mesh& mesh) {
   const ChartDecomposition decomposition = charts_of(mesh);
   check_consistent(mesh, decomposition);
   REQUIRE(decomposition.charts.size() == 1);
@@ -72,7 +71,7 @@ TEST_CASE("Euler characteristic, loops and genus of known surfaces") {
                          {ring(9, 0), 0, 2, 0},      {ring(9, 2), 0, 2, 0},      {tetrahedron(), 2, 0, 0},
                          {torus(8, 6), 0, 0, 1},     {punctured_torus, -1, 1, 1}};
   for (const Known& k : known) {
-    const Chart chart = only_chart(k.mesh);
+    const Chart chart = checked_chart(k.mesh);
     CHECK(chart.orientable);
     CHECK(chart.euler_characteristic == k.euler);
     CHECK(static_cast<int>(chart.boundary_loops.size()) == k.loops);
@@ -84,13 +83,13 @@ TEST_CASE("Euler characteristic, loops and genus of known surfaces") {
 TEST_CASE("a Moebius strip is not orientable, however its faces are wound") {
   for (const int half_twists : {1, 3}) {
     Mesh mesh = ring(9, half_twists);
-    CHECK_FALSE(only_chart(mesh).orientable);
+    CHECK_FALSE(checked_chart(mesh).orientable);
     mesh.reverse(4);
-    CHECK_FALSE(only_chart(mesh).orientable);
+    CHECK_FALSE(checked_chart(mesh).orientable);
   }
   Mesh cut = ring(9, 1);
   cut.seams = {{6, 7}};
-  const Chart strip = only_chart(cut);
+  const Chart strip = checked_chart(cut);
   CHECK(strip.orientable);
   CHECK(strip.euler_characteristic == 1);
 }
@@ -124,9 +123,9 @@ TEST_CASE("a seam that ends inside opens a slit: its end stays one vertex, the o
 
 TEST_CASE("seams along the boundary, doubled, or between unrelated vertices change nothing") {
   Mesh mesh = quad_grid(3, 3);
-  const Chart plain = only_chart(mesh);
+  const Chart plain = checked_chart(mesh);
   mesh.seams = {{0, 1}, {0, 15}, {5, 5}};
-  const Chart chart = only_chart(mesh);
+  const Chart chart = checked_chart(mesh);
   CHECK(chart.vertices == plain.vertices);
   CHECK(chart.triangles == plain.triangles);
 }
@@ -178,9 +177,9 @@ TEST_CASE("a bow tie: faces that share a vertex only are two charts; within one 
 
 TEST_CASE("faces wound against the majority are turned") {
   Mesh mesh = flat_grid(4, 4);
-  const Chart plain = only_chart(mesh);
+  const Chart plain = checked_chart(mesh);
   for (const int face : {0, 7, 8, 20}) mesh.reverse(face);
-  const Chart chart = only_chart(mesh);
+  const Chart chart = checked_chart(mesh);
   CHECK(chart.reversed_faces == 4);
   CHECK(chart.orientable);
   CHECK(chart.vertices == plain.vertices);
@@ -194,14 +193,14 @@ TEST_CASE("faces wound against the majority are turned") {
   };
   CHECK(sorted(chart) == sorted(plain));
   for (int face = 0; face < mesh.n_faces(); ++face) mesh.reverse(face);  // now 28 of 32 are wound the other way
-  CHECK(sorted(only_chart(mesh)) != sorted(plain));
-  CHECK(only_chart(mesh).reversed_faces == 4);
+  CHECK(sorted(checked_chart(mesh)) != sorted(plain));
+  CHECK(checked_chart(mesh).reversed_faces == 4);
 }
 
 TEST_CASE("of faces on the same vertices one is kept, the others take its corners' vertices") {
   for (const bool reversed : {false, true}) {
     Mesh mesh = flat_grid(3, 3);
-    const Chart plain = only_chart(mesh);
+    const Chart plain = checked_chart(mesh);
     for (const int twin : {4, 9, 4}) {
       mesh.add({mesh.corners[3 * twin + 1], mesh.corners[3 * twin + 2], mesh.corners[3 * twin]});
       if (reversed) mesh.reverse(mesh.n_faces() - 1);
@@ -221,8 +220,8 @@ TEST_CASE("of faces on the same vertices one is kept, the others take its corner
 
 TEST_CASE("two triangles back to back are one face, a tetrahedron is not") {
   const Mesh pillow({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});
-  CHECK(only_chart(pillow).duplicates == std::vector<int>{1});
-  CHECK(only_chart(tetrahedron()).duplicates.empty());
+  CHECK(checked_chart(pillow).duplicates == std::vector<int>{1});
+  CHECK(checked_chart(tetrahedron()).duplicates.empty());
 }
 
 TEST_CASE("degenerate faces are set apart") {
@@ -260,7 +259,7 @@ TEST_CASE("reversed polygons are triangulated like their neighbours") {
              {0, -2, 0}},
             {{0, 1, 2, 3, 4, 5}, {6, 0, 5, 7}, {9, 8, 1, 0}});
   mesh.reverse(0);
-  const Chart chart = only_chart(mesh);
+  const Chart chart = checked_chart(mesh);
   CHECK(chart.reversed_faces == 1);
   CHECK(chart.self_intersecting_polygons == 0);
   const Positions positions = chart.positions(mesh.view());
@@ -274,7 +273,7 @@ TEST_CASE("an empty mesh has no charts, and vertices without faces are in none")
   CHECK(charts_of({}).charts.empty());
   Mesh mesh = quad_grid(1, 1);
   mesh.points.emplace_back(9, 9, 9);
-  CHECK(only_chart(mesh).n_vertices() == 4);
+  CHECK(checked_chart(mesh).n_vertices() == 4);
 }
 
 TEST_SUITE_END();

@@ -102,7 +102,6 @@ TEST_CASE("seams run along all copies of a split vertex") {
 TEST_CASE("seams around a pole with many pins are no more than its faces have sides") {
   // All pairs of copies would be 2 x 60 for each of 60 seams.
   constexpr int n = 60;
-  constexpr double pi = 3.14159265358979323846;
   Mesh fan;
   for (int v = 0; v < n; ++v) fan.points.emplace_back(std::cos(2 * pi * v / n), std::sin(2 * pi * v / n), 0);
   fan.points.emplace_back(0, 0, 1);

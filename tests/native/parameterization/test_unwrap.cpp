@@ -41,8 +41,6 @@ double uv_area(const Mesh& mesh, const Unwrap& result, int face) {
 /// How far two results lie apart, relative to their size.
 double difference_of(const Unwrap& a, const Unwrap& b) { return (a.uv - b.uv).norm() / b.uv.norm(); }
 
-bool says(const std::string& message, const char* what) { return message.find(what) != std::string::npos; }
-
 /// A flat patch, a closed one, one with a coordinate that is not finite, a Moebius strip, and a bumpy one.
 Mesh mixed_components() {
   Mesh mesh = flat_grid(4, 3);

@@ -12,8 +12,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 bool certainly_injective(const Patch& patch, const ComplexVector& z) {
   return non_positive_triangles(patch.chart.triangles, z).empty() &&
          has_degree_at_most_one(patch.chart.boundary_loops, z);

@@ -9,7 +9,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 using Triangles = std::vector<std::array<int, 3>>;
 
 int turning(const BoundaryLoop& loop, const Triangles& triangles, const std::vector<Complex>& z) {

@@ -8,7 +8,7 @@
 namespace spectral_conformal::test {
 namespace {
 
-TrialMap mapped(const Mesh& mesh) {
+TrialMap map_of(const Mesh& mesh) {
   ChartDecomposition decomposition = build_charts(mesh.view());
   REQUIRE(decomposition.charts.size() == 1);
   TrialMap chart = solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, {});
@@ -26,7 +26,7 @@ TEST_SUITE_BEGIN("distorted_regions");
 
 TEST_CASE("the tips of spikes are where the scale is smallest") {
   const Mesh mesh = spiky_grid(2, 6);
-  const std::vector<DistortedRegion> regions = scale_extrema(mesh.view(), mapped(mesh), 0);
+  const std::vector<DistortedRegion> regions = scale_extrema(mesh.view(), map_of(mesh), 0);
   REQUIRE(regions.size() >= 2);
   for (const int tip : {4 * 17 + 4, 4 * 17 + 12}) CHECK(names(regions, tip));
   for (const DistortedRegion& region : regions) CHECK_FALSE(region.on_loop);
@@ -48,7 +48,7 @@ TEST_CASE("the far end of a tube is a region on a loop") {
       tube.add({j * around + i, j * around + next, (j + 1) * around + next, (j + 1) * around + i});
     }
   }
-  const std::vector<DistortedRegion> regions = scale_extrema(tube.view(), mapped(tube), 0);
+  const std::vector<DistortedRegion> regions = scale_extrema(tube.view(), map_of(tube), 0);
   REQUIRE_FALSE(regions.empty());
   CHECK(std::any_of(regions.begin(), regions.end(), [](const DistortedRegion& region) {
     return region.on_loop && region.vertex >= (rings - 1) * around;
@@ -57,13 +57,13 @@ TEST_CASE("the far end of a tube is a region on a loop") {
 
 TEST_CASE("a flat patch has none") {
   const Mesh mesh = quad_grid(6, 6);
-  CHECK(scale_extrema(mesh.view(), mapped(mesh), 0).empty());
-  for (const DistortedRegion& region : angle_peaks(mesh.view(), mapped(mesh))) CHECK(region.volume < 1e-9);
+  CHECK(scale_extrema(mesh.view(), map_of(mesh), 0).empty());
+  for (const DistortedRegion& region : angle_peaks(mesh.view(), map_of(mesh))) CHECK(region.volume < 1e-9);
 }
 
 TEST_CASE("the angles are worst at the tip of a coarse spike") {
   const Mesh mesh = spiky_grid(1, 5);
-  const std::vector<DistortedRegion> regions = angle_peaks(mesh.view(), mapped(mesh));
+  const std::vector<DistortedRegion> regions = angle_peaks(mesh.view(), map_of(mesh));
   const auto worst = std::max_element(regions.begin(), regions.end(),
                                       [](const auto& a, const auto& b) { return a.volume < b.volume; });
   REQUIRE(worst != regions.end());

@@ -12,12 +12,6 @@ namespace {
 
 int no_image(int) { return -1; }
 
-Chart only_chart(const Mesh& mesh) {
-  const ChartDecomposition decomposition = build_charts(mesh.view());
-  REQUIRE(decomposition.charts.size() == 1);
-  return decomposition.charts.front();
-}
-
 Mesh with_cuts(Mesh mesh, const SeamGraph& graph, const std::vector<std::vector<int>>& cuts) {
   for (const auto& cut : cuts) {
     for (const int edge : cut) mesh.seams.push_back(graph.edges()[edge].vertices);
