@@ -163,4 +163,4 @@ def test_repairs_are_said():
     vertices, triangles = meshes.bumpy_disk(300)
     mixed = triangles.copy()
     mixed[:3] = mixed[:3, ::-1]
-    assert sc.parameterize(vertices, mixed).message == "3 faces wound the other way: turned."
+    assert sc.parameterize(vertices, mixed).message == "3 faces wound the other way: reoriented."

@@ -43,8 +43,8 @@ struct PatchOptions {
   /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
   /// (isometric_relaxation.h), and its metric, blended with the identity, is that of all solves (section 4.3).
   double area_blend = 0;
-  /// All solves end with no flipped triangle and a turning number of 1 or -1, at some cost in distortion: see
-  /// fold_free_map.h.
+  /// Solves unfold flipped triangles, or replace the map by an embedding, at some cost in distortion; what stays
+  /// flipped is reported. See fold_free_map.h.
   bool fold_free = false;
 };
 
@@ -56,18 +56,18 @@ struct SolveOptions {
   std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
   double hole_rigidity = 0;  ///< beta of ExtendedForm::add_spread for every loop but the outer one; likewise
   /// Whether Method::spectral may solve another problem where its own fails. When false, that failure is the answer;
-  /// the second attempt at the same problem, with a larger shift and another start, is made either way, and so is the
-  /// embedding that PatchOptions::fold_free asks for.
+  /// the second attempt at the same problem, with another start and a larger shift unless that was raised already, is
+  /// made either way, and so is the embedding that PatchOptions::fold_free asks for.
   bool fallbacks = true;
-  bool has_forces() const;  ///< whether extenders or hole rigidity change the form B
+  bool has_extenders_or_rigidity() const;  ///< whether extenders or hole rigidity change the form B
 };
 
 /// The numbers of a map, and what was really solved for it.
 struct SolveRecord {
   double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
   EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
-  /// |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with forces: the last
-  /// relative change.
+  /// |L z - lambda B z|_2 / (largest diagonal entry of L x |z|_2); lscm: see lscm.h; area, and with soft constraints:
+  /// the last relative change.
   double residual = 0;
   int iterations = 0;         ///< solves with the factor
   int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
@@ -130,13 +130,13 @@ class Solver {
   ///
   /// Every map is checked by one rule (map_check.h): finite, equations satisfied, positive area, and for the spectral
   /// method a turning number of 1, or -1 where the longest loop in 3D is a hole of the map. An eigenvector that fails
-  /// is solved again with a larger shift and another start, then, where SolveOptions::fallbacks allows it (spectral
-  /// only), with thin triangles clamped, with the other boundary form and with the other weights; the fields of the
-  /// result and `message` say so. Extenders and hole rigidity change the form B of Method::spectral and leave the
-  /// factor; a solve with them starts from the maps of earlier solves, has no fallbacks, and fails where they are so
-  /// strong that the map winds round more than once. With `fold_free` flipped triangles are unfolded, and a map that
-  /// winds round more than once, or none, is replaced by an embedding; `message` says what was done, what that cost,
-  /// and where it could not be done.
+  /// is solved again with another start and, unless it was raised already, a larger shift, then, where
+  /// SolveOptions::fallbacks allows it (spectral only), with thin triangles clamped, with the other boundary form and
+  /// with the other weights; the fields of the result and `message` say so. Extenders and hole rigidity change the form
+  /// B of Method::spectral and leave the factor; a solve with them starts from the maps of earlier solves, has no
+  /// fallbacks, and fails where they are so strong that the map winds round more than once. With `fold_free` flipped
+  /// triangles are unfolded, and a map that winds round more than once, or none, is replaced by an embedding; `message`
+  /// says what was done, what that cost, and where it could not be done.
   ///
   /// Throws SolveFailure when nothing passes, InvalidMesh for pins or forces that the method does not take or that all
   /// have one position, and Cancelled.

@@ -21,7 +21,7 @@ struct VertexExtender {
 /// What an unwrap takes besides the mesh.
 struct UnwrapOptions {
   PatchOptions patch;
-  SolveOptions solve;  ///< its extenders are not looked at
+  SolveOptions solve;  ///< its extenders are ignored
   std::vector<VertexExtender> extenders;
   Pins vertex_pins;
   CornerPins corner_pins;
@@ -40,7 +40,7 @@ struct UnwrappedChart : SolveRecord {
   double mean_qc = unknown;  ///< this and the next two: as measure_distortion finds them
   double max_qc = unknown;
   int flipped = 0;      ///< faces with a flipped triangle
-  int overlapping = 0;  ///< faces that cover part of another face; duplicates are not looked at
+  int overlapping = 0;  ///< faces that cover part of another face; duplicates are ignored
   int n_pins = 0;       ///< pinned vertices
   int n_vertices = 0;
   double area = 0;  ///< in 3D

@@ -48,7 +48,8 @@ def parameterize(
             False cancels: `Cancelled` is raised. What it raises itself passes through.
 
     Returns:
-        The map: positively oriented, the mean of its vertices at the origin, its area equal to the area in 3D.
+        The map. Without pins it is positively oriented, the mean of its vertices is at the origin, and its area equals
+        the area in 3D.
 
     Raises:
         InvalidMeshError: (a ValueError) the mesh is not one disk-like patch, or its pins cannot be held; the message

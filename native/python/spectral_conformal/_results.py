@@ -137,7 +137,7 @@ class Chart:
     attempts: int
     turning_number: int
     mean_qc: float
-    """As in `Distortion`, over the chart's triangles; of a convex quad's two splits the less distorted counts."""
+    """As in `Distortion`, over the chart's triangles; of a quad the split whose smaller area is larger."""
     max_qc: float
     flipped: int
     """Faces with a flipped triangle."""

@@ -19,7 +19,7 @@ void BoundaryForm::add_applied(const ComplexVector& z, double factor, ComplexVec
 }
 
 double BoundaryForm::value(const ComplexVector& z) const {
-  // z^H B^ z, the right side of Eq. 5 for z without its mean
+  // z^H B^ z: u^T B u of Eq. 6, z taken about its barycentre
   const Complex centre = barycentre(z);
   double result = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - centre);

@@ -122,11 +122,11 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
       diagonal[j] += dirichlet;
       // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2 (minus A, Eq. 2),
       // L_ji its conjugate.
-      const Complex upper(-dirichlet, half_weight);
+      const Complex entry_ij(-dirichlet, half_weight);
       if (i > j) {
-        entries[fill[j]++] = {i, upper};
+        entries[fill[j]++] = {i, entry_ij};
       } else {
-        entries[fill[i]++] = {j, std::conj(upper)};
+        entries[fill[i]++] = {j, std::conj(entry_ij)};
       }
     }
   }
@@ -136,7 +136,8 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
   for (int column = 0; column < n_vertices; ++column) {
     Entry* const first = entries.data() + start[column];
     const int size = start[column + 1] - start[column];
-    if (size <= 32) {
+    constexpr int short_column = 32;  // insertion sort moves at most 500 entries
+    if (size <= short_column) {
       for (int k = 1; k < size; ++k) {
         const Entry entry = first[k];
         int position = k;

@@ -22,7 +22,8 @@ QuotientForm quotient_form(const BoundaryForm& form);
 struct CorrectionOptions {
   int max_corrections = 0;
   double negligible = 0;  ///< ends below this change of z, relative to z
-  /// Takes each change as long as it lowers the quotient most, which converges for indefinite B too; otherwise whole.
+  /// Scales each correction to where the quotient is stationary to first order, which converges for indefinite B too;
+  /// otherwise whole.
   bool exact_step = false;
   /// Leaves out a change that is not smaller than the one before, and ends there.
   bool only_falling = false;
@@ -41,7 +42,7 @@ double eigen_residual(const ConformalEnergy& energy, const QuotientForm& form, c
 ///   z <- z - t (L + s M)^-1 (L z - lambda B z):
 /// the eigenvectors of the unshifted problem are the fixed points, and because the residual is summed triangle by
 /// triangle, more accurately than the factor is, they take out the shift and the rounding of the factor.
-/// `factorization` holds L + s M; changes are taken without their mean, which L does not see.
+/// `factorization` holds L + s M; each correction is made mean-free: constants are the kernel of L.
 Correction correct(Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& form,
                    const CorrectionOptions& options, ComplexVector& z);
 

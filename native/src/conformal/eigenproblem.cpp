@@ -255,7 +255,8 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   ComplexVector start = ComplexVector::Zero(n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
   Eigenpair result;
-  const int dimension = std::min<int>(std::max(options.krylov_dimension, 12), static_cast<int>(2 * n));
+  constexpr int min_dimension = 12;  // negative eigenvalues fill part of the space
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, min_dimension), static_cast<int>(2 * n));
   Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
                                                                                                     dimension);
   ComplexVector smooth(n);

@@ -9,8 +9,8 @@
 namespace spectral_conformal {
 
 struct EigenproblemOptions {
-  double tolerance = 1e-8;  ///< bound of |T y - mu y| / (mu |y|) for the operator T described below
-  int max_restarts = 200;
+  double tolerance = 1e-8;   ///< bound of |T y - mu y| / (mu |y|) for the operator T described below
+  int max_restarts = 200;    ///< bounds the time of what does not converge
   int krylov_dimension = 6;  ///< measured best: most patches then need no restart
   unsigned start = 0;        ///< 0: a circle along the boundary; otherwise the seed of a pseudo-random start
 };
@@ -18,8 +18,9 @@ struct EigenproblemOptions {
 struct Eigenpair {
   ComplexVector vector;  ///< (V,)
   double mu = 0;         ///< largest eigenvalue of the switched problem
-  double residual = 0;   ///< |T y - mu y| / (mu |y|) of the returned pair
-  int solves = 0;        ///< solves with the factor
+  /// solve_eigenproblem: |T y - mu y| / (mu |y|); the others: the last relative change of z.
+  double residual = 0;
+  int solves = 0;  ///< solves with the factor
   bool converged = false;
 };
 
@@ -29,8 +30,8 @@ struct Eigenpair {
 /// vertices that carry mass,
 ///   T y = Q M^1/2 S^T (L + s M)^-1 S M^1/2 Q y = mu y,    z = (L + s M)^-1 S M^1/2 y,
 /// S being the embedding of those vertices, and solved by implicitly restarted Lanczos (Spectra) on the real view of
-/// the complex vectors: the start fixes one real dimension of every complex eigenline, so the double real eigenvalue is
-/// met once. Problems of at most 24 vertices are solved densely.
+/// the complex vectors: a real Krylov space meets span{z, iz} in one direction, so each eigenvalue appears once.
+/// Problems of at most 24 vertices are solved densely.
 /// `factorization` holds L + s M.
 Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& form, const EigenproblemOptions& options,
                              const Progress& progress);

@@ -102,14 +102,14 @@ class RitzSpace {
 };
 
 /// Runs until the residual's length in G is below the tolerance, or, where rounding keeps it above, no longer falls.
-/// Returns whether it got there, or near enough for the corrections that follow.
+/// Returns whether it got there, or, for tolerances below 1e-9, stopped near enough for the corrections that follow.
 bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progress& progress) {
   constexpr double near_enough = 1e-9;
-  const int most = options.max_restarts * options.krylov_dimension;
+  const int max_solves = options.max_restarts * options.krylov_dimension;
   const int patience = 20 * options.krylov_dimension;
   double best = std::numeric_limits<double>::infinity();
   int best_at = space.solves();
-  while (space.solves() < most && space.solves() - best_at < patience) {
+  while (space.solves() < max_solves && space.solves() - best_at < patience) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.1 * space.solves()), "eigenproblem");
     const double length = space.grow(space.residual());
     if (!std::isfinite(space.mu())) return false;
@@ -159,7 +159,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
       [&form](const ComplexVector& z) { return form.value(form.restrict(z)); },
       [&form](const ComplexVector& z, double factor, ComplexVector& sum) { form.add_applied(z, factor, sum); }};
   CorrectionOptions corrections;
-  corrections.max_corrections = 12;  // each takes out about s / lambda of what is left; the rest is rounding
+  corrections.max_corrections = 12;  // a bound: exact steps end by themselves where rounding is reached
   corrections.negligible = 0.1 * options.tolerance;
   corrections.exact_step = true;
   const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);

@@ -3,14 +3,14 @@
 namespace spectral_conformal {
 namespace {
 
-Complex barycentre(const std::vector<int>& places, const ComplexVector& x) {
+Complex barycentre(const std::vector<int>& indices, const ComplexVector& x) {
   Complex sum = 0;
-  for (const int place : places) sum += x[place];
-  return sum / static_cast<double>(places.size());
+  for (const int index : indices) sum += x[index];
+  return sum / static_cast<double>(indices.size());
 }
 
-void add_to_each(const std::vector<int>& places, Complex force, ComplexVector& result) {
-  for (const int place : places) result[place] += force / static_cast<double>(places.size());
+void add_to_each(const std::vector<int>& indices, Complex force, ComplexVector& result) {
+  for (const int index : indices) result[index] += force / static_cast<double>(indices.size());
 }
 
 }  // namespace
@@ -18,17 +18,17 @@ void add_to_each(const std::vector<int>& places, Complex force, ComplexVector& r
 ExtendedForm::ExtendedForm(const BoundaryForm& boundary) : total_(boundary.total()) { add_spread(boundary, 1); }
 
 std::vector<int> ExtendedForm::local(const std::vector<int>& vertices) {
-  std::vector<int> places;
-  places.reserve(vertices.size());
+  std::vector<int> indices;
+  indices.reserve(vertices.size());
   for (const int v : vertices) {
-    if (v >= static_cast<int>(place_.size())) place_.resize(static_cast<std::size_t>(v) + 1, -1);
-    if (place_[v] < 0) {
-      place_[v] = static_cast<int>(support_.size());
+    if (v >= static_cast<int>(index_.size())) index_.resize(static_cast<std::size_t>(v) + 1, -1);
+    if (index_[v] < 0) {
+      index_[v] = static_cast<int>(support_.size());
       support_.push_back(v);
     }
-    places.push_back(place_[v]);
+    indices.push_back(index_[v]);
   }
-  return places;
+  return indices;
 }
 
 void ExtendedForm::add_extender(const Extender& extender) {

@@ -9,10 +9,10 @@
 
 namespace spectral_conformal {
 
-/// The form B of Eq. 5 with the soft forces of section 4.2,
+/// The form B of Eq. 5 with the soft constraints of section 4.2,
 ///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,
 /// of which extenders with alpha < 0 and attracting pins make an indefinite one. It acts on a few vertices only, its
-/// support, and does not see a constant. B^_l is the spread of a boundary loop about its own barycentre: what remains
+/// support, and vanishes on constants. B^_l is the spread of a boundary loop about its own barycentre: what remains
 /// of the paper's rigid hole when the fake vertex, which has no conformal energy of its own, is eliminated.
 class ExtendedForm {
  public:
@@ -46,13 +46,13 @@ class ExtendedForm {
     double factor;
     Complex value(const ComplexVector& x) const;
   };
-  /// Their places in the support, to which vertices that are not in it yet are added.
+  /// Their indices in the support, to which vertices that are not in it yet are added.
   std::vector<int> local(const std::vector<int>& vertices);
 
   std::vector<int> support_;
-  std::vector<int> place_;  ///< of each vertex up to the largest so far, or -1
+  std::vector<int> index_;  ///< of each vertex up to the largest so far, or -1
   double total_;
-  // All in places of the support instead of vertices.
+  // All in indices of the support instead of vertices.
   std::vector<Spread> spreads_;
   std::vector<Difference> differences_;
   std::vector<PinAttraction> attractions_;

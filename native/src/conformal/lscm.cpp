@@ -57,12 +57,12 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
                        "vertices.");
   }
   report(progress, 0.8, "solve");
-  constexpr int refinements = 4;
+  constexpr int max_solves = 4;  // the first and its refinements, which end by themselves where rounding is reached
   ComplexVector gradient;
   ComplexVector rhs(n_free);
   ComplexVector step(n_free);
   double previous = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < refinements; ++k) {
+  for (int k = 0; k < max_solves; ++k) {
     energy.apply(result.vector, gradient);
     for (int v = 0; v < n; ++v) {
       if (free_index[v] >= 0) rhs[free_index[v]] = gradient[v];

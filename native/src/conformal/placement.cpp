@@ -98,6 +98,7 @@ bool place(ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& 
   const Eigen::VectorXd height = positions.col(2).array() - centre[2];
   const Eigen::VectorXd width = positions.col(0).array() - centre[0];
   const double rise = z.imag().dot(height);
+  // Of upright and upside down neither where they differ by less than single precision, in which meshes are stored.
   const double tie = 1e-6 * z.norm() * positions.rowwise().norm().norm();
   const double run = z.real().dot(width);
   if (std::abs(rise) > tie ? rise < 0 : run < -tie) z = -z;

@@ -24,7 +24,8 @@ ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const BoundaryForm& 
   result.factorization = make_factorization(backend, shifted.rows());
   report(progress, 0.0, "ordering");
   result.factorization->analyze(shifted);
-  // From the first attempt's 1e-12 up to 1e-4: beyond that the corrections no longer converge in their bounded number.
+  // To 1e8 times the given shift, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no longer
+  // converge in their bounded number.
   constexpr int max_raises = 4;
   constexpr double raise_factor = 100;
   for (int raise = 0; raise <= max_raises; ++raise) {
@@ -32,7 +33,7 @@ ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const BoundaryForm& 
     result.shift = relative_shift * std::pow(raise_factor, raise) * unit;
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {
       const int v = form.vertices[i];
-      // Eq. 7, with the form itself in the place of the identity: L + s M.
+      // Section 3.4, with s M instead of epsilon I: L + s M.
       shifted.valuePtr()[shifted.outerIndexPtr()[v]] =
           diagonal(v) + result.shift * form.mass[static_cast<Eigen::Index>(i)];
     }

@@ -27,6 +27,7 @@ class PseudoRandom {
 ComplexVector start_vector(const BoundaryForm& form, unsigned start) {
   PseudoRandom random(start + 1);
   ComplexVector y(form.mass.size());
+  // Enough to have a part along every eigenvector, too little to lose the circle.
   const double noise = start == 0 ? 0.05 : 1.0;
   double passed = 0;
   for (Eigen::Index i = 0; i < y.size(); ++i) {

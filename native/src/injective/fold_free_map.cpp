@@ -70,6 +70,7 @@ class FoldFree {
     for (const BoundaryLoop& loop : patch_.loops) {
       for (const int v : loop) angle[v] = 0;
     }
+    // Angles sum up to multiples of 2 pi, but for rounding: half-way between once and twice.
     return std::none_of(angle.begin(), angle.end(), [](double sum) { return sum > 3 * pi; });
   }
 

@@ -50,7 +50,7 @@ class Unfolding {
         log_scale_(vertex_log_scale()) {}
 
   int run() {
-    constexpr int max_rings = 64;  // seven doublings; beyond, the whole map is free on all but large charts
+    constexpr int max_rings = 64;  // seven rounds; beyond, the whole map is free on all but large charts
     for (int rings = 1; rings <= max_rings; rings *= 2) {
       done_ = std::log2(rings) / 7;
       report(progress_, done_, "unfold");
@@ -102,7 +102,7 @@ class Unfolding {
     return sum;
   }
 
-  /// The vertices within `rings` edges of a flipped element, by connected components.
+  /// The corners of flipped elements and the vertices within rings - 1 edges of them, by connected components.
   std::vector<Region> regions_around_flips(int rings) const {
     std::vector<char> near(static_cast<std::size_t>(z_.size()), 0);
     std::vector<int> reached;

@@ -34,8 +34,8 @@ class PinSplitMesh {
   std::vector<std::array<int, 2>> seam_edges_;
 };
 
-/// The pins of a chart: the mean over the pinned corners of each of its vertices. `decomposition` is that of a
-/// PinSplitMesh's view. Throws InvalidMesh when a pinned UV is not finite.
+/// The pins of a chart: the mean over the pinned corners of each of its vertices. `mesh` is a PinSplitMesh's
+/// view, `chart_vertex_of_corner` that of its ChartDecomposition. Throws InvalidMesh when a pinned UV is not finite.
 Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<int>& chart_vertex_of_corner,
                 const CornerPins& pins);
 

@@ -32,7 +32,7 @@ void take(SpectralMap&& map, Parameterization& result) {
 
 }  // namespace
 
-bool SolveOptions::has_forces() const {
+bool SolveOptions::has_extenders_or_rigidity() const {
   return hole_rigidity != 0 ||
          std::any_of(extenders.begin(), extenders.end(), [](const Extender& e) { return e.strength != 0; });
 }
@@ -156,7 +156,8 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
   }
   SolveFailure failure = failed_blend ? *failed_blend : failure_of(map, settings);
   // With soft constraints, these are what to change.
-  if (settings.method != Method::spectral || settings.has_forces() || !settings.fallbacks) return failure;
+  if (settings.method != Method::spectral || settings.has_extenders_or_rigidity() || !settings.fallbacks)
+    return failure;
   // The fraction done only rises: the failed attempts have used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
   const double not_blended = is_blended ? 0 : options.area_blend;
@@ -206,7 +207,7 @@ Parameterization Solver::State::solve(const SolveOptions& given, const Pins& pin
   SolveOptions settings = given;
   settings.method = method_with_pins(given, pins.size());
   const bool pinned = settings.method == Method::lscm;
-  if (settings.method != Method::spectral && settings.has_forces()) {
+  if (settings.method != Method::spectral && settings.has_extenders_or_rigidity()) {
     throw InvalidMesh("Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.");
   }
   // With fewer than three pins a similarity always fits. A single hard pin only moves the map.

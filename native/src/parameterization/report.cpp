@@ -58,7 +58,7 @@ std::string advice_for(const SpectralMap& map, const SolveOptions& options) {
     if (map.rejection == Rejection::no_area) return "use the spectral method, or pin other vertices.";
     return "clean up degenerate faces, or pin other vertices.";
   }
-  if (options.has_forces()) return "weaken or remove extenders, or lower the hole rigidity.";
+  if (options.has_extenders_or_rigidity()) return "weaken or remove extenders, or lower the hole rigidity.";
   if (map.rejection == Rejection::not_factorized) {
     return "the island has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces.";
   }
@@ -105,7 +105,7 @@ std::string describe_fallback(const FallbackMap& fallback, const SolveFailure& f
 std::string describe_repairs(const Chart& chart, int clamped) {
   std::string text;
   if (chart.reversed_faces > 0) {
-    text += count(chart.reversed_faces, "face", "faces") + " wound the other way: turned. ";
+    text += count(chart.reversed_faces, "face", "faces") + " wound the other way: reoriented. ";
   }
   if (!chart.duplicates.empty()) {
     text += count(static_cast<int>(chart.duplicates.size()), "duplicate face", "duplicate faces") +
@@ -175,12 +175,12 @@ std::string describe_unfolding(const FoldFreeMap& map, const std::string& failur
 std::string describe_unresolved(const ConformalEnergy& energy, const ComplexVector& z) {
   // Leaves three digits to the shape of a triangle.
   constexpr double min_fraction = 1e-13;
-  const double least = min_fraction * (z.array() - z.mean()).abs().maxCoeff();
+  const double min_length = min_fraction * (z.array() - z.mean()).abs().maxCoeff();
   int unresolved_triangles = 0;
   for (std::size_t t = 0; t + energy.n_virtual() < energy.triangles().size(); ++t) {
     const auto& [a, b, c] = energy.triangles()[t];
     const double longest = std::max(std::norm(z[b] - z[a]), std::norm(z[c] - z[a]));
-    if (longest < least * least && !energy.shapes()[t].clamped) ++unresolved_triangles;
+    if (longest < min_length * min_length && !energy.shapes()[t].clamped) ++unresolved_triangles;
   }
   if (unresolved_triangles == 0) return "";
   return count(unresolved_triangles, "triangle shrinks", "triangles shrink") +

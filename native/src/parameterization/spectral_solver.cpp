@@ -42,7 +42,7 @@ struct SpectralSolver::Attempt {
 struct SpectralSolver::Eigenvector {
   ComplexVector z;
   double lambda = 0;    ///< z^H L z / z^H B z
-  double residual = 0;  ///< see Parameterization
+  double residual = 0;  ///< see SolveRecord
   double change = 0;    ///< the last correction, relative to z
   double change_limit = resolved;
   int solves = 0;
@@ -55,7 +55,7 @@ SpectralSolver::SpectralSolver(const NormalizedPatch& patch, Weights weights, Bo
       backend_(backend),
       boundary_(boundary),
       energy_(std::make_unique<ConformalEnergy>(patch.positions, patch.triangles, patch.triangle_weights, weights,
-                                                patch.n_virtual)),    // Eq. 3
+                                                patch.n_virtual)),    // Eq. 2 and 3
       form_(boundary_form(patch.outer, patch.positions, boundary)) {  // Eq. 5
   if (form_.vertices.size() < 2) {
     throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
@@ -71,8 +71,8 @@ SpectralSolver::SpectralSolver(const SpectralSolver& like, Weights weights, Boun
 
 SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attractors, const Progress& progress,
                                   Timings& timings) {
-  // The first passes nearly always. The second gives way to rounding: a larger shift, a start without preferred shape,
-  // more directions, less error.
+  // The first passes nearly always. The second gives way to rounding: it begins with a hundred times the shift, a start
+  // without preferred shape, four times the directions, and asks for a tenth of the error.
   constexpr Attempt attempts[] = {{first_relative_shift, 0, 6, 1.0}, {1e-10, 1, 24, 0.1}};
   SpectralMap map;
   int made = 0;
@@ -83,9 +83,9 @@ SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attra
     map.attempts = ++made;
     // Without a factor the shift has been raised as far as it may be.
     if (map.rejection == Rejection::none || map.rejection == Rejection::not_factorized) break;
-    // A strong attraction has such maps as its true optimum, so that another attempt would end there too: the pair
-    // meets where the map branches.
-    if (map.rejection == Rejection::winding && options.has_forces()) break;
+    // A strongly negative extender has such maps as its true optimum, so that another attempt would end there too: the
+    // pair meets where the map branches.
+    if (map.rejection == Rejection::winding && options.has_extenders_or_rigidity()) break;
   }
   return map;
 }
@@ -165,7 +165,7 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     return result.converged;
   };
 
-  if (options.has_forces() || !attractors.empty()) {
+  if (options.has_extenders_or_rigidity() || !attractors.empty()) {
     // B with soft constraints (section 4.2).
     const ExtendedForm extended = extended_form(form, options, attractors);
     ComplexVector circle = ComplexVector::Zero(static_cast<Eigen::Index>(extended.support().size()));
@@ -189,7 +189,8 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
     const QuotientForm quotient = quotient_form(form);
     CorrectionOptions corrections;
-    corrections.max_corrections = 40;  // each takes out about s / lambda of what is left
+    corrections.max_corrections =
+        40;  // each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 the next eigenvalue
     corrections.negligible = 1e-10;
     const Correction correction = correct(factorization, *energy_, quotient, corrections, result.z);
     result.solves += correction.solves;

@@ -21,7 +21,7 @@ struct SpectralMap {
   ComplexVector z;        ///< (V,) placed; where it was accepted
   ComplexVector whole;    ///< the same with virtual vertices, at no particular place and scale
   double eigenvalue = 0;  ///< in the units of the input
-  double residual = 0;    ///< see Parameterization
+  double residual = 0;    ///< see SolveRecord
   double shift = 0;       ///< s of the last attempt
   int solves = 0;         ///< with the factor, in the last attempt
   int turning_number = 0;
@@ -29,9 +29,9 @@ struct SpectralMap {
 };
 
 /// Spectral conformal parameterization of a patch (Mullen et al. 2008):
-///   Eq. 3  L = L_D - A, the conformal energy
-///   Eq. 5  L z = lambda B z, B the form of the boundary, smallest nonzero lambda
-///   Eq. 7  B^ z = mu (L + s M) z, largest mu; B^ is B without the constants
+///   Eq. 2, 3  L = L_D - A, the conformal energy
+///   Eq. 5     L z = lambda B z, B the form of the boundary, smallest nonzero lambda
+///   Eq. 7     B^ z = mu (L + s M) z, largest mu; B^ is B without the constants
 /// then the checks, and the similarity that the energy leaves free. Keeps the factor of L + s M between solves.
 class SpectralSolver {
  public:

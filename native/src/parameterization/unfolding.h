@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// A map (V,) with its folds taken out, placed as before.
 struct UnfoldedMap {
   FoldFreeMap fold_free;
-  bool changed = false;       ///< whether the map was unfolded or replaced; otherwise the rest is not filled in
+  bool changed = false;       ///< whether the map was unfolded or replaced; otherwise only the mean QCs are filled in
   double mean_qc_before = 0;  ///< not a number where there was no map
   double mean_qc = 0;
   double eigenvalue = 0;  ///< the quotient of Eq. 5, in the units of the input

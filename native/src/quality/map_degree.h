@@ -20,9 +20,9 @@ namespace spectral_conformal {
 //    connected domain whose boundary these loops are, so that exactly one runs counter-clockwise.
 // Interior vertices with angles of more than 2 pi need no care: they show at the boundary.
 
-/// Whether the boundary proves that the degree is 0 or 1 everywhere: all loops are simple, disjoint polygons, one of
-/// them counter-clockwise, by exact predicates. False where an edge has collapsed and where the boundary touches
-/// itself. loops: all of the chart's; z (V,), finite. O(n log n) for n boundary edges.
+/// Whether the boundary proves that the degree is at most 1 everywhere: all loops are simple, disjoint polygons,
+/// exactly one of them counter-clockwise, by exact predicates. False where an edge has collapsed and where the boundary
+/// touches itself. loops: all of the chart's; z (V,), finite. O(n log n) for n boundary edges.
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
 }  // namespace spectral_conformal

@@ -16,7 +16,7 @@ TEST_CASE("repairs are counted, a clean chart has none") {
   chart.duplicates = {4, 7};
   chart.self_intersecting_polygons = 3;
   CHECK(describe_repairs(chart, 5) ==
-        "1 face wound the other way: turned. 2 duplicate faces: placed on the first of the same vertices. "
+        "1 face wound the other way: reoriented. 2 duplicate faces: placed on the first of the same vertices. "
         "3 self-intersecting polygons: split as a fan. 5 degenerate triangles: given a minimal height. ");
 }
 
