@@ -34,17 +34,25 @@ ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 def run() -> int:
-    """Write the zips to build/packages/."""
+    """Write the zips to build/packages/ that a Blender with this Python can load."""
     module = repair_wheel()
     architecture = ARCHITECTURES.get(platform.machine(), platform.machine())
-    target = f"{NAME}-{version()}", f"linux_{architecture}-{python_tag(module)}.zip"
+    tag = python_tag(module)
+    target = f"{NAME}-{version()}", f"linux_{architecture}-{tag}.zip"
+    extension = PACKAGES / "-".join(target)
     shutil.rmtree(PACKAGES, ignore_errors=True)
     PACKAGES.mkdir(parents=True)
-    extension = PACKAGES / "-".join(target)
     with steps.progress("packing"):
-        write_zip(PACKAGES / "-legacy-".join(target), legacy_files(module))
-        write_zip(extension, extension_files([module], [f"linux-{architecture}"]))
-    validate(extension)
+        if tag in LEGACY_PYTHONS:
+            write_zip(PACKAGES / "-legacy-".join(target), legacy_files(module))
+        if for_extensions(module):
+            write_zip(extension, extension_files([module], [f"linux-{architecture}"]))
+    if for_extensions(module):
+        validate(extension)
+    if not any(PACKAGES.iterdir()):
+        raise StepError(
+            f"No Blender from 3.4 on has the Python of this wheel, {tag}: run this with Python 3.10, 3.11 or later."
+        )
     report(PACKAGES)
     return 0
 
@@ -52,7 +60,7 @@ def run() -> int:
 def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
     """Write the zips of all platforms that have wheels in `folder`: one extension each, one legacy zip per Python."""
     modules = sorted(paths.existing_folder(folder).glob("spectral_conformal-*.whl"))
-    for_extension = [module for module in modules if int(python_tag(module)[3:]) >= OLDEST_EXTENSION_PYTHON]
+    for_extension = [module for module in modules if for_extensions(module)]
     if not for_extension:
         raise StepError(
             f"{folder} holds no wheel of spectral_conformal for Python 3.{OLDEST_EXTENSION_PYTHON} or later."
@@ -95,6 +103,11 @@ def python_tag(module: Path) -> str:
     if not found:
         raise StepError(f"{module}: the name of a wheel ends with its tags, such as -cp311-cp311-linux_x86_64.whl.")
     return found.group(1)
+
+
+def for_extensions(module: Path) -> bool:
+    """Tell whether a wheel's Python is one of Blender 4.2 or later."""
+    return int(python_tag(module)[3:]) >= OLDEST_EXTENSION_PYTHON
 
 
 def blender_platform(module: Path) -> str:
