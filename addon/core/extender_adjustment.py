@@ -11,7 +11,7 @@ from .errors import ReadableError
 from .mesh import PolygonMesh
 from .options import Options
 
-# Relative residual that the map on screen needs; a pixel is a thousandth of it.
+# Relative residual that the map on screen needs, of which a pixel is about a thousandth.
 _TOLERANCE = 1e-4
 
 

@@ -91,7 +91,7 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
             mesh.vertices,
             mesh.face_offsets,
             mesh.corner_vertices,
-            **forces(mesh, options),
+            **soft_constraints(mesh, options),
             **arguments(mesh, options),
             progress=progress,
         )
@@ -127,9 +127,9 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     }
 
 
-def forces(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the keyword arguments that `spectral_conformal.unwrap` shares with `Unwrapper.solve`."""
-    # Only the spectral method has a form that forces could change.
+    # Only the spectral method has a form that soft constraints could change.
     if options.method != "spectral":
         return {}
     return {"extenders": mesh.extenders, "hole_rigidity": options.hole_rigidity}

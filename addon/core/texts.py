@@ -32,8 +32,12 @@ SUGGEST_SEAMS_DESCRIPTION = (
     "visible ones if none is selected; then unwrap again"
 )
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
-LIVE_UNWRAP_DESCRIPTION = "Let islands follow while their pins are moved, and unwrap again when seams are changed"
+LIVE_UNWRAP_DESCRIPTION = (
+    "Let islands follow while their pins are moved or their extenders change, and unwrap again when seams are changed"
+)
 EXTENDER_NAME = "Extender"
+SELECT_LABEL = "Select"
+REMOVE_LABEL = "Remove"
 ADD_EXTENDER_LABEL = "Add Extender"
 ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
 REMOVE_EXTENDER_LABEL = "Remove Extender"

@@ -27,7 +27,7 @@ def _active_face(bm: BMesh) -> BMFace | None:
     """Return the active face, else the one selected last, else any selected one, as Blender does."""
     if bm.faces.active is not None:
         return bm.faces.active
-    history: Sequence[object] = [element for element in bm.select_history if isinstance(element, BMFace)]
+    history: Sequence[object] = [element for element in list(bm.select_history) if isinstance(element, BMFace)]
     return history[-1] if history else next((face for face in bm.faces if face.select), None)
 
 

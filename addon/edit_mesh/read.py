@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edit-mode meshes to arrays, and UV coordinates back."""
+"""Edit-mode meshes, and their UVs, to arrays."""
 
 from dataclasses import dataclass, replace
 
@@ -44,7 +44,7 @@ def read_mesh(
         edit_object: the object.
         by_uv_selection: unwrap only faces with a selected UV; their unselected UVs are pins.
         all_visible: unwrap all visible faces, selected or not.
-        correct_aspect: heed the aspect of the image that the active face shows.
+        correct_aspect: use the aspect of the image that the active face shows.
         use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
     """
     mesh = edit_object.data

@@ -116,7 +116,7 @@ def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> Selec
         corners = compatibility.selected_uv_corners(bm, layer)
         loops = compress((loop for face in bm.faces for loop in face.loops), corners.tolist())
         return SelectedVertices(sorted({loop.vert.index for loop in loops if loop.face.select}), [], None)
-    history = [element for element in bm.select_history if isinstance(element, BMVert)]
+    history = [element for element in list(bm.select_history) if isinstance(element, BMVert)]
     active = bm.select_history.active
     return SelectedVertices(
         [vertex.index for vertex in bm.verts if vertex.select],
@@ -155,6 +155,7 @@ def _select_vertices(bm: BMesh, vertices: Sequence[BMVert]) -> None:
         vertex.select = True
         bm.select_history.add(vertex)
     bm.select_flush_mode()
+    compatibility.derive_uv_selection(bm)
 
 
 def _select_uvs_of(bm: BMesh, vertices: Sequence[BMVert]) -> None:

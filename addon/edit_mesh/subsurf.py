@@ -13,7 +13,7 @@ _COPIED_SETTINGS = ("subdivision_type", "levels", "quality", "boundary_smooth", 
 
 
 def leading_modifier(edit_object: bpy.types.Object) -> bpy.types.SubsurfModifier | None:
-    """Return the Subdivision Surface modifier that Blender's own Unwrap heeds: it is the first and has levels."""
+    """Return the Subdivision Surface modifier that Blender's own Unwrap uses: it is the first and has levels."""
     modifier = next(iter(edit_object.modifiers), None)
     return modifier if modifier is not None and modifier.type == "SUBSURF" and modifier.levels > 0 else None
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extenders of a mesh: how they are stored, followed through edits, and adjusted by dragging."""
+"""The extenders of a mesh: how they are stored, followed through edits, and their strength as a property."""

@@ -177,7 +177,7 @@ def _look(scene: bpy.types.Scene) -> None:
         _state.operator = last_operator.address()
         is_written = bool(new_seams) and seams.follow(bpy.context, new_seams)
         for edit_object, strengths in new_strengths.items():
-            # Unwrapping after changed seams heeds the extenders, except that it keeps other islands as they are.
+            # Unwrapping after changed seams uses the extenders, except that it keeps other islands as they are.
             if strengths and not new_seams:
                 is_written |= _follow_strengths(edit_object, strengths)
     if is_written:

@@ -19,12 +19,20 @@ def address() -> int:
 
 def moves_pins(address_before: int) -> bool:
     """Return whether pins moved since `address_before` are to be followed: by a transform, or by a script."""
-    return address() == address_before or _last().bl_idname.startswith(_TRANSFORMS)
+    last = _ended_since(address_before)
+    return last is None or last.bl_idname.startswith(_TRANSFORMS)
 
 
 def changes_seams(address_before: int) -> bool:
     """Return whether seams changed since `address_before` are to be followed; those of a map are there to keep it."""
-    return address() == address_before or _last().bl_idname not in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
+    last = _ended_since(address_before)
+    return last is None or last.bl_idname not in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
+
+
+def _ended_since(address_before: int) -> bpy.types.Operator | None:
+    # Blender forgets all operators when one is unregistered.
+    last = _last()
+    return None if last is None or last.as_pointer() == address_before else last
 
 
 def _last() -> bpy.types.Operator | None:

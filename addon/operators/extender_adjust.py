@@ -17,7 +17,7 @@ from ..live.adjusted_map import AdjustedMap
 from ..ui import progress
 from .extender_list import INDEX, ExtenderOperator
 
-# Change of strength per pixel: a tenth of a screen's width makes 1, the strength that counts like the whole border.
+# Change of strength per pixel: 100 pixels make 1, the strength that counts like the whole border.
 _STEP = 0.01
 # What Shift makes of it, as in Blender's own transforms.
 _PRECISION = 0.1
@@ -148,13 +148,10 @@ class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _end(self, context: bpy.types.Context) -> None:
-        # Blender has no workspace while it closes or loads a file.
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
+        progress.clear_status(context)
 
 
 def end_running() -> None:
     """End a running drag as Esc does: Blender lets go of an operator that is unregistered without telling it."""
     if adjusted_map.give_up():
-        for window in bpy.context.window_manager.windows:
-            window.workspace.status_text_set(None)
+        progress.clear_status(bpy.context)

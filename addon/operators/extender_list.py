@@ -47,18 +47,24 @@ class ExtenderOperator(ReportingOperator):
             raise SelectionError(texts.NO_SUCH_EXTENDER)
         return index
 
-    def let_follow(self, edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]) -> None:
-        """Let the map follow changed extenders at once, in the operator's own undo step; report where it cannot."""
+    def let_follow(self, edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]) -> bool:
+        """Let the map follow changed extenders at once, in the operator's own undo step; report where it cannot.
+
+        Returns whether it follows.
+        """
         if not strengths:
-            return
+            return True
+        follows = False
         try:
             note = following.follow_extenders(edit_object, strengths)
+            follows = True
         except ReadableError as error:
             note = str(error)
         except MemoryError:
             note = texts.OUT_OF_MEMORY_TO_FOLLOW
         if note:
             self.report({"WARNING"}, note)
+        return follows
 
 
 class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
@@ -92,8 +98,9 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
         existing = sum(map(len, pairs.values())) - count
         follows = following.is_on(context.scene) and count > 0
         if follows:
-            for edit_object, fresh in added.items():
-                self.let_follow(edit_object, dict.fromkeys(fresh, self.strength))
+            # Each of them, also after one that cannot follow.
+            all_follow = [self.let_follow(mesh, dict.fromkeys(fresh, self.strength)) for mesh, fresh in added.items()]
+            follows = all(all_follow)
         self.report({"INFO" if count else "WARNING"}, texts.added_extenders(count, existing, follows))
         return {"FINISHED"} if count else {"CANCELLED"}
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn over the editors: what to draw, as arrays, apart from how."""
+"""What is drawn over the editors."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How to draw on a region of the screen; what to draw is in the files beside this one."""
+"""Fills triangles on a region of the screen, for the extenders' arrows."""
 
 import gpu
 import numpy as np

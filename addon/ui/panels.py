@@ -86,8 +86,8 @@ class _ExtendersPanel(_UnwrapPanel):
         column.operator_context = "INVOKE_REGION_WIN"
         column.operator(names.ADJUST_EXTENDER_OPERATOR, icon="ARROW_LEFTRIGHT").index = -1
         row = layout.row(align=True)
-        row.operator(names.SELECT_EXTENDER_OPERATOR, text="Select").index = -1
-        row.operator(names.REMOVE_EXTENDER_OPERATOR, text="Remove").broken = False
+        row.operator(names.SELECT_EXTENDER_OPERATOR, text=texts.SELECT_LABEL).index = -1
+        row.operator(names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_LABEL).broken = False
         if any(tracking.broken(mesh)):
             remove = layout.operator(
                 names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"

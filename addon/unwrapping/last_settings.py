@@ -32,6 +32,6 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
 
 
 def last_settings() -> Settings:
-    """Return the settings with which the operator was used last; its defaults where it was not."""
+    """Return the settings with which the operator was used last; its defaults before."""
     properties = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
     return settings_of(properties) if properties else Settings()

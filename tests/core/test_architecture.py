@@ -176,6 +176,20 @@ def test_what_artists_read_stands_in_one_file():
     assert len(sentences(ADDON / "core" / "texts.py")) > 50
 
 
+def shown_words(path):
+    """Return the words that a file hands to Blender's layouts itself."""
+    calls = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)]
+    texts = [keyword.value for call in calls for keyword in call.keywords if keyword.arg == "text"]
+    return [text.value for text in texts if isinstance(text, ast.Constant) and text.value]
+
+
+def test_words_in_panels_and_menus_stand_there_too(tmp_path):
+    assert {relative(path): shown_words(path) for path in sorted(ADDON.rglob("*.py")) if shown_words(path)} == {}
+    file = tmp_path / "bad.py"
+    file.write_text("layout.operator(NAME, text='Go')\nlayout.prop(data, 'name', text='')\n")
+    assert shown_words(file) == ["Go"]
+
+
 def test_scan_sees_a_forbidden_import(tmp_path, monkeypatch):
     monkeypatch.setitem(globals(), "ADDON", tmp_path)
     (tmp_path / "core").mkdir()

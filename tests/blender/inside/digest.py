@@ -156,7 +156,7 @@ def _edit_state(bm):
         flags = layer and [(loop[layer].select, loop[layer].select_edge) for loop in loops]
     return {
         "active face": bm.faces.active and bm.faces.active.index,
-        "selection history": [(type(element).__name__, element.index) for element in bm.select_history],
+        "selection history": [(type(element).__name__, element.index) for element in list(bm.select_history)],
         "select mode": sorted(bm.select_mode),
         "UV selection": flags,
     }

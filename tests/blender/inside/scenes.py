@@ -266,7 +266,7 @@ def state(edited):
         "edges": [(e.select, e.hide, e.seam, e.smooth) for e in bm.edges],
         "faces": [(f.select, f.hide, f.smooth, f.material_index) for f in bm.faces],
         "active face": bm.faces.active and bm.faces.active.index,
-        "selection history": [(type(element).__name__, element.index) for element in bm.select_history],
+        "selection history": [(type(element).__name__, element.index) for element in list(bm.select_history)],
         "select mode": bm.select_mode,
         "UV selection": uv_flags(edited),
         "UV maps": [(layer.name, layer.active, layer.active_render) for layer in edited.data.uv_layers],

@@ -135,6 +135,17 @@ def test_existing_pair_is_not_doubled(reports):
     assert pairs(grid) == [(7, 2), (3, 8)]
 
 
+def test_the_report_says_when_the_extender_acts_where_the_map_cannot_follow(reports):
+    grid = edit_grid(uv_map=False)
+    bpy.context.scene.spectral_unwrap_live = True
+    add(grid, [7, 2])
+    warning, added = reports()
+    assert warning[0] == "Warning"
+    assert "UV map" in warning[1]
+    assert added[0] == "Info"
+    assert "will act on the next unwrap" in added[1]
+
+
 def test_every_mesh_in_edit_mode_goes_by_its_own_selection(reports):
     one, other, third = (scenes.grid(3, 3, name=name) for name in ("One", "Other", "Third"))
     scenes.edit(one, other, third, select=False)
@@ -252,9 +263,20 @@ def test_select_makes_its_vertices_the_whole_selection():
     assert bpy.ops.mesh.spectral_extender_select() == {"FINISHED"}
     bm = scenes.edit_mesh(grid)
     assert [v.index for v in bm.verts if v.select] == [6, 8]
-    assert [v.index for v in bm.select_history] == [8, 6]
+    assert [v.index for v in list(bm.select_history)] == [8, 6]
     assert not any(v.select for v in scenes.edit_mesh(other).verts)
     assert bpy.context.tool_settings.mesh_select_mode[0]
+
+
+def test_sync_selection_follows_the_selected_vertices():
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    grid = edit_grid()
+    add(grid, [8, 6])
+    bm = scenes.edit_mesh(grid)
+    if hasattr(bm, "uv_select_sync_valid"):  # from 5.0: a UV selection beside the mesh's, which would go on to be shown
+        bm.uv_select_sync_valid = True
+    assert bpy.ops.mesh.spectral_extender_select() == {"FINISHED"}
+    assert not getattr(scenes.edit_mesh(grid), "uv_select_sync_valid", False)
 
 
 def test_hidden_vertices_are_not_selected(reports):

@@ -350,6 +350,14 @@ def test_live_unwrap_follows_other_seams_only(monkeypatch, is_ours):
     assert np.array_equal(scenes.read_uv(cylinder), before) == is_ours
 
 
+def test_live_unwrap_goes_on_when_blender_has_forgotten_what_ended(monkeypatch):
+    """As it does when another add-on is disabled."""
+    last_operator = module("live.last_operator")
+    monkeypatch.setattr(last_operator, "_last", lambda: None)
+    assert last_operator.moves_pins(1)
+    assert last_operator.changes_seams(1)
+
+
 def invoked(monkeypatch, is_waiting=True):
     defaults = {"size_variation": 2.0, "angle_distortion": 1.05, "max_length": 0.0, "cuts": 0, "unwrap": True}
     operator = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
