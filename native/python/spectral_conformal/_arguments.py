@@ -21,7 +21,7 @@ Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 
 # Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
-EXTENDER_LIMIT = 1e4
+STRENGTH_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 _SIZE_LIMIT = _native.SIZE_LIMIT
 
@@ -173,9 +173,9 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
         if i == j:
             raise ValueError(f"Extender {k} joins vertex {i} with itself; give it two different vertices.")
-        if not abs(strength) <= EXTENDER_LIMIT:
+        if not abs(strength) <= STRENGTH_LIMIT:
             raise ValueError(
-                f"The strength of extender {k} must lie between {-EXTENDER_LIMIT:g} and {EXTENDER_LIMIT:g}, "
+                f"The strength of extender {k} must lie between {-STRENGTH_LIMIT:g} and {STRENGTH_LIMIT:g}, "
                 f"not {strength!r}."
             )
         result.append((i, j, strength))

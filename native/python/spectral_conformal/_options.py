@@ -23,8 +23,6 @@ _CHOICES = {
     "boundary": get_args(Boundary),
     "factorization": get_args(Factorization),
 }
-# Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
-STRENGTH_LIMIT = 1e4
 
 
 @dataclass(frozen=True)
@@ -87,8 +85,8 @@ class Options:
         for name in ("fill_holes", "fold_free", "fallbacks"):
             _set(self, name, _arguments.checked_flag(getattr(self, name), name))
         for name, low, high in (
-            ("soft_pins", 0.0, STRENGTH_LIMIT),
-            ("hole_rigidity", 0.0, STRENGTH_LIMIT),
+            ("soft_pins", 0.0, _arguments.STRENGTH_LIMIT),
+            ("hole_rigidity", 0.0, _arguments.STRENGTH_LIMIT),
             ("area_blend", 0.0, 1.0),
             ("tolerance", 1e-14, 1e-3),
         ):

@@ -29,6 +29,9 @@ struct CorrectionOptions {
   bool only_falling = false;
 };
 
+/// Corrections that end below this change of z leave less than single precision, in which UVs are stored.
+constexpr double resolved_change = 1e-7;
+
 struct Correction {
   double change = 0;  ///< of the last step taken, relative to z; not a number or infinite where there was none to take
   int solves = 0;

@@ -275,14 +275,13 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
         sum += factor * form_part;
       }};
   CorrectionOptions corrections;
-  corrections.max_corrections = 30;
-  corrections.negligible = 0.01 * options.tolerance;
+  corrections.max_corrections = 30;                   // a bound: they end by themselves where they no longer fall
+  corrections.negligible = 0.01 * options.tolerance;  // so that what Lanczos left does not show in the result
   corrections.only_falling = true;  // negative eigenvalues larger than mu in size make the changes grow
   const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
   result.solves += correction.solves;
   result.residual = correction.change;
-  constexpr double resolved = 1e-7;  // below single precision, in which UVs are stored
-  result.converged = result.residual < resolved && result.vector.allFinite() && area.value(result.vector) > 0;
+  result.converged = result.residual < resolved_change && result.vector.allFinite() && area.value(result.vector) > 0;
   return result;
 }
 

@@ -104,8 +104,9 @@ class RitzSpace {
 /// Runs until the residual's length in G is below the tolerance, or, where rounding keeps it above, no longer falls.
 /// Returns whether it got there, or, for tolerances below 1e-9, stopped near enough for the corrections that follow.
 bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progress& progress) {
-  constexpr double near_enough = 1e-9;
+  constexpr double near_enough = 1e-9;  // a hundredth of what resolved_change asks of the corrections
   const int max_solves = options.max_restarts * options.krylov_dimension;
+  // Five restarts without halving the residual: rounding keeps it where it is.
   const int patience = 20 * options.krylov_dimension;
   double best = std::numeric_limits<double>::infinity();
   int best_at = space.solves();

@@ -68,7 +68,7 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
       if (free_index[v] >= 0) rhs[free_index[v]] = gradient[v];
     }
     const double norm = rhs.norm();
-    if (!(norm < 0.5 * previous)) break;
+    if (!(norm < 0.5 * previous)) break;  // rounding is reached
     previous = norm;
     factorization->solve(rhs, step);
     for (int v = 0; v < n; ++v) {

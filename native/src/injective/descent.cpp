@@ -56,6 +56,7 @@ class QuadraticForm {
       weights.push_back(stiffness(element, measure_, jacobian(element, z)));
       largest = std::max(largest, weights.back().antiholomorphic);
     }
+    // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the last.
     for (; min_weight_ < 1; min_weight_ *= 100) {
       assemble(weights, min_weight_ * largest);
       ++attempts;

@@ -20,9 +20,6 @@ namespace {
 /// The reduced equation must hold at least this well before the corrections, whatever tolerance was asked for: on flat
 /// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which they then take out.
 constexpr double eigenproblem_residual_limit = 1e-3;
-/// The corrections must end below this change of z: what is left then lies below single precision, in which UVs are
-/// stored.
-constexpr double resolved = 1e-7;
 
 /// s of the first attempt: well above the 1e-16 that rounding takes from the diagonal of L, well below the lambda of a
 /// patch of a million vertices.
@@ -44,7 +41,7 @@ struct SpectralSolver::Eigenvector {
   double lambda = 0;    ///< z^H L z / z^H B z
   double residual = 0;  ///< see SolveRecord
   double change = 0;    ///< the last correction, relative to z
-  double change_limit = resolved;
+  double change_limit = resolved_change;
   int solves = 0;
   bool converged = false;
 };
@@ -176,7 +173,7 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     if (kept && previous_.size() > 0) starts.push_back(extended.restrict(previous_));
     RitzBasis fresh;
     RitzBasis& basis = kept ? ritz_basis_ : fresh;
-    result.change_limit = std::max(resolved, iteration.tolerance);
+    result.change_limit = std::max(resolved_change, iteration.tolerance);
     if (take(solve_extended_eigenproblem(factorization, *energy_, extended, iteration, starts, basis, progress))) {
       result.lambda = energy_->value(result.z) / extended.value(extended.restrict(result.z));
     }

@@ -181,7 +181,7 @@ void add_degenerate_faces(const Cut& cut, Unwrap& result) {
 /// into cutting the mesh into charts.
 std::vector<std::pair<double, double>> work_fractions(const std::vector<Chart>& charts) {
   constexpr double cutting = 0.05;
-  double total = 1e-9;
+  double total = 1e-9;  // no charts: no division by zero
   for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
   std::vector<std::pair<double, double>> result;
   double done = 0;
