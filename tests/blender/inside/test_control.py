@@ -61,7 +61,8 @@ def area(edited):
 def scale_spread(edited):
     """Return the standard deviation of the log2 of the linear scale over the quads."""
     uv, positions = (x.reshape(-1, 4, x.shape[1]) for x in (scenes.read_uv(edited), scenes.corner_positions(edited)))
-    image = np.abs(np.cross(uv[:, 2] - uv[:, 0], uv[:, 3] - uv[:, 1]))
+    one, other = uv[:, 2] - uv[:, 0], uv[:, 3] - uv[:, 1]
+    image = np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])  # NumPy 2.5 crosses vectors in space only
     surface = np.linalg.norm(np.cross(positions[:, 2] - positions[:, 0], positions[:, 3] - positions[:, 1]), axis=1)
     scale = np.log2(image / surface) / 2.0
     return np.sqrt(np.average((scale - np.average(scale, weights=surface)) ** 2, weights=surface))
