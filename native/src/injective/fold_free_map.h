@@ -22,7 +22,7 @@ struct FoldFreePatch {
 
 struct FoldFreeMap {
   ComplexVector z;            ///< (V,)
-  int flipped_before = 0;      ///< triangles without positive image area in the given map
+  int flipped_before = 0;     ///< triangles without positive image area in the given map
   int flipped = 0;            ///< the same of z
   bool is_embedding = false;  ///< whether the given map had to be given up for an embedding
   /// Of an embedding: how the last descent, of its conformal distortion, ended. None where there was no such descent,
@@ -33,10 +33,10 @@ struct FoldFreeMap {
   bool is_locally_injective = false;
 };
 
-/// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are unfolded
-/// where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary winds
-/// round more than once, a Tutte embedding of the chart (tutte_embedding.h) is relaxed, first towards an isometry,
-/// then towards the least conformal distortion, without a step that folds a triangle (descent.h); not with
+/// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are
+/// unfolded where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary
+/// winds round more than once, a Tutte embedding of the chart (tutte_embedding.h) is relaxed, first towards an
+/// isometry, then towards the least conformal distortion, without a step that folds a triangle (descent.h); not with
 /// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an
 /// edge), the other where there is room. Degenerate triangles have no fold.
 ///
