@@ -30,13 +30,12 @@ FLAVOURS = {
     },
     # Runs one executable only; the others have no threads. OpenBLAS, CHOLMOD and METIS are not instrumented.
     "thread": {
-        **UNITY,
         "CMAKE_BUILD_TYPE": "Debug",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
         "SPECTRAL_CONFORMAL_SANITIZE": "thread",
     },
     # What is built where SuiteSparse is absent.
-    "eigen_only": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
+    "eigen_only": {"CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
 }
 # What a flavour builds and tests, where that is not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
