@@ -99,8 +99,7 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
         follows = following.is_on(context.scene) and count > 0
         if follows:
             # Each of them, also after one that cannot follow.
-            all_follow = [self.let_follow(mesh, dict.fromkeys(fresh, self.strength)) for mesh, fresh in added.items()]
-            follows = all(all_follow)
+            follows = all([self.let_follow(edited, dict.fromkeys(new, self.strength)) for edited, new in added.items()])
         self.report({"INFO" if count else "WARNING"}, texts.added_extenders(count, existing, follows))
         return {"FINISHED"} if count else {"CANCELLED"}
 

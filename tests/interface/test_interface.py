@@ -12,7 +12,7 @@ from tests.blender import blenders
 HERE = Path(__file__).resolve().parent
 SCREENSHOTS = HERE.parents[1] / "build" / "interface"
 SIZE = (1600, 1000)
-SECONDS = 900  # ends what hangs; the longest driver takes some 60 s on an idle machine
+SECONDS = 900  # ends what hangs; the longest driver has taken 130 s beside other work
 
 
 @pytest.fixture

@@ -14,14 +14,13 @@ COMMON = {
     "SPECTRAL_CONFORMAL_WARNINGS_AS_ERRORS": "ON",
     "CMAKE_MAKE_PROGRAM": TOOLS / "ninja",
 }
-# Most of the time goes into Eigen's headers, again for every file. The release flavour compiles file by file, so that
-# none lacks an include.
-UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
 FLAVOURS = {
     "release": {"CMAKE_BUILD_TYPE": "Release"},
-    # With clang, for libFuzzer's targets, which share the library with the tests.
+    # With clang, for libFuzzer's targets, which share the library with the tests. Several files as one unit, since most
+    # of the time goes into Eigen's headers; the other flavours go file by file, so that none lacks an include.
     "sanitized": {
-        **UNITY,
+        "CMAKE_UNITY_BUILD": "ON",
+        "CMAKE_UNITY_BUILD_BATCH_SIZE": 8,
         "CMAKE_BUILD_TYPE": "Debug",
         "CMAKE_CXX_COMPILER": "clang++",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",

@@ -106,7 +106,7 @@ class RitzSpace {
 bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progress& progress) {
   constexpr double near_enough = 1e-9;  // a hundredth of what resolved_change asks of the corrections
   const int max_solves = options.max_restarts * options.krylov_dimension;
-  // Five restarts without halving the residual: rounding keeps it where it is.
+  // Some six restarts without halving the residual: rounding keeps it where it is.
   const int patience = 20 * options.krylov_dimension;
   double best = std::numeric_limits<double>::infinity();
   int best_at = space.solves();

@@ -82,7 +82,7 @@ class FoldFree {
     if (count_flipped(clamped, result.z, unplaced) > 0) {
       unfold_locally(clamped, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
     }
-    // Towards an isometry only so far that no triangle stays collapsed; what is seen is the second descent.
+    // The first need not converge as far as the second, which is what is seen.
     relax(clamped, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
     result.relaxation = relax(clamped, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
     result.flipped = count_flipped(elements_, result.z, unplaced);

@@ -186,8 +186,8 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
     const QuotientForm quotient = quotient_form(form);
     CorrectionOptions corrections;
-    corrections.max_corrections =
-        40;  // each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 the next eigenvalue
+    // Each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 being the next eigenvalue.
+    corrections.max_corrections = 40;
     corrections.negligible = 1e-10;
     const Correction correction = correct(factorization, *energy_, quotient, corrections, result.z);
     result.solves += correction.solves;

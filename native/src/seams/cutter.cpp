@@ -35,7 +35,7 @@ constexpr double nearly_as_good = 0.4;
 /// Of pieces up to this number of vertices every region is tried before giving up, of larger ones a few groups of them.
 /// None and twice as many vertices both gave 4 % longer seams on 12 meshes.
 constexpr int small_piece = 3000;
-constexpr std::size_t all_groups = 50;  // of two regions or more: more than any such piece has
+constexpr std::size_t all_groups = 50;  // of six regions each, as trial_vertices allows: a bound
 constexpr std::size_t few_groups = 4;   // trials of as many vertices as trial_vertices each
 /// Vertices that a round of trials solves for, which is 2 to 6 trials.
 constexpr int trial_vertices = 40000;

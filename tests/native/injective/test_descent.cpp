@@ -8,8 +8,6 @@
 #include "spectral_conformal/parameterize.h"
 
 namespace spectral_conformal::test {
-namespace {}  // namespace
-
 TEST_SUITE_BEGIN("descent");
 
 TEST_CASE("the conformal descent of a flat patch ends at a similarity, whatever the backend") {
