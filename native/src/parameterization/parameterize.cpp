@@ -99,9 +99,8 @@ void Solver::State::blend(const Progress& progress) {
   is_blended = true;
 }
 
-// The fractions of progress in this file and in area_blend.cpp are those of the time that phases take on meshes of some
-// ten thousand vertices, roughly: a blend is many factorisations, a factorisation somewhat longer than the
-// eigenproblem.
+// The fractions of progress in this file and in area_blend.cpp are guesses of the time that phases take: a blend is
+// many factorisations, a factorisation somewhat longer than the eigenproblem. They only have to rise.
 
 /// The outcome has no map.
 SpectralMap Solver::State::factorize(const Progress& progress) {
