@@ -9,7 +9,15 @@ namespace {
 /// Tells the size of the factor, which Eigen counts with ints, before there is one.
 class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
  public:
-  double planned_nonzeros() const { return m_nonZerosPerCol.cast<double>().sum(); }
+  double planned_nonzeros() const {
+    double sum = 0;
+    const auto* start = m_matrix.outerIndexPtr();
+    // The starts of a factor that is too large have wrapped round; their differences have not.
+    for (Eigen::Index k = 0; k < m_matrix.outerSize(); ++k) {
+      sum += static_cast<unsigned>(start[k + 1]) - static_cast<unsigned>(start[k]);
+    }
+    return sum;
+  }
 };
 
 class EigenFactorization final : public Factorization {
