@@ -11,7 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from tools import demo, environment, packaging
+from tools import demo, environment, other_pythons, packaging
 from tools.steps import StepError
 
 
@@ -56,6 +56,7 @@ def main() -> int:
                 environment.set_up("build", "quick")
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
             environment.set_up("build", "bpy", "demo", "package", "fuzz", "quick", "test")
+            other_pythons.set_up()
             return environment.run_pytest(options.further_arguments)
         if options.command == "fuzz":
             environment.set_up("build", "fuzz")

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from tools import systems
+
 TESTS = Path(__file__).resolve().parent
 
 
@@ -12,6 +14,11 @@ def pytest_addoption(parser):
     parser.addoption(
         "--blender", action="append", metavar="NAME", help="of the tests in Blender, run those in this one only"
     )
+
+
+def pytest_terminal_summary(terminalreporter):
+    for line in systems.left_out():
+        terminalreporter.write_line(line)
 
 
 def pytest_collection_modifyitems(config, items):
@@ -22,7 +29,9 @@ def pytest_collection_modifyitems(config, items):
         return
     from tests.blender import blenders
 
-    known = [blender.name for blender in blenders.all_blenders()]
+    known = list(
+        dict.fromkeys(blender.name for blender in (*blenders.all_blenders(), *blenders.blenders_with_window()))
+    )
     if not set(wanted) <= set(known):
         raise pytest.UsageError(f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}")
     left_out = [item for item in items if blender_of(item) not in (None, *wanted)]

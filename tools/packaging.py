@@ -14,8 +14,8 @@ import zlib
 from collections.abc import Sequence
 from pathlib import Path
 
-from tools import paths, steps
-from tools.environment import PYTHON, bpy_environments, site_packages, wheel
+from tools import paths, steps, wheels
+from tools.environment import PYTHON, bpy_environments, site_packages, system_blender_version, wheel
 from tools.steps import BUILD, ROOT, StepError
 
 ADDON = ROOT / "addon"
@@ -29,6 +29,7 @@ SYSTEMS = {"manylinux": "linux", "linux": "linux", "win": "windows", "macosx": "
 # The Pythons of Blender 3.4 to 4.1, and the oldest one of 4.2 and later.
 LEGACY_PYTHONS = ("cp310", "cp311")
 OLDEST_EXTENSION_PYTHON = 11
+OLDEST_WITH_EXTENSIONS = (4, 2)
 # The earliest time that a zip can hold: equal content gives equal bytes.
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -51,7 +52,8 @@ def run() -> int:
         validate(extension)
     if not any(PACKAGES.iterdir()):
         raise StepError(
-            f"No Blender from 3.4 on has the Python of this wheel, {tag}: run this with Python 3.10, 3.11 or later."
+            f"No Blender from 3.4 on has the Python of this wheel, {tag}: run this with Python 3.10 (Blender 3.4 to "
+            "4.0), 3.11 (3.4 of Debian 12, 4.1 to 5.0) or 3.13 (from 5.1)."
         )
     report(PACKAGES)
     return 0
@@ -65,9 +67,12 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
         raise StepError(
             f"{folder} holds no wheel of spectral_conformal for Python 3.{OLDEST_EXTENSION_PYTHON} or later."
         )
-    tools = blender_tools()
+    tools = extension_tools()
     if not tools:
-        raise StepError("Blender's own tool packs the extensions, and comes with bpy: run this with Python 3.11.")
+        raise StepError(
+            "Blender's own tool packs the extensions: run this with Python 3.11 or 3.13, for which there is a bpy, or "
+            "install Blender 4.2 or later."
+        )
     shutil.rmtree(output, ignore_errors=True)
     output.mkdir(parents=True)
     with steps.progress("packing legacy zips"):
@@ -83,7 +88,7 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
             path.write_bytes(content)
         words = ["--split-platforms", "--source-dir", source, "--output-dir", output]
         newest = list(tools.values())[-1]
-        steps.run("packing extensions (blender_ext.py)", [PYTHON, newest, "build", *words], log="package")
+        steps.run("packing extensions (Blender's own tool)", [*newest, "build", *words], log="package")
     for extension in sorted(output.glob("*.zip")):
         if "-legacy-" not in extension.name:
             validate(extension)
@@ -132,16 +137,12 @@ def version() -> str:
 def repair_wheel() -> Path:
     """Return the wheel of spectral_conformal with the shared libraries that it needs inside."""
     built = wheel()
-    state = steps.digest([built])
+    state = steps.digest([built, Path(wheels.__file__)])
     if not steps.is_done("repair", state) or not list(REPAIRED.glob("*.whl")):
-        shutil.rmtree(REPAIRED, ignore_errors=True)
-        steps.run(
-            "putting shared libraries into the wheel (auditwheel)",
-            [PYTHON, "-m", "auditwheel", "repair", "--wheel-dir", REPAIRED, built],
-            log="package", environ={"PATH": f"{PYTHON.parent}:{os.environ['PATH']}"},
-        )  # fmt: skip
+        wheels.repair(built, REPAIRED)
         steps.mark_done("repair", state)
-    return next(REPAIRED.glob("*.whl"))
+    (repaired,) = REPAIRED.glob("*.whl")
+    return repaired
 
 
 def addon_files() -> dict[str, bytes]:
@@ -189,17 +190,20 @@ def write_zip(path: Path, files: dict[str, bytes]) -> None:
 
 def validate(extension: Path) -> None:
     """Let the tool of every Blender that is at hand check the extension."""
-    tools = blender_tools()
+    tools = extension_tools()
     for blender, tool in tools.items():
-        steps.run(
-            f"validating {extension.name} (Blender {blender})", [PYTHON, tool, "validate", extension], log="package"
-        )
+        steps.run(f"validating {extension.name} ({blender})", [*tool, "validate", extension], log="package")
     if not tools:
-        print("- the extension was not validated: that needs bpy 4.2 or later")
+        print("- the extension was not validated: that needs bpy, or the system's Blender, 4.2 or later")
 
 
-def blender_tools() -> dict[str, Path]:
-    """Return the extension tools (blender_ext.py) that the installed versions of bpy bring along, by version."""
+def extension_tools() -> dict[str, list[str]]:
+    """Return the commands of the extension tools at hand, by the Blenders that bring them, the newest bpy last."""
+    tools = {}
+    if system_blender_version() >= OLDEST_WITH_EXTENSIONS:
+        tools["the system's Blender"] = ["blender", "--factory-startup", "--command", "extension"]
     pattern = "bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"
-    found = {name: list(site_packages(folder).glob(pattern)) for name, folder in bpy_environments().items()}
-    return {name: paths[0] for name, paths in found.items() if paths}
+    for name, folder in bpy_environments().items():
+        for path in site_packages(folder).glob(pattern):
+            tools[f"bpy {name}"] = [str(PYTHON), str(path)]
+    return tools

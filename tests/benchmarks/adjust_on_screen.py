@@ -87,7 +87,7 @@ def measure(vertices: int) -> str:
                 ],
                 env={
                     **os.environ,
-                    **blenders.make_profile(Path(folder), bundles_module=True),
+                    **blenders.Blender("system").make_profile(Path(folder)),
                     "DISPLAY": display,
                     "LIBGL_ALWAYS_SOFTWARE": "1",
                 },

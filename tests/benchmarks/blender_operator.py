@@ -54,7 +54,7 @@ def main() -> None:
     side = sys.argv[1] if len(sys.argv) > 1 else str(SIDE)
     for blender in blenders.all_blenders():
         with tempfile.TemporaryDirectory() as folder:
-            environment = blenders.make_profile(Path(folder), blender.bundles_module)
+            environment = blender.make_profile(Path(folder))
             separator = [] if blender.python else ["--"]
             command = [*blender.script_command(Path(__file__)), *separator, "--one", side]
             output = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout

@@ -5,14 +5,17 @@ import functools
 import importlib.util
 import os
 import shutil
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools import environment
+from tools import environment, other_pythons, systems
 from tools.steps import ROOT
 
 ADDON = ROOT / "addon"
 PYTEST_RUNNER = Path(__file__).with_name("run_pytest.py")
+# Blenders that are not built for Debian leave PYTHONPATH alone unless they are told.
+BACKGROUND = ("--background", "--factory-startup", "--python-use-system-env", "--python-exit-code", "1")
 
 
 @dataclass(frozen=True)
@@ -22,27 +25,65 @@ class Blender:
     Attributes:
         name: for the reader of the test report, and for the option --blender.
         python: the interpreter that imports this Blender as `bpy`; None for a Blender with a program of its own.
-        bundles_module: whether the add-on carries `spectral_conformal` inside, as the zip for 3.4 to 4.1 does;
-            otherwise it stands at top level, as an extension's wheel does.
+        system: the other release of Debian that it runs in; None for this machine.
+        packages: folders for Python's path.
     """
 
     name: str
-    python: Path | None
-    bundles_module: bool
+    python: str | None = None
+    system: systems.System | None = None
+    packages: tuple[Path, ...] = ()
+
+    @property
+    def bundles_module(self) -> bool:
+        """Tell whether the add-on carries `spectral_conformal` inside, as the zip for 3.4 to 4.1 does.
+
+        Otherwise it stands at top level, as an extension's wheel does.
+        """
+        return self.python is None
+
+    def command(self, *options: object) -> list[str]:
+        """Return the command that runs this Blender, or the Python of this bpy, with options."""
+        if self.system:
+            return self.system.command([self.python or "blender", *options])
+        return [self.python or system_blender(), *map(str, options)]
 
     def script_command(self, script: Path) -> list[str]:
         """Return the command that runs a Python script in this Blender, in background mode."""
-        if self.python:
-            return [str(self.python), str(script)]
-        # Blenders that are not built for Debian leave PYTHONPATH alone unless they are told.
-        options = ["--background", "--factory-startup", "--python-use-system-env", "--python-exit-code", "1"]
-        return [system_blender(), *options, "--python", str(script)]
+        return self.command(script) if self.python else self.command(*BACKGROUND, "--python", script)
 
     def pytest_command(self) -> list[str]:
         """Return the words before pytest's own arguments."""
-        if self.python:
-            return [str(self.python), "-m", "pytest"]
-        return [*self.script_command(PYTEST_RUNNER), "--"]
+        return self.command("-m", "pytest") if self.python else [*self.script_command(PYTEST_RUNNER), "--"]
+
+    def make_profile(self, folder: Path) -> dict[str, str]:
+        """Install the add-on, by links, into a profile in `folder`; return the environment to run this Blender with.
+
+        In it the project's folder is on Python's path, so that scripts can import `tests` and `tools`.
+        """
+        addon = folder / "scripts" / "addons" / "spectral_unwrap"
+        addon.mkdir(parents=True)
+        for path in ADDON.iterdir():
+            (addon / path.name).symlink_to(path)
+        if self.bundles_module:
+            for path in self.module():
+                (addon / path.name).symlink_to(path)
+        return {
+            **os.environ,
+            "BLENDER_USER_SCRIPTS": str(folder / "scripts"),
+            "BLENDER_USER_CONFIG": str(folder / "config"),
+            "BLENDER_USER_DATAFILES": str(folder / "datafiles"),
+            "PYTHONPATH": os.pathsep.join(
+                filter(None, [str(ROOT), *map(str, self.packages), os.environ.get("PYTHONPATH")])
+            ),
+        }
+
+    def module(self) -> Sequence[Path]:
+        """Return the folders of the native module, as they stand side by side in the zip for 3.4 to 4.1."""
+        if self.system:
+            site = other_pythons.site(self.system.python)
+            return [site / "spectral_conformal", site / "spectral_conformal.libs"]
+        return [package_folder("spectral_conformal")]
 
 
 def system_blender() -> str:
@@ -57,32 +98,26 @@ def system_blender() -> str:
 
 @functools.cache
 def all_blenders() -> tuple[Blender, ...]:
-    """Return the system's Blender and, where there is a `bpy` for this Python, all versions of it."""
-    versions = environment.bpy_environments().items()
-    return (
-        Blender("system", None, bundles_module=True),
-        *(Blender(f"bpy-{name}", folder / "bin" / "python", bundles_module=False) for name, folder in versions),
-    )
+    """Return the Blenders that this machine has, without a window.
 
-
-def make_profile(folder: Path, bundles_module: bool) -> dict[str, str]:
-    """Install the add-on, by links, into a Blender profile in `folder`; return the environment to run Blender with.
-
-    In it the project's folder is on Python's path, so that scripts can import `tests` and `tools`.
+    The system's, all versions of `bpy` for this Python, and those of Debian 13 where there is such a system.
     """
-    addon = folder / "scripts" / "addons" / "spectral_unwrap"
-    addon.mkdir(parents=True)
-    for path in ADDON.iterdir():
-        (addon / path.name).symlink_to(path)
-    if bundles_module:
-        (addon / "spectral_conformal").symlink_to(package_folder("spectral_conformal"))
-    return {
-        **os.environ,
-        "BLENDER_USER_SCRIPTS": str(folder / "scripts"),
-        "BLENDER_USER_CONFIG": str(folder / "config"),
-        "BLENDER_USER_DATAFILES": str(folder / "datafiles"),
-        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")])),
-    }
+    versions = environment.bpy_environments().items()
+    found = [Blender("system"), *(Blender(f"bpy-{name}", str(folder / "bin" / "python")) for name, folder in versions)]
+    if systems.TRIXIE.is_made:
+        packages = (environment.NEWEST_BPY_FOLDER, other_pythons.site(systems.TRIXIE.python))
+        found += [
+            Blender("trixie", system=systems.TRIXIE),
+            Blender(f"bpy-{environment.NEWEST_BPY}", "python3", systems.TRIXIE, packages),
+        ]
+    return tuple(found)
+
+
+@functools.cache
+def blenders_with_window() -> tuple[Blender, ...]:
+    """Return the Blenders that this machine has with a window."""
+    unstable = [Blender("sid", system=systems.SID)] if systems.SID.is_made else []
+    return (Blender("system"), *unstable)
 
 
 def add_pytest(folder: Path) -> None:

@@ -93,7 +93,7 @@ def run(path, functions, blender):
         report = Path(folder, "report.xml")
         options = ["-v", "--tb=short", "--color=no", "-p", "no:cacheprovider", "-p", "tests.blender.inside.fixtures"]
         options += [f"--rootdir={INSIDE}", f"--confcutdir={INSIDE}", f"--junitxml={report}", "-ojunit_logging=all"]
-        environ = blenders.make_profile(Path(folder), blender.bundles_module)
+        environ = blender.make_profile(Path(folder))
         if not blender.python:
             blenders.add_pytest(Path(folder))
         try:

@@ -43,7 +43,7 @@ def script():
 @pytest.mark.parametrize("blender", blenders.all_blenders(), ids=lambda blender: blender.name)
 def test_script_unwraps_every_mesh_of_a_file(blender, tmp_path):
     scene = str(tmp_path / "scene.blend")
-    environment = blenders.make_profile(tmp_path / "profile", blender.bundles_module)
+    environment = blender.make_profile(tmp_path / "profile")
 
     def run(name, code):
         file = tmp_path / name

@@ -55,5 +55,5 @@ def test_the_oldest_blenders_are_those_that_are_tested_and_promised():
     (oldest, newest) = re.search(r"-legacy-.*` for Blender (\d+\.\d+) to (\d+\.\d+)", README).groups()
     assert bl_info()["blender"] == (*numbers(oldest), 0)
     minimum = numbers(manifest("blender_version_min"))
-    assert minimum[:2] == numbers(environment.OLDER_BPY[0])[:2]
+    assert minimum[:2] == numbers(environment.OLDER_BPY[3, 11][0])[:2]
     assert numbers(newest) == (minimum[0], minimum[1] - 1)

@@ -240,9 +240,9 @@ def _keys(rng, made):
 
 
 def _materials(rng, made):
-    made.data.materials.append(bpy.data.materials.new("Material"))
+    material = bpy.data.materials.new("Material")
+    made.data.materials.append(material)
     made.data.materials.append(None)
-    material = made.data.materials[0]
     if material.node_tree is None:
         material.use_nodes = True
     texture = material.node_tree.nodes.new("ShaderNodeTexImage")

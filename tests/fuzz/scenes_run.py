@@ -50,7 +50,7 @@ def run(blender, seed, first, count, folder):
 
 def profile(blender, folder):
     """Return the environment of a Blender with the add-on."""
-    return {**blenders.make_profile(folder, blender.bundles_module), "PYTHONFAULTHANDLER": "1"}
+    return {**blender.make_profile(folder), "PYTHONFAULTHANDLER": "1"}
 
 
 def process_of(blender, seed, first, count, environment):

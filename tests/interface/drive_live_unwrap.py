@@ -19,6 +19,7 @@ COLUMNS, ROWS = 24, 12
 def open_cylinder():
     """Put half a bent cylinder, pinned at two corners, into edit mode in the UV Editing workspace."""
     yield from drive.open_uv_editing()
+    bpy.context.scene.tool_settings.use_uv_select_sync = False
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=COLUMNS, y_subdivisions=ROWS)
         bpy.ops.object.mode_set(mode="EDIT")
@@ -34,10 +35,16 @@ def open_cylinder():
             place.y += 0.25
         for loop in corners(bm):
             x, y = loop.vert.co.xy
-            loop[layer].select = loop[layer].select_edge = False
-            if abs(y) > 0.999 and abs(x) > 0.999:
-                loop[layer].pin_uv = True
-                loop[layer].select = x > 0.0 and y > 0.0
+            is_corner = abs(y) > 0.999 and abs(x) > 0.999
+            loop[layer].pin_uv = is_corner
+            # From 5.0 the UV selection belongs to the mesh.
+            selection = loop if drive.IS_5 else loop[layer]
+            names = ("uv_select_vert", "uv_select_edge") if drive.IS_5 else ("select", "select_edge")
+            for name, flag in zip(names, (is_corner and x > 0.0 and y > 0.0, False)):
+                setattr(selection, name, flag)
+        if drive.IS_5:
+            for face in bm.faces:
+                face.uv_select = False
         bmesh.update_edit_mesh(mesh)
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Pin corners")

@@ -11,7 +11,7 @@ import numpy as np
 from tests.interface import driving as drive
 from tests.interface.session import override, point_at, screenshot, uv, xdotool
 
-HEADER_TO_SELECT_DEFECTS = 395  # in the UV menu
+HEADER_TO_SELECT_DEFECTS = 423 if drive.IS_5 else 395  # in the UV menu
 STEPS, TURNS = 60, 1.25
 
 

@@ -11,13 +11,11 @@ import bpy
 import numpy as np
 
 from tests.interface import driving as drive
-from tests.interface.extender_sidebar import TAB, click_sidebar
+from tests.interface.extender_sidebar import SUGGEST_SEAMS, TAB, click_sidebar
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
-# Place in the viewport's sidebar, in pixels from its top left corner.
-SUGGEST_SEAMS = (103, 80)
 CUTS_ROW = 1  # of Adjust Last Operation, from the bottom
-HEADER_TO_SUGGEST_SEAMS = 417  # in the UV menu
+HEADER_TO_SUGGEST_SEAMS = 443 if drive.IS_5 else 417  # in the UV menu
 WHEEL_UP, WHEEL_DOWN = 4, 5
 
 shown = []
@@ -115,7 +113,7 @@ def adjust_last_operation(marked):
     """Ask for two cuts instead of four, which undoes the step and marks the first two."""
     yield from drive.open_adjust_last_operation()
     region = drive.region_of("VIEW_3D", "HUD")
-    drive.move_mouse(region.x + int(0.7 * region.width), region.y + 20 + 22 * CUTS_ROW)
+    drive.move_mouse(region.x + int(0.7 * region.width), region.y + drive.BOTTOM_ROW + drive.ROW * CUTS_ROW)
     yield
     screenshot("suggest_seams_adjust")
     xdotool("click", "--repeat", 2, "--delay", 60, 1)

@@ -15,11 +15,13 @@ from tests.interface.session import area_of, override, xdotool
 # Places in pixels, at Blender's default size of the interface. The menu that U opens has its entry Unwrap below the
 # mouse when it is opened for the first time.
 UV_MENU = 555  # in the viewport's header
-UNWRAP_TO_MARK_SEAM = 225
-HEADER_TO_SPECTRAL_UNWRAP = 351  # in the UV menu
-PACK_TO_KEEP_IN_PLACE = -44  # in the list of placements
+IS_5 = bpy.app.version >= (5, 0, 0)
+UNWRAP_TO_MARK_SEAM = 259 if IS_5 else 225
+HEADER_TO_SPECTRAL_UNWRAP = 380 if IS_5 else 351  # in the UV menu
+PACK_TO_KEEP_IN_PLACE = 47 if IS_5 else -44  # in the list of placements
 
-# Rows of Adjust Last Operation, counted from 0 at the bottom.
+# Rows of Adjust Last Operation, counted from 0 at the bottom, and the place of row 0 above the panel's lower end.
+BOTTOM_ROW, ROW = (18, 23) if IS_5 else (20, 22)
 ROWS = {"margin": 0, "margin_method": 1, "placement": 2}
 
 
@@ -57,7 +59,7 @@ def point_at_vertices(*indices):
 def point_at_setting(name):
     """Move the mouse to the field of a setting in Adjust Last Operation in the viewport."""
     region = region_of("VIEW_3D", "HUD")
-    move_mouse(region.x + int(0.7 * region.width), region.y + 20 + 22 * ROWS[name])
+    move_mouse(region.x + int(0.7 * region.width), region.y + BOTTOM_ROW + ROW * ROWS[name])
 
 
 def open_adjust_last_operation():

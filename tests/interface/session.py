@@ -13,6 +13,7 @@ import bmesh
 import bpy
 import numpy as np
 
+DRIVER = Path(sys.argv[sys.argv.index("--python") + 1])
 SCREENSHOTS, VERDICT = (Path(path) for path in sys.argv[sys.argv.index("--") + 1 :])
 PAUSE = 0.7  # seconds between steps; software rendering takes up to half of it
 
@@ -57,7 +58,7 @@ def run(sequence):
         except StopIteration:
             VERDICT.write_text("passed")
         except BaseException:  # noqa: BLE001 - whatever happened goes to the test that waits for the verdict
-            screenshot("failed")
+            screenshot(f"failed_{DRIVER.stem}")
             VERDICT.write_text(traceback.format_exc())
         bpy.ops.wm.quit_blender()
         return None

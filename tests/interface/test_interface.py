@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The system's Blender with a window on a virtual screen, driven by mouse and keyboard; screenshots in build/."""
+"""Blenders with a window on a virtual screen, driven by mouse and keyboard; screenshots in build/interface/."""
 
+import contextlib
+import os
 import shutil
 import subprocess
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -13,9 +17,10 @@ HERE = Path(__file__).resolve().parent
 SCREENSHOTS = HERE.parents[1] / "build" / "interface"
 SIZE = (1600, 1000)
 SECONDS = 900  # ends what hangs; the longest driver has taken 130 s beside other work
+DRIVERS = sorted(path.name for path in HERE.glob("drive_*.py"))
 
 
-@pytest.fixture
+@contextlib.contextmanager
 def display():
     """A virtual screen; yields its name."""
     for program, package in {"Xvfb": "xvfb", "xdotool": "xdotool", "import": "imagemagick"}.items():
@@ -33,23 +38,43 @@ def display():
         server.wait()
 
 
-# One at a time: each is the only program on its screen, and counts on a pace that two would slow down.
-@pytest.mark.parametrize("driver", sorted(path.name for path in HERE.glob("drive_*.py")))
-def test_by_mouse_and_keyboard(driver, display, tmp_path):
-    SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-    verdict = tmp_path / "verdict.txt"
-    environment = blenders.make_profile(tmp_path, bundles_module=True)
-    result = subprocess.run(
-        [
-            *(blenders.system_blender(), "--factory-startup", "--window-geometry", "0", "0", *map(str, SIZE)),
-            *("--python", str(HERE / driver), "--", str(SCREENSHOTS), str(verdict)),
-        ],
-        env={**environment, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=SECONDS,
-    )
-    outcome = verdict.read_text() if verdict.exists() else "Blender ended without a verdict"
-    if outcome != "passed":
-        pytest.fail(f"{outcome}\nScreenshots: {SCREENSHOTS}\n{result.stdout}", pytrace=False)
+def drive(driver, blender):
+    """Run a driver in a Blender; return what is wrong, an empty text where nothing is."""
+    screenshots = SCREENSHOTS / blender.name
+    screenshots.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder, display() as screen:
+        verdict = Path(folder, "verdict.txt")
+        environ = {**blender.make_profile(Path(folder)), "DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
+        options = ["--factory-startup", "--python-use-system-env", "--window-geometry", "0", "0", *SIZE]
+        options += ["--python", HERE / driver, "--", screenshots, verdict]
+        try:
+            result = subprocess.run(
+                blender.command(*options),
+                env=environ,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                timeout=SECONDS,
+            )
+        except subprocess.TimeoutExpired as error:
+            return f"still running after {SECONDS} s:\n{(error.stdout or b'').decode(errors='replace')}"
+        outcome = verdict.read_text() if verdict.exists() else "Blender ended without a verdict"
+    return "" if outcome == "passed" else f"{outcome}\nScreenshots: {screenshots}\n{result.stdout}"
+
+
+@pytest.fixture(scope="module")
+def runs(request):
+    """All selected drivers, begun in their order, as many at once as there are cores: each has a screen of its own."""
+    workers = ThreadPoolExecutor(os.cpu_count())
+    wanted = [item.callspec.params for item in request.session.items if item.path == Path(__file__)]
+    yield {(each["driver"], each["blender"].name): workers.submit(drive, **each) for each in wanted}
+    workers.shutdown(cancel_futures=True)
+
+
+@pytest.mark.parametrize("driver", DRIVERS)
+@pytest.mark.parametrize("blender", blenders.blenders_with_window(), ids=lambda blender: blender.name)
+def test_by_mouse_and_keyboard(driver, blender, runs):
+    wrong = runs[driver, blender.name].result()
+    if wrong:
+        pytest.fail(wrong, pytrace=False)

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tools import environment
+
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = Path(sys.executable).parent  # pip installs cmake and ninja here
 
@@ -14,13 +16,16 @@ COMMON = {
     "SPECTRAL_CONFORMAL_WARNINGS_AS_ERRORS": "ON",
     "CMAKE_MAKE_PROGRAM": TOOLS / "ninja",
 }
+# Several files as one unit, since most of the time goes into Eigen's headers. GCC then takes the anonymous namespace of
+# such a file for a header's.
+UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
+GCC_UNITY = {**UNITY, "CMAKE_CXX_FLAGS": "-Wno-subobject-linkage"}
 FLAVOURS = {
-    "release": {"CMAKE_BUILD_TYPE": "Release"},
-    # With clang, for libFuzzer's targets, which share the library with the tests. Several files as one unit, since most
-    # of the time goes into Eigen's headers; the other flavours go file by file, so that none lacks an include.
+    # The library that is in the wheel, which was compiled file by file, so that none lacks an include.
+    "release": {"CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CORE": environment.CORE},
+    # With clang, for libFuzzer's targets, which share the library with the tests.
     "sanitized": {
-        "CMAKE_UNITY_BUILD": "ON",
-        "CMAKE_UNITY_BUILD_BATCH_SIZE": 8,
+        **UNITY,
         "CMAKE_BUILD_TYPE": "Debug",
         "CMAKE_CXX_COMPILER": "clang++",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
@@ -29,12 +34,13 @@ FLAVOURS = {
     },
     # Runs one executable only; the others have no threads. OpenBLAS, CHOLMOD and METIS are not instrumented.
     "thread": {
+        **GCC_UNITY,
         "CMAKE_BUILD_TYPE": "Debug",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
         "SPECTRAL_CONFORMAL_SANITIZE": "thread",
     },
     # What is built where SuiteSparse is absent.
-    "eigen_only": {"CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
+    "eigen_only": {**GCC_UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
 }
 # What a flavour builds and tests, where that is not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
@@ -52,6 +58,8 @@ def run(*command):
 def configure(flavour):
     """Configure a flavour and return its build folder, which holds compile_commands.json."""
     build = ROOT / "build" / "tests-native" / flavour
+    if "SPECTRAL_CONFORMAL_CORE" in FLAVOURS[flavour]:
+        assert environment.is_native_module_built(), "the built library is older than its sources: run build_addon.py"
     definitions = [f"-D{name}={value}" for name, value in {**COMMON, **FLAVOURS[flavour]}.items()]
     run(TOOLS / "cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *definitions)
     return build

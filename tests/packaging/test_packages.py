@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -13,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.blender import blenders
-from tools import environment, packaging
+from tools import environment, other_pythons, packaging, systems
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = Path(__file__).with_name("installation.py")
@@ -23,22 +24,36 @@ SYSTEM_LIBRARIES = re.compile(
     r"(ld-linux-[\w-]+|libc|libm|libdl|libpthread|librt|libstdc\+\+|libgcc_s|libz)\.so(\.\d+)?"
 )
 SHARED_OBJECT = re.compile(r"\.so(\.|$)")
+BLENDERS = tuple(dict.fromkeys((*blenders.all_blenders(), *blenders.blenders_with_window())))
 
 
 def build_packages():
-    """Run the command that users run and return its zips, the legacy one first."""
+    """Run the command that users run; return its zips by kind: "extension", and "legacy" where there is one."""
     result = subprocess.run(
         [sys.executable, "build_addon.py", "package"], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert result.returncode == 0, result.stdout + result.stderr
-    return sorted(PACKAGES.glob("*.zip"), key=lambda path: "legacy" not in path.name)
+    return {"legacy" if "legacy" in path.name else "extension": path for path in PACKAGES.glob("*.zip")}
 
 
 @pytest.fixture(scope="module")
 def packages():
     found = build_packages()
-    assert len(found) == 2
+    tag = packaging.python_tag(environment.wheel())
+    assert set(found) == {"extension"} | ({"legacy"} if tag in packaging.LEGACY_PYTHONS else set())
     return found
+
+
+@pytest.fixture(scope="module")
+def extension_for_other_pythons(tmp_path_factory):
+    """Make one extension for this Python and for those of the other systems."""
+    wheels, output = tmp_path_factory.mktemp("wheels"), tmp_path_factory.mktemp("packages")
+    versions = [system.python for system in systems.wanted() if system.is_made]
+    for wheel in (packaging.repair_wheel(), *map(other_pythons.repaired_wheel, versions)):
+        shutil.copy(wheel, wheels)
+    packaging.run_with_wheels(wheels, output)
+    (extension,) = (path for path in output.glob("*.zip") if "legacy" not in path.name)
+    return extension
 
 
 @pytest.fixture
@@ -80,9 +95,16 @@ def hide_libraries(folder, names):
     return {"LD_LIBRARY_PATH": str(folder)}
 
 
-def install(command, package, environ, tmp_path):
+def install(blender, package, profile, tmp_path):
     """Run installation.py in a Blender, without the system's solver libraries, and return what it saw."""
     seen = tmp_path / "seen.json"
+    if blender.python and blender.system:
+        command, path = blender.command(), [environment.NEWEST_BPY_FOLDER]
+    elif blender.python:
+        command, path = [sys._base_executable], [without_module(blender.name.removeprefix("bpy-"), tmp_path)]
+    else:
+        command, path = blender.command("--background", "--factory-startup", "--python"), []
+    environ = {**profile, **({"PYTHONPATH": str(*path)} if path else {})}
 
     def run(*arguments, **more):
         result = subprocess.run(
@@ -92,12 +114,22 @@ def install(command, package, environ, tmp_path):
         assert seen.is_file(), result.stdout[-4000:] + result.stderr[-4000:]
         return json.loads(seen.read_text())
 
+    if blender.system:
+        # Has no libraries of these versions that could be hidden.
+        folder = blender.system.folder / "usr" / "lib" / "x86_64-linux-gnu"
+        assert not [name for name in libraries_of_built_module() if "cholmod" in name and (folder / name).exists()]
+        return run(package, seen)
     # What Blender and NumPy load by themselves stays, Debian's BLAS for instance.
     present = {Path(path) for path in run(seen)["libraries"]}
     seen.unlink()
     hidden = [name for name, file in libraries_of_built_module().items() if file not in present]
     assert any("cholmod" in name for name in hidden)
     return run(package, seen, **hide_libraries(tmp_path / "hidden", hidden))
+
+
+def is_for_legacy_zip(blender):
+    """Tell whether a Blender of this machine is older than 4.2."""
+    return not blender.python and environment.system_blender_version() < (4, 2)
 
 
 def check(seen, tmp_path):
@@ -141,19 +173,21 @@ def patchelf(*arguments):
 
 
 def test_zips_are_reproducible(packages):
-    before = [path.read_bytes() for path in packages]
-    assert [path.read_bytes() for path in build_packages()] == before
+    before = {kind: path.read_bytes() for kind, path in packages.items()}
+    assert {kind: path.read_bytes() for kind, path in build_packages().items()} == before
 
 
-def test_legacy_zip_is_one_folder_without_a_manifest(packages):
-    names = zipfile.ZipFile(packages[0]).namelist()
+def test_legacy_zip_is_one_folder_without_a_manifest(tmp_path):
+    made = tmp_path / "legacy.zip"
+    packaging.write_zip(made, packaging.legacy_files(packaging.repair_wheel()))
+    names = zipfile.ZipFile(made).namelist()
     assert {name.split("/")[0] for name in names} == {"spectral_unwrap"}
     assert "spectral_unwrap/__init__.py" in names
     assert not [name for name in names if "manifest" in name or "__pycache__" in name or "/." in name]
 
 
 def test_packaged_libraries_need_each_other_and_the_bare_system_only(packages, tmp_path):
-    objects = unpack_wheel(packages[1], tmp_path)
+    objects = unpack_wheel(packages["extension"], tmp_path)
     bundled = {path.name for path in objects}
     assert any("cholmod" in name for name in bundled)
     for path in objects:
@@ -172,33 +206,63 @@ def test_module_that_was_not_packaged_stops_at_hidden_libraries(tmp_path):
     assert "file too short" in result.stderr
 
 
-def test_legacy_zip_in_the_systems_blender(packages, profile, tmp_path):
-    blender = blenders.system_blender()
-    seen = install([blender, "--background", "--factory-startup", "--python"], packages[0], profile, tmp_path)
-    assert seen["version"] < [4, 2, 0]
+def test_packaged_module_takes_no_function_of_another_library(tmp_path):
+    """Debian's Blender 5.2 has a CHOLMOD of another version, before ours in the dynamic linker's order."""
+    other = tmp_path / "other.cpp"
+    names = ("cholmod_start", "cholmod_analyze", "cholmod_factorize", "SuiteSparse_malloc", "zpotrf_", "zgemm_")
+    functions = (
+        f'extern "C" void {name}() {{ std::puts("{name} of another library"); std::abort(); }}' for name in names
+    )
+    other.write_text("#include <cstdio>\n#include <cstdlib>\n" + "\n".join(functions))
+    library = other.with_suffix(".so")
+    subprocess.run(["g++", "-shared", "-fPIC", other, "-o", library], check=True)
+    with zipfile.ZipFile(packaging.repair_wheel()) as archive:
+        archive.extractall(tmp_path / "packaged")
+    program = (
+        "import numpy as np, spectral_conformal as sc\n"
+        "rows = np.arange(400).reshape(20, 20)\n"
+        "a, b, c, d = (part.ravel() for part in (rows[:-1, :-1], rows[1:, :-1], rows[1:, 1:], rows[:-1, 1:]))\n"
+        "vertices = np.c_[np.divmod(np.arange(400), 20)[0], np.arange(400) % 20, np.zeros(400)]\n"
+        "uv = sc.parameterize(vertices, np.r_[np.c_[a, b, c], np.c_[a, c, d]], factorization='cholmod').uv\n"
+        "assert np.isfinite(uv).all()\n"
+    )
+
+    def run(path):
+        environ = {**os.environ, "LD_PRELOAD": str(library), "PYTHONPATH": str(path)}
+        return subprocess.run(
+            [environment.PYTHON, "-c", program], env=environ, capture_output=True, text=True, check=False
+        )
+
+    packaged = run(tmp_path / "packaged")
+    assert packaged.returncode == 0, packaged.stdout + packaged.stderr
+    # As it was before packaging, the module is not apart from others.
+    assert "cholmod_start of another library" in run(environment.site_packages(environment.VENV)).stdout
+
+
+@pytest.mark.parametrize("blender", BLENDERS, ids=lambda blender: blender.name)
+def test_package_is_installed_and_removed(packages, blender, profile, tmp_path, request):
+    if blender.system:
+        package = request.getfixturevalue("extension_for_other_pythons")
+    else:
+        package = packages["legacy" if is_for_legacy_zip(blender) else "extension"]
+    seen = install(blender, package, profile, tmp_path)
+    assert (seen["version"] < [4, 2, 0]) == ("legacy" in package.name)
+    if blender.python:
+        assert ".".join(map(str, seen["version"])) == blender.name.removeprefix("bpy-")
     check(seen, tmp_path)
 
 
-@pytest.mark.parametrize("version", environment.bpy_environments())
-def test_extension_in_bpy(packages, profile, version, tmp_path):
-    environ = {**profile, "PYTHONPATH": str(without_module(version, tmp_path))}
-    seen = install([sys._base_executable], packages[1], environ, tmp_path)
-    assert ".".join(map(str, seen["version"])) == version
-    check(seen, tmp_path)
-
-
-@pytest.mark.parametrize("version", environment.bpy_environments())
-def test_extension_is_valid_for_the_tool_of_every_blender(packages, version):
-    tool = packaging.blender_tools()[version]
-    command = [environment.PYTHON, tool, "validate", packages[1]]
+@pytest.mark.parametrize("name", packaging.extension_tools())
+def test_extension_is_valid_for_the_tool_of_every_blender(packages, name):
+    command = [*packaging.extension_tools()[name], "validate", packages["extension"]]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stdout + result.stderr
 
 
-@pytest.mark.skipif(not environment.bpy_environments(), reason="Blender's own tool packs them: no bpy for this Python")
+@pytest.mark.skipif(not packaging.extension_tools(), reason="packed by a tool of Blender 4.2 and later: there is none")
 def test_ready_wheels_become_one_extension_per_platform(packages, tmp_path):
     """File layout only: this machine's wheel, without its binaries, under the names of other platforms."""
-    with zipfile.ZipFile(packages[1]) as archive:
+    with zipfile.ZipFile(packages["extension"]) as archive:
         (name,) = [name for name in archive.namelist() if name.endswith(".whl")]
         archive.extract(name, tmp_path)
     start = "-".join(Path(name).name.split("-")[:2])

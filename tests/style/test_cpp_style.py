@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.native import flavours
+from tools import environment
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
@@ -69,7 +70,7 @@ def test_clang_tidy():
 
 @pytest.mark.slow
 def test_clang_static_analyzer():
-    assert not findings(SOURCES, flavours.configure("release"), "--checks=-*,clang-analyzer-*")
+    assert not findings(SOURCES, environment.NATIVE_BUILD, "--checks=-*,clang-analyzer-*")
 
 
 def test_clang_tidy_sees_a_violation(tmp_path):

@@ -20,10 +20,10 @@ def module(name):
 class Dragged:
     """Drives the modal operator without a window."""
 
-    def __init__(self):
+    def __init__(self, has_window=True, strength=1.0):
         self.operator_class = module("operators.extender_adjust").MESH_OT_spectral_extender_adjust
         # What a bpy operator instance would have.
-        self.operator = SimpleNamespace(index=-1, strength=1.0, reported=[])
+        self.operator = SimpleNamespace(index=-1, strength=strength, reported=[])
         self.operator.report = lambda levels, text: self.operator.reported.append(text)
         for cls in reversed(self.operator_class.__mro__):
             for name, function in vars(cls).items():
@@ -34,14 +34,14 @@ class Dragged:
             edit_object=bpy.context.edit_object,
             mode="EDIT_MESH",
             scene=bpy.context.scene,
-            window=SimpleNamespace(),
+            window=SimpleNamespace() if has_window else None,
             area=None,
             workspace=SimpleNamespace(status_text_set=self.status.append),
             screen=SimpleNamespace(areas=[]),
             window_manager=SimpleNamespace(modal_handler_add=lambda _operator: None),
         )
         self.x = 100
-        assert self.operator_class.invoke(self.operator, self.context, self.event()) == {"RUNNING_MODAL"}
+        self.result = self.operator_class.invoke(self.operator, self.context, self.event())
 
     def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
         properties = {"type": kind, "value": value, "mouse_x": self.x, "shift": False, "ascii": "", **others}
@@ -56,14 +56,21 @@ class Dragged:
 
 
 @pytest.fixture
-def dragged(monkeypatch):
-    # As if there were windows.
+def extended(monkeypatch):
+    # As if this were no background mode.
     app = SimpleNamespace(background=False)
     monkeypatch.setattr(module("operators.extender_adjust"), "bpy", SimpleNamespace(app=app, context=bpy.context))
     grid = hill()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     add_extender(grid, 1, 140, 1.0)
-    return grid, scenes.read_uv(grid), Dragged()
+    return grid, scenes.read_uv(grid)
+
+
+@pytest.fixture
+def dragged(extended):
+    drag = Dragged()
+    assert drag.result == {"RUNNING_MODAL"}
+    return *extended, drag
 
 
 def test_dragging_changes_the_strength_and_the_map_follows(dragged):
@@ -242,7 +249,14 @@ def test_live_unwrapping_pauses(dragged):
     assert_as_before(grid, before)
 
 
-def test_where_nobody_can_drag_the_strength_is_set_at_once():
+def test_without_a_window_the_strength_is_set_at_once(extended):
+    grid, before = extended
+    assert Dragged(has_window=False, strength=3.0).result == {"FINISHED"}
+    assert grid.data.spectral_extenders[0].strength == 3.0
+    assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
+
+
+def test_in_background_mode_the_strength_is_set_at_once():
     grid = hill()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     add_extender(grid, 1, 140, 1.0)

@@ -164,6 +164,7 @@ def test_reload_scripts_leaves_one_of_everything():
 
 def test_module_is_found_in_the_layout_of_this_installation():
     native = sys.modules[f"{ADDON}.core.native"].spectral_conformal()
-    # The system's Blender has the layout of the older zip, bpy that of an extension (tests/blender/blenders.py).
-    bundled = bpy.app.version < (4, 2, 0)
+    # A Blender with a program of its own has the layout of the older zip, bpy that of an extension
+    # (tests/blender/blenders.py).
+    bundled = bool(bpy.app.binary_path)
     assert native.__name__ == (f"{ADDON}.spectral_conformal" if bundled else "spectral_conformal")

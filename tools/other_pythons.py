@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The native module for the Pythons of other systems, whose wheels are made here: the library is compiled already."""
+
+from __future__ import annotations
+
+import shutil
+import zipfile
+from pathlib import Path
+
+from tools import packaging, steps, systems, wheels
+from tools.environment import CORE, PYTHON, VENV, compile_jobs, install_newest_bpy, site_packages, wheel
+from tools.steps import BUILD, ROOT
+from tools.systems import System
+
+FOLDER = BUILD / "other-pythons"
+INPUTS = ("CMakeLists.txt", "native")
+
+
+def set_up() -> None:
+    """Make the other systems that this machine can have, and the module and the bpy for their Pythons."""
+    with steps.exclusive():
+        systems.make_all()
+        made = [system for system in systems.wanted() if system.is_made]
+        for system in made:
+            build(system)
+        if systems.TRIXIE in made:
+            install_newest_bpy()
+
+
+def tag(version: str) -> str:
+    """Return the tag in wheels of a Python version: cp313 of 3.13."""
+    return f"cp{version.replace('.', '')}"
+
+
+def site(version: str) -> Path:
+    """Return the folder with the module and the libraries that it needs, to be put on the path of such a Python."""
+    return FOLDER / tag(version) / "site"
+
+
+def repaired_wheel(version: str) -> Path:
+    """Return the self-contained wheel for a Python version."""
+    (found,) = (FOLDER / tag(version) / "repaired").glob("*.whl")
+    return found
+
+
+def build(system: System) -> None:
+    """Build the module for the Python of a system, unless its inputs are the same as before."""
+    version = system.python
+    folder = FOLDER / tag(version)
+    state = steps.digest([version, wheel(), Path(wheels.__file__), *(ROOT / name for name in INPUTS)])
+    if steps.is_done(folder.name, state) and site(version).is_dir():
+        return
+    shutil.rmtree(folder, ignore_errors=True)
+    native = compile_bindings(system, folder / "build")
+    unrepaired = pack(native, version, folder)
+    with zipfile.ZipFile(wheels.repair(unrepaired, folder / "repaired")) as archive:
+        archive.extractall(site(version))
+    steps.mark_done(folder.name, state)
+
+
+def compile_bindings(system: System, folder: Path) -> Path:
+    """Compile what converts between Python and the library, and link it to the library; return the extension module."""
+    version = system.python
+    headers = system.folder / "usr" / "include"
+    # Debian keeps pyconfig.h in the folder of the architecture, beside that system's C library, not to be used.
+    beside = folder / "headers" / "x86_64-linux-gnu"
+    beside.mkdir(parents=True)
+    (beside / f"python{version}").symlink_to(headers / "x86_64-linux-gnu" / f"python{version}")
+    abi = f"cpython-{version.replace('.', '')}-x86_64-linux-gnu"
+    definitions = {
+        "CMAKE_MAKE_PROGRAM": PYTHON.parent / "ninja",
+        "pybind11_DIR": site_packages(VENV) / "pybind11" / "share" / "cmake" / "pybind11",
+        "CMAKE_CXX_FLAGS": f"-isystem {beside.parent}",
+        "SPECTRAL_CONFORMAL_CORE": CORE,
+        "SPECTRAL_CONFORMAL_OTHER_PYTHON": "ON",
+        "Python_INCLUDE_DIR": headers / f"python{version}",
+        "Python_SOABI": abi,
+        "PYTHON_MODULE_EXTENSION": f".{abi}.so",
+    }
+    cmake = PYTHON.parent / "cmake"
+    steps.run(
+        f"configuring for Python {version}",
+        [cmake, "-S", ROOT, "-B", folder, "-G", "Ninja", *(f"-D{name}={value}" for name, value in definitions.items())],
+        log="other-pythons",
+    )
+    steps.run(
+        f"compiling for Python {version}", [cmake, "--build", folder, "--parallel", compile_jobs()], log="other-pythons"
+    )
+    return folder / f"_native.{abi}.so"
+
+
+def pack(native: Path, version: str, folder: Path) -> Path:
+    """Make a wheel of the one for this Python with another extension module in it; return it."""
+    own_tag = packaging.python_tag(wheel())
+    with wheels.unpacked(wheel(), folder) as content:
+        (own,) = content.glob("spectral_conformal/_native*")
+        own.unlink()
+        shutil.copy2(native, own.parent)
+        (information,) = content.glob("*.dist-info/WHEEL")
+        information.write_text(information.read_text().replace(own_tag, tag(version)))
+    (packed,) = folder.glob("spectral_conformal-*.whl")
+    return packed

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Other releases of Debian, for the Blenders and Pythons that this one lacks, each in a folder under build/systems/."""
+
+from __future__ import annotations
+
+import os
+import platform
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tools import steps
+from tools.steps import BUILD, ROOT, StepError
+
+FOLDER = BUILD / "systems"
+# Beside the project where there is one: meshes that some tests read.
+SHARED = ROOT.parent / "shared"
+
+
+@dataclass(frozen=True)
+class System:
+    """A release of Debian with a Blender.
+
+    Attributes:
+        suite: Debian's name of the release, and that of its folder.
+        packages: what is installed there.
+        serves: what the tests run in it, for the reader of a message.
+    """
+
+    suite: str
+    packages: tuple[str, ...]
+    serves: str
+
+    @property
+    def folder(self) -> Path:
+        """Return its root folder."""
+        return FOLDER / self.suite
+
+    @property
+    def is_made(self) -> bool:
+        """Tell whether it is there."""
+        return steps.is_done(self.folder.name, self.state) and self.folder.is_dir()
+
+    @property
+    def state(self) -> str:
+        """Return what its stamp holds."""
+        return steps.digest([self.suite, *self.packages])
+
+    @property
+    def python(self) -> str:
+        """Return the version of its Python, such as 3.13."""
+        headers = [path.name for path in (self.folder / "usr" / "include").glob("python3.*")]
+        if len(headers) != 1:
+            raise StepError(f"{self.folder} should have headers of one Python, not {headers}; remove that folder.")
+        return headers[0].removeprefix("python")
+
+    def command(self, words: Sequence[object]) -> list[str]:
+        """Return the command that runs one in this system, at the same paths, in the folder of the project.
+
+        The project, temporary files and the meshes beside the project are those of this machine. What is mounted
+        for that is mounted for the command alone and is gone with it.
+        """
+        shared = [path for path in (ROOT, Path(tempfile.gettempdir()), SHARED) if path.is_dir()]
+        mounts = [(path, "--bind") for path in shared] + [(Path(path), "--rbind") for path in ("/proc", "/dev", "/sys")]
+        script = "".join(
+            f'mkdir -p "$0{path}" && mount {how} "{path}" "$0{path}" && ' for path, how in mounts
+        )  # fmt: skip
+        script += 'exec chroot "$0" "$@"'
+        return ["unshare", "--mount", "sh", "-c", script, str(self.folder), "env", f"--chdir={ROOT}", *map(str, words)]
+
+
+# What a wheel of bpy links to and does not bring along.
+FOR_BPY = ("libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1")
+COMMON = ("blender", "python3-dev", "python3-numpy")
+TRIXIE = System("trixie", (*COMMON, *FOR_BPY), "Blender 4.3.2 and bpy 5.2.3, without a window")
+# Its Blender's own add-on for extensions needs three of them, which Debian's package does not ask for.
+FOR_EXTENSIONS = ("python3-cattr", "python3-requests", "python3-zstandard")
+SID = System(
+    "sid",
+    (*COMMON, *FOR_EXTENSIONS, "imagemagick", "libgl1", "libgl1-mesa-dri", "xdotool"),
+    "Debian unstable's Blender, with a window",
+)
+ALL = (TRIXIE, SID)
+
+
+def wanted() -> tuple[System, ...]:
+    """Return the systems that this machine's own release does not stand for."""
+    release = re.search(r"^VERSION_CODENAME=(.*)$", release_file(), re.MULTILINE)
+    return tuple(system for system in ALL if not release or system.suite != release[1])
+
+
+def obstacle() -> str | None:
+    """Return why no other system can be made here, None where it can."""
+    if not re.search(r"^ID=debian$", release_file(), re.MULTILINE):
+        return "this is not Debian"
+    if platform.machine() != "x86_64":
+        return f"the processor is {platform.machine()}, and not x86_64"
+    if os.geteuid() != 0:
+        return "that needs root"
+    if subprocess.run(["unshare", "--mount", "true"], capture_output=True, check=False).returncode:
+        return "that needs to mount folders, which is not allowed here"
+    return None
+
+
+def left_out() -> list[str]:
+    """Return, for every wanted system that is not there, one line that says what is not tested without it and why."""
+    reason = obstacle()
+    return [
+        f"not run: {system.serves}: "
+        + (f"needs Debian {system.suite} under build/systems, and {reason}" if reason else f"see {log_of(system)}")
+        for system in wanted()
+        if not system.is_made
+    ]
+
+
+def make_all() -> None:
+    """Make every system that is wanted and possible; a line says which is left out."""
+    if obstacle():
+        print("\n".join(f"- {line}" for line in left_out()))
+        return
+    for system in wanted():
+        try:
+            make(system)
+        except StepError as error:
+            # The other tests go on: unstable cannot always be installed.
+            print(f"{error}\n- not run: {system.serves}")
+
+
+def make(system: System) -> None:
+    """Install a system into its folder, unless it is there."""
+    if system.is_made:
+        return
+    shutil.rmtree(system.folder, ignore_errors=True)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    # A mirror that lags behind has lists past their date; they are as good as others for a test.
+    options = ['--aptopt=Acquire::Check-Valid-Until "false"', "--variant=apt"]
+    steps.run(
+        f"making build/systems/{system.suite}",
+        ["mmdebstrap", *options, f"--include={','.join(system.packages)}", system.suite, system.folder, mirror()],
+        log=f"system-{system.suite}",
+    )
+    steps.mark_done(system.folder.name, system.state)
+
+
+def mirror() -> str:
+    """Return the address from which this machine installs Debian's packages."""
+    sources = [Path("/etc/apt/sources.list"), *sorted(Path("/etc/apt/sources.list.d").glob("*"))]
+    for path in sources:
+        if path.suffix in {".list", ".sources"} and path.is_file():
+            found = re.search(r"^(?:URIs:|deb\s(?:\[.*?\])?)\s*(\S+/debian/?)(?:\s|$)", path.read_text(), re.MULTILINE)
+            if found:
+                return found[1]
+    raise StepError("No file under /etc/apt names a mirror of Debian, from which another release could be installed.")
+
+
+def log_of(system: System) -> str:
+    """Return the path of the log of making a system, for messages."""
+    return f"build/logs/system-{system.suite}.log"
+
+
+def release_file() -> str:
+    """Return the text that says which system this machine runs."""
+    path = Path("/etc/os-release")
+    return path.read_text() if path.is_file() else ""

