@@ -6,11 +6,10 @@ from .overlay import extender_arrows
 from .ui import menus, panels
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
-# blender_manifest.toml. Both versions must equal pyproject.toml's (tests/core/test_addon_metadata.py).
+# blender_manifest.toml. The version stands in pyproject.toml, and in both when they are packed (tools/packaging.py).
 bl_info = {
     "name": "Spectral Unwrap",
     "author": "The Spectral Unwrap developers",
-    "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "Edit Mode > UV > Spectral Unwrap",
     "description": "Unwrap with low angle distortion and without pins",

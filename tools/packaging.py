@@ -157,6 +157,7 @@ def legacy_files(module: Path) -> dict[str, bytes]:
     files = addon_files()
     # bl_info is what these versions read.
     files.pop(MANIFEST)
+    files["__init__.py"] = with_version(files["__init__.py"])
     try:
         with zipfile.ZipFile(module) as unpacked:
             # The libraries stay beside the module's folder, where its run path looks for them.
@@ -167,12 +168,22 @@ def legacy_files(module: Path) -> dict[str, bytes]:
     return {f"{NAME}/{name}": content for name, content in files.items()}
 
 
+def with_version(source: bytes) -> bytes:
+    """Return the add-on's `__init__.py` with the project's version in its `bl_info`."""
+    start = b"bl_info = {\n"
+    if source.count(start) != 1:
+        raise StepError(f"{ADDON / '__init__.py'} has no line: bl_info = {{")
+    numbers = ", ".join(version().split("."))
+    return source.replace(start, start + f'    "version": ({numbers}),\n'.encode())
+
+
 def extension_files(modules: Sequence[Path], platforms: Sequence[str]) -> dict[str, bytes]:
     """Return the files of the extension for Blender 4.2 and later, which picks and installs the wheel itself."""
     files = addon_files()
     wheels = [f"./wheels/{module.name}" for module in modules]
     # Keys at the top: further down they could land in a table. A list of strings in JSON is one in TOML.
-    keys = f"platforms = {json.dumps(list(platforms))}\nwheels = {json.dumps(wheels)}\n"
+    keys = f'version = "{version()}"\n'
+    keys += f"platforms = {json.dumps(list(platforms))}\nwheels = {json.dumps(wheels)}\n"
     files[MANIFEST] = keys.encode() + files[MANIFEST]
     files.update((f"wheels/{module.name}", module.read_bytes()) for module in modules)
     return files

@@ -117,7 +117,7 @@ def all_blenders() -> tuple[Blender, ...]:
 def blenders_with_window() -> tuple[Blender, ...]:
     """Return the Blenders that this machine has with a window."""
     unstable = [Blender("sid", system=systems.SID)] if systems.SID.is_made else []
-    return (Blender("system"), *unstable)
+    return (Blender("system"), *unstable, Blender("trixie", system=systems.TRIXIE))
 
 
 def add_pytest(folder: Path) -> None:

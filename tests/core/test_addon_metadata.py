@@ -21,18 +21,24 @@ def manifest(key):
     return re.search(rf'^{key} = "(.*)"$', MANIFEST, re.MULTILINE).group(1)
 
 
-def bl_info():
+def bl_info(source=None):
     """Read `bl_info` as Blender does: a literal, without running the file."""
-    for node in ast.parse((ROOT / "addon" / "__init__.py").read_text(encoding="utf-8")).body:
+    source = source or (ROOT / "addon" / "__init__.py").read_bytes()
+    for node in ast.parse(source).body:
         if isinstance(node, ast.Assign) and node.targets[0].id == "bl_info":
             return ast.literal_eval(node.value)
     raise AssertionError("no bl_info")
 
 
-def test_versions_agree():
+def test_version_stands_in_one_place_and_gets_into_packages():
     version = re.search(r'^\[project\]$.*?^version = "(.*?)"$', PROJECT, re.MULTILINE | re.DOTALL).group(1)
-    assert manifest("version") == version
-    assert ".".join(map(str, bl_info()["version"])) == version
+    assert packaging.version() == version
+    assert not re.search(r"^version", MANIFEST, re.MULTILINE)
+    assert "version" not in bl_info()
+    packed = bl_info(packaging.with_version((ROOT / "addon" / "__init__.py").read_bytes()))
+    assert packed == {"version": numbers(version), **bl_info()}
+    manifest = packaging.extension_files([], ["linux-x64"])[packaging.MANIFEST].decode()
+    assert re.findall(r'^version = "(.*)"$', manifest, re.MULTILINE) == [version]
 
 
 def test_names_and_descriptions_agree():

@@ -52,8 +52,7 @@ def adjust_last_operation():
     # The operator's panel appears.
     yield
     yield from drive.open_adjust_last_operation()
-    region = drive.region_of("VIEW_3D", "HUD")
-    drive.move_mouse(region.x + int(0.7 * region.width), region.y + 20)
+    drive.point_at_row(0)
     yield
     xdotool("click", "--repeat", 2, "--delay", 60, 1)
     yield

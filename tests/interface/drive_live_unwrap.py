@@ -37,12 +37,12 @@ def open_cylinder():
             x, y = loop.vert.co.xy
             is_corner = abs(y) > 0.999 and abs(x) > 0.999
             loop[layer].pin_uv = is_corner
-            # From 5.0 the UV selection belongs to the mesh.
-            selection = loop if drive.IS_5 else loop[layer]
-            names = ("uv_select_vert", "uv_select_edge") if drive.IS_5 else ("select", "select_edge")
+            on_mesh = drive.UV_SELECTION_ON_MESH
+            selection = loop if on_mesh else loop[layer]
+            names = ("uv_select_vert", "uv_select_edge") if on_mesh else ("select", "select_edge")
             for name, flag in zip(names, (is_corner and x > 0.0 and y > 0.0, False)):
                 setattr(selection, name, flag)
-        if drive.IS_5:
+        if drive.UV_SELECTION_ON_MESH:
             for face in bm.faces:
                 face.uv_select = False
         bmesh.update_edit_mesh(mesh)

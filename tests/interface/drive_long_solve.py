@@ -43,7 +43,7 @@ def unwrap_by_mouse():
     drive.point_at_header("VIEW_3D", drive.UV_MENU)
     xdotool("click", 1)
     yield
-    yield from drive.click_below(drive.HEADER_TO_SPECTRAL_UNWRAP)
+    yield from drive.click_below(drive.LAYOUT.header_to_unwrap)
     yield from drive.until(solving)
     point_at("VIEW_3D")
     yield

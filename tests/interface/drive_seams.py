@@ -44,7 +44,7 @@ def steps():
     xdotool("key", "u")
     yield
     yield
-    yield from drive.click_below(drive.UNWRAP_TO_MARK_SEAM, "mark_seam")
+    yield from drive.click_below(drive.LAYOUT.unwrap_to_mark_seam, "mark_seam")
     assert seams() == [[8, 9]], seams()
 
     point_at("VIEW_3D")
@@ -53,7 +53,7 @@ def steps():
     drive.point_at_header("VIEW_3D", drive.UV_MENU)
     xdotool("click", 1)
     yield
-    yield from drive.click_below(drive.HEADER_TO_SPECTRAL_UNWRAP, "uv_menu")
+    yield from drive.click_below(drive.LAYOUT.header_to_unwrap, "uv_menu")
     yield
     assert drive.last_operator().properties.placement == "PACK"
     packed = uv()
@@ -66,7 +66,7 @@ def steps():
     drive.point_at_setting("placement")
     xdotool("click", 1)
     yield
-    yield from drive.click_below(drive.PACK_TO_KEEP_IN_PLACE, "choose_placement")
+    yield from drive.click_below(drive.LAYOUT.pack_to_keep, "choose_placement")
     yield
     assert drive.last_operator().properties.placement == "KEEP"
     kept = uv()

@@ -11,7 +11,6 @@ import numpy as np
 from tests.interface import driving as drive
 from tests.interface.session import override, point_at, screenshot, uv, xdotool
 
-HEADER_TO_SELECT_DEFECTS = 423 if drive.IS_5 else 395  # in the UV menu
 STEPS, TURNS = 60, 1.25
 
 
@@ -50,7 +49,7 @@ def steps():
     drive.point_at_header("VIEW_3D", drive.UV_MENU)
     xdotool("click", 1)
     yield
-    yield from drive.click_below(HEADER_TO_SELECT_DEFECTS, "select_defects_menu")
+    yield from drive.click_below(drive.LAYOUT.header_to_select_defects, "select_defects_menu")
     yield
     assert bpy.context.window_manager.operators[-1].bl_idname == "UV_OT_spectral_select_defects"
     # Both ends, one of which lies over the other.

@@ -15,7 +15,6 @@ from tests.interface.extender_sidebar import SUGGEST_SEAMS, TAB, click_sidebar
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 CUTS_ROW = 1  # of Adjust Last Operation, from the bottom
-HEADER_TO_SUGGEST_SEAMS = 443 if drive.IS_5 else 417  # in the UV menu
 WHEEL_UP, WHEEL_DOWN = 4, 5
 
 shown = []
@@ -86,7 +85,7 @@ def suggest_by_menu():
     drive.point_at_header("VIEW_3D", drive.UV_MENU)
     xdotool("click", 1)
     yield
-    yield from drive.click_below(HEADER_TO_SUGGEST_SEAMS, "suggest_seams_menu")
+    yield from drive.click_below(drive.LAYOUT.header_to_suggest_seams, "suggest_seams_menu")
     yield from drive.until(lambda: shown)
     point_at("VIEW_3D", 0.4, 0.3)
     yield
@@ -112,8 +111,7 @@ def check_marked(before_seams, before_uv, after_seams, after_uv):
 def adjust_last_operation(marked):
     """Ask for two cuts instead of four, which undoes the step and marks the first two."""
     yield from drive.open_adjust_last_operation()
-    region = drive.region_of("VIEW_3D", "HUD")
-    drive.move_mouse(region.x + int(0.7 * region.width), region.y + drive.BOTTOM_ROW + drive.ROW * CUTS_ROW)
+    drive.point_at_row(CUTS_ROW)
     yield
     screenshot("suggest_seams_adjust")
     xdotool("click", "--repeat", 2, "--delay", 60, 1)

@@ -2,6 +2,7 @@
 """What an artist does with mouse and keyboard, for the drivers that run inside Blender."""
 
 import time
+from dataclasses import dataclass
 
 import addon_utils
 import bmesh
@@ -15,13 +16,42 @@ from tests.interface.session import area_of, override, xdotool
 # Places in pixels, at Blender's default size of the interface. The menu that U opens has its entry Unwrap below the
 # mouse when it is opened for the first time.
 UV_MENU = 555  # in the viewport's header
-IS_5 = bpy.app.version >= (5, 0, 0)
-UNWRAP_TO_MARK_SEAM = 259 if IS_5 else 225
-HEADER_TO_SPECTRAL_UNWRAP = 380 if IS_5 else 351  # in the UV menu
-PACK_TO_KEEP_IN_PLACE = 47 if IS_5 else -44  # in the list of placements
 
-# Rows of Adjust Last Operation, counted from 0 at the bottom, and the place of row 0 above the panel's lower end.
-BOTTOM_ROW, ROW = (18, 23) if IS_5 else (20, 22)
+
+@dataclass(frozen=True)
+class Layout:
+    """Where a version of Blender shows what is clicked.
+
+    Attributes:
+        unwrap_to_mark_seam: in the menu of U.
+        header_to_unwrap, header_to_select_defects, header_to_suggest_seams: from the header to entries of its menu.
+        pack_to_keep: in the list of placements.
+        row: height of the rows of Adjust Last Operation.
+        bottom_row: its last row, above the lower end.
+        sidebar_tab: from the sidebar's top left corner.
+        is_wide: whether the sidebar is as wide as from 4.0 on.
+    """
+
+    unwrap_to_mark_seam: int
+    header_to_unwrap: int
+    header_to_select_defects: int
+    header_to_suggest_seams: int
+    pack_to_keep: int
+    row: int
+    bottom_row: int
+    sidebar_tab: tuple
+    is_wide: bool
+
+
+LAYOUTS = {
+    (5, 0): Layout(259, 380, 423, 443, 47, 23, 18, (278, 248), True),
+    (4, 3): Layout(77, 199, 241, 262, 47, 23, 18, (278, 174), True),
+    (3, 4): Layout(225, 351, 395, 417, -44, 22, 20, (215, 170), False),
+}
+LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >= version)
+# From 5.0 the UV selection belongs to the mesh.
+UV_SELECTION_ON_MESH = hasattr(bmesh.types.BMLoop, "uv_select_vert")
+# Rows of Adjust Last Operation, counted from 0 at the bottom.
 ROWS = {"margin": 0, "margin_method": 1, "placement": 2}
 
 
@@ -58,8 +88,13 @@ def point_at_vertices(*indices):
 
 def point_at_setting(name):
     """Move the mouse to the field of a setting in Adjust Last Operation in the viewport."""
+    point_at_row(ROWS[name])
+
+
+def point_at_row(row):
+    """Move the mouse to a row of Adjust Last Operation, counted from 0 at the bottom."""
     region = region_of("VIEW_3D", "HUD")
-    move_mouse(region.x + int(0.7 * region.width), region.y + BOTTOM_ROW + ROW * ROWS[name])
+    move_mouse(region.x + int(0.7 * region.width), region.y + LAYOUT.bottom_row + LAYOUT.row * row)
 
 
 def open_adjust_last_operation():

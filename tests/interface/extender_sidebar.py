@@ -12,14 +12,13 @@ from tests.interface.session import override, point_at, xdotool
 
 COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
-if drive.IS_5:
-    TAB = (278, 248)
+TAB = drive.LAYOUT.sidebar_tab
+if drive.LAYOUT.is_wide:
     SUGGEST_SEAMS = (134, 73)
     ADD, ADD_TO_ACTIVE = (144, 163), (134, 184)
     ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (144, 320), (75, 345), (193, 345), (144, 371)
     ICON, NAME, STRENGTH, USE = 38, 73, 184, 231
 else:
-    TAB = (215, 170)
     SUGGEST_SEAMS = (103, 80)
     ADD, ADD_TO_ACTIVE = (112, 162), (103, 183)
     ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 317), (58, 339), (147, 339), (103, 363)
@@ -39,7 +38,7 @@ def open_grid():
     view = drive.area_of("VIEW_3D").spaces.active.region_3d
     # Room for the sidebar on the right.
     view.view_distance *= 1.7
-    view.view_location.x += 0.9 if drive.IS_5 else 0.6
+    view.view_location.x += 0.9 if drive.LAYOUT.is_wide else 0.6
     bpy.context.scene.tool_settings.use_uv_select_sync = True
     yield
     point_at("VIEW_3D", 0.3, 0.3)
