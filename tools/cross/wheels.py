@@ -17,6 +17,7 @@ PACKAGE = ROOT / "native" / "python" / "spectral_conformal"
 METADATA = parts.CROSS / "metadata"
 LOG = "cross-wheels"
 DEBIAN_COPYRIGHT = Path("/usr/share/doc")
+DEBIAN_LICENCES = Path("/usr/share/common-licenses")
 # The earliest time that a zip can hold, in seconds: equal content gives equal bytes.
 WHEEL_TIME = "315532800"
 
@@ -100,6 +101,8 @@ def licences(target: Target) -> dict[str, bytes]:
         "metis": source / "metis-5.1.0" / "LICENSE.txt",
         **{f"suitesparse-{name.lower()}": source / name / "Doc" / "License.txt" for name in suitesparse},
     }
+    # What the texts above name and do not repeat.
+    files |= {f"text-of-{name.lower()}": DEBIAN_LICENCES / name for name in ("Apache-2.0", "LGPL-2.1", "MPL-2.0")}
     if target.system == "Windows":
         files["mingw-w64"] = DEBIAN_COPYRIGHT / "mingw-w64-common" / "copyright"
         files["libgcc-and-libstdc++"] = DEBIAN_COPYRIGHT / "gcc-mingw-w64-base" / "copyright"
@@ -115,7 +118,7 @@ def licences(target: Target) -> dict[str, bytes]:
 def boost_licence() -> bytes:
     """Return Boost's licence; Debian's list of all its authors has 2 MB."""
     (path,) = sorted(DEBIAN_COPYRIGHT.glob("libboost1.*-dev/copyright"))[:1]
-    found = re.search(r"Boost Software License - Version 1\.0(?:\n .*)+", path.read_text())
+    found = re.search(r"Boost Software License - Version 1\.0 - August.*(?:\n .*)+", path.read_text())
     if not found:
         raise StepError(f"{path} has no text of the Boost Software License.")
     return re.sub(r"\n (\.$)?", "\n", found[0], flags=re.MULTILINE).encode() + b"\n"

@@ -149,12 +149,12 @@ def math_definition(names: Sequence[str]) -> str:
 
 
 def names_in_wine() -> list[str]:
-    """Return the names of all functions in Wine's own library of mathematics."""
+    """Return the names of all functions in Wine's library of C, which has those of mathematics."""
     # lief is one of the packages of `cross`, which a bare Python does not have.
     import lief
 
-    found = sorted(Path("/usr/lib").glob(f"**/wine/x86_64-windows/{MATH}"))
+    found = sorted(Path("/usr/lib").glob("*/wine/x86_64-windows/ucrtbase.dll"))
     if not found:
-        raise StepError(f"Wine has no {MATH} under /usr/lib: install the packages of `wine`.")
+        raise StepError("Wine has no ucrtbase.dll under /usr/lib: install the packages of `wine`.")
     library = lief.PE.parse(str(found[0]))
     return [entry.name for entry in library.get_export().entries]
