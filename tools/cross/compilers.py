@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tools import steps
 from tools.cross import parts
-from tools.cross.targets import CROSS, MACOS_MINIMUM, Target
+from tools.cross.targets import CROSS, MACOS_MINIMUM, PYTHONS, Target
 from tools.environment import PYTHON, VENV, site_packages
 from tools.steps import ROOT, StepError
 
@@ -49,7 +49,12 @@ def toolchain(target: Target) -> Path:
         write(exports, LINUX_EXPORTS)
         settings["CMAKE_MODULE_LINKER_FLAGS_INIT"] = f"-s -Wl,--version-script={exports} -Wl,-rpath,$ORIGIN"
     path = folder / "toolchain.cmake"
-    write(path, "".join(f"set({name} [==[{value}]==])\n" for name, value in settings.items()))
+    text = "".join(f"set({name} [==[{value}]==])\n" for name, value in settings.items())
+    if path.is_file() and path.read_text() != text:
+        # CMake reads these settings once for a build folder.
+        for built in {"cholmod", "core", "tests", *(f"cp{python.replace('.', '')}" for python in PYTHONS)}:
+            shutil.rmtree(target.folder / built, ignore_errors=True)
+    write(path, text)
     return path
 
 
@@ -108,7 +113,7 @@ def macos_libraries(target: Target) -> list[Path]:
     cache = target.folder / "runtime"
     names = ("libc++.a", "libc++abi.a", "libcompiler_rt.a")
     state = steps.digest(["0.14.1", target.triple])
-    if not steps.is_done(f"cross-runtime-{target.name}", state):
+    if not steps.is_done(f"cross-runtime-{target.name}", state) or not cache.is_dir():
         shutil.rmtree(cache, ignore_errors=True)
         cache.mkdir(parents=True)
         source = cache / "any.cpp"

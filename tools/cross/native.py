@@ -79,7 +79,7 @@ def build_tests(target: Target) -> Path:
     only = {"SPECTRAL_CONFORMAL_CORE": core, "SPECTRAL_CONFORMAL_TESTS": "ON"}
     state = steps.digest([*SOURCES, TESTS, *steps.source_files(Path(__file__).parent)])
     stamp = f"cross-tests-{target.name}"
-    if not steps.is_done(stamp, state):
+    if not steps.is_done(stamp, state) or not folder.is_dir():
         compilers.configure_and_build(
             f"the C++ tests for {target.name}", ROOT, folder, {**settings, **only}, ("all",), JOBS
         )

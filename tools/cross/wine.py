@@ -84,7 +84,7 @@ def python(version: str, *, bpy: bool = False) -> Path:
     origin = parts.windows_python(version)
     folder = FOLDER / f"{'bpy' if bpy else 'python'}-{version}"
     requirements = [f"bpy=={BPY[version]}"] if bpy else PACKAGES
-    state = steps.digest([parts.WINDOWS_PYTHONS[version][1], *requirements, Path(__file__)])
+    state = steps.digest([parts.WINDOWS_PYTHONS[version][1], *requirements, "complex functions"])
     if steps.is_done(f"wine-{folder.name}", state) and folder.is_dir():
         return folder / "python.exe"
     shutil.rmtree(folder, ignore_errors=True)
@@ -92,10 +92,11 @@ def python(version: str, *, bpy: bool = False) -> Path:
     # It asks Windows for its version in a way that ends the process under Wine.
     (folder / "DLLs" / "_wmi.pyd").unlink(missing_ok=True)
     site = folder / "Lib" / "site-packages"
+    # What a package asks of Python, pip compares with the one that runs pip.
     steps.run(
         f"pip install {' '.join(requirements)} (for Windows, Python {version})",
         [PYTHON, "-m", "pip", "install", "--upgrade", "--target", site, "--platform", "win_amd64", "--implementation",
-         "cp", "--python-version", version, "--only-binary=:all:", *requirements],
+         "cp", "--python-version", version, "--only-binary=:all:", "--ignore-requires-python", *requirements],
         log=LOG,
     )  # fmt: skip
     add_complex_functions(folder)
