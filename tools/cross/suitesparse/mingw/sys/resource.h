@@ -1,0 +1,1 @@
+/* GKlib includes this header everywhere and uses it on other systems only; MinGW has none. */

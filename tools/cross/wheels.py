@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Put a target's wheels together: package, native module, OpenBLAS, and the licences of all that is in them."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+from tools import steps
+from tools.cross import compilers, native, parts
+from tools.cross.targets import PYTHONS, WHEELS, Target
+from tools.environment import PYTHON
+from tools.steps import ROOT, StepError
+
+PACKAGE = ROOT / "native" / "python" / "spectral_conformal"
+METADATA = parts.CROSS / "metadata"
+LOG = "cross-wheels"
+DEBIAN_COPYRIGHT = Path("/usr/share/doc")
+DEBIAN_LICENCES = Path("/usr/share/common-licenses")
+# The earliest time that a zip can hold, in seconds: equal content gives equal bytes.
+WHEEL_TIME = "315532800"
+
+
+def make(target: Target) -> list[Path]:
+    """Write the wheels of a target, whose native part is built, to build/cross/wheels/ and return them."""
+    WHEELS.mkdir(parents=True, exist_ok=True)
+    origin = metadata()
+    found = licences(target)
+    return [pack(target, python, origin, found) for python in PYTHONS]
+
+
+def pack(target: Target, python: str, origin: Path, found: dict[str, bytes]) -> Path:
+    """Write the wheel for one Python and return it."""
+    tree = target.folder / "wheel" / origin.name.removesuffix(".dist-info")
+    shutil.rmtree(tree.parent, ignore_errors=True)
+    package = tree / PACKAGE.name
+    for path in steps.source_files(PACKAGE):
+        place(path, package / path.relative_to(PACKAGE))
+    place(native.module(target, python), package / target.module_name(python))
+    place(native.blas_to_ship(target), package / target.blas_name)
+    information = tree / origin.name
+    for path in steps.source_files(origin):
+        place(path, information / path.relative_to(origin))
+    for name, content in found.items():
+        (information / "licenses" / name).write_bytes(content)
+    tag = f"{target.python_tag(python)}-{target.python_tag(python)}-{target.tag}"
+    (information / "WHEEL").write_text(
+        f"Wheel-Version: 1.0\nGenerator: spectral-unwrap\nRoot-Is-Purelib: false\nTag: {tag}\n"
+    )
+    for path in tree.rglob("*"):
+        # A module needs no permission to be run, and the zip records what permissions a file had.
+        path.chmod(0o755 if path.is_dir() else 0o644)
+    command = [PYTHON, "-m", "wheel", "pack", "--dest-dir", WHEELS, tree]
+    steps.run(f"packing the wheel {tag}", command, log=LOG, environ={"SOURCE_DATE_EPOCH": WHEEL_TIME})
+    return wheel(target, python)
+
+
+def wheel(target: Target, python: str) -> Path:
+    """Return where the wheel of a target for a Python lies."""
+    tag = target.python_tag(python)
+    found = sorted(WHEELS.glob(f"spectral_conformal-*-{tag}-{tag}-{target.tag}.whl"))
+    if len(found) != 1:
+        raise StepError(
+            f"{WHEELS} should hold one wheel for {target.name} and Python {python} and holds {len(found)}: remove this "
+            f"folder and run build_addon.py package --platforms {target.name}"
+        )
+    return found[0]
+
+
+def place(origin: Path, path: Path) -> None:
+    """Copy a file and make the folder for it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(origin, path)
+
+
+def metadata() -> Path:
+    """Return the .dist-info folder that the build backend makes of pyproject.toml."""
+    state = steps.digest([ROOT / "pyproject.toml", ROOT / "README.md", ROOT / "LICENSE"])
+    if not steps.is_done("cross-metadata", state) or not any(METADATA.glob("*.dist-info")):
+        shutil.rmtree(METADATA, ignore_errors=True)
+        METADATA.mkdir(parents=True)
+        ask = (
+            "import sys; from scikit_build_core.build import prepare_metadata_for_build_wheel as ask; ask(sys.argv[1])"
+        )
+        steps.run("writing the wheels' metadata", [PYTHON, "-c", ask, METADATA], log=LOG)
+        steps.mark_done("cross-metadata", state)
+    return next(METADATA.glob("*.dist-info"))
+
+
+def licences(target: Target) -> dict[str, bytes]:
+    """Return the licence texts, by file name, of what is compiled into the module and of OpenBLAS beside it."""
+    source = parts.suitesparse()
+    suitesparse = ("AMD", "CAMD", "CCOLAMD", "CHOLMOD", "COLAMD")
+    files = {
+        "openblas-and-libgfortran": next(parts.openblas(target).glob("*.dist-info/licenses/LICENSE*")),
+        "pybind11": next((parts.PARTS / "pybind11").glob("*.dist-info/licenses/LICENSE*")),
+        "cgal": DEBIAN_COPYRIGHT / "libcgal-dev" / "copyright",
+        "eigen": DEBIAN_COPYRIGHT / "libeigen3-dev" / "copyright",
+        "spectra": DEBIAN_COPYRIGHT / "libspectra-dev" / "copyright",
+        "metis": source / "metis-5.1.0" / "LICENSE.txt",
+        **{f"suitesparse-{name.lower()}": source / name / "Doc" / "License.txt" for name in suitesparse},
+    }
+    # What the texts above name and do not repeat.
+    files |= {f"text-of-{name.lower()}": DEBIAN_LICENCES / name for name in ("Apache-2.0", "LGPL-2.1", "MPL-2.0")}
+    if target.system == "Windows":
+        files["mingw-w64"] = DEBIAN_COPYRIGHT / "mingw-w64-common" / "copyright"
+        files["libgcc-and-libstdc++"] = DEBIAN_COPYRIGHT / "gcc-mingw-w64-base" / "copyright"
+    else:
+        libraries = compilers.ZIG.parent / "lib"
+        files |= {f"llvm-{name}": libraries / name / "LICENSE.TXT" for name in ("libcxx", "libcxxabi", "libunwind")}
+        files["zig-compiler-rt"] = compilers.ZIG.parent / "LICENSE"
+    if missing := [str(path) for path in files.values() if not path.is_file()]:
+        raise StepError(f"Licence texts that have to go into the wheel are missing: {', '.join(missing)}")
+    return {**{f"{name}.txt": path.read_bytes() for name, path in files.items()}, "boost.txt": boost_licence()}
+
+
+def boost_licence() -> bytes:
+    """Return Boost's licence; Debian's list of all its authors has 2 MB."""
+    (path,) = sorted(DEBIAN_COPYRIGHT.glob("libboost1.*-dev/copyright"))[:1]
+    found = re.search(r"Boost Software License - Version 1\.0 - August.*(?:\n .*)+", path.read_text())
+    if not found:
+        raise StepError(f"{path} has no text of the Boost Software License.")
+    return re.sub(r"\n (\.$)?", "\n", found[0], flags=re.MULTILINE).encode() + b"\n"

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run programs for Windows under Wine: Windows' Python with packages, and Blender as its module bpy."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from tools import steps
+from tools.cross import compilers, parts, targets
+from tools.environment import PYTHON
+from tools.steps import BUILD, StepError
+
+FOLDER = BUILD / "wine"
+PREFIX = FOLDER / "prefix"
+LOG = "wine"
+ENVIRONMENT = {"WINEPREFIX": str(PREFIX), "WINEARCH": "win64", "WINEDEBUG": "-all", "LC_ALL": "C.UTF-8"}
+# By Python: the Blender for Windows that has it.
+BPY = {"3.11": "5.0.1", "3.13": "5.2.3"}
+# pip does not see that pytest needs colorama on Windows.
+PACKAGES = ("colorama", "libigl", "pytest", "scipy")
+# Wine 8 has none of C's complex functions, which NumPy calls. Programs are made to load a library of our own in place
+# of Windows' math, under a name as long as that one, which stands in their files.
+MATH = "api-ms-win-crt-math-l1-1-0.dll"
+OWN_MATH = "wine-crt-math-complex-l1-1.dll"
+COMPLEX_FUNCTIONS = (
+    *("cabs", "cacos", "cacosh", "carg", "casin", "casinh", "catan", "catanh", "ccos", "ccosh", "cexp", "cimag"),
+    *("clog", "conj", "cpow", "cproj", "creal", "csin", "csinh", "csqrt", "ctan", "ctanh"),
+)
+
+
+def run(
+    words: Sequence[object], *, environ: Mapping[str, str] | None = None, folder: Path = BUILD, timeout: float = 300
+) -> subprocess.CompletedProcess[str]:
+    """Run a program for Windows; what it prints goes through pipes, since Python under Wine cannot write to files."""
+    prefix()
+    return subprocess.run(
+        ["wine", *map(str, words)],
+        cwd=folder,
+        env=environment(environ),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        check=False,
+        timeout=timeout,
+    )
+
+
+def environment(more: Mapping[str, str] | None = None) -> dict[str, str]:
+    """Return the environment of programs under Wine, without what this machine's Python and Blender are told."""
+    inherited = ("PYTHON", "BLENDER_", "VIRTUAL_ENV")
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(inherited)}
+    return {**kept, **ENVIRONMENT, **(more or {})}
+
+
+def windows_path(path: Path) -> str:
+    """Return a file's name as programs under Wine see it."""
+    return "Z:" + str(path.resolve()).replace("/", "\\")
+
+
+def prefix() -> None:
+    """Make the folder that stands for a Windows, once."""
+    if steps.is_done("wine-prefix", "win10") and PREFIX.is_dir():
+        return
+    shutil.rmtree(PREFIX, ignore_errors=True)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    steps.run("making a Windows (wineboot)", ["wineboot", "-i"], log=LOG, environ=ENVIRONMENT)
+    steps.run("choosing Windows 10 (winecfg)", ["wine", "winecfg", "-v", "win10"], log=LOG, environ=ENVIRONMENT)
+    steps.mark_done("wine-prefix", "win10")
+
+
+def stop() -> None:
+    """End what Wine keeps running for this prefix."""
+    subprocess.run(["wineserver", "-k"], env=environment(), check=False)
+
+
+def python(version: str, *, bpy: bool = False) -> Path:
+    """Return python.exe of a Windows Python with the packages that the tests need, or with bpy in an own folder."""
+    origin = parts.windows_python(version)
+    folder = FOLDER / f"{'bpy' if bpy else 'python'}-{version}"
+    requirements = [f"bpy=={BPY[version]}"] if bpy else PACKAGES
+    state = steps.digest([parts.WINDOWS_PYTHONS[version][1], *requirements, "complex functions"])
+    if steps.is_done(f"wine-{folder.name}", state) and folder.is_dir():
+        return folder / "python.exe"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(origin, folder, symlinks=True)
+    # It asks Windows for its version in a way that ends the process under Wine.
+    (folder / "DLLs" / "_wmi.pyd").unlink(missing_ok=True)
+    site = folder / "Lib" / "site-packages"
+    # What a package asks of Python, pip compares with the one that runs pip.
+    steps.run(
+        f"pip install {' '.join(requirements)} (for Windows, Python {version})",
+        [PYTHON, "-m", "pip", "install", "--upgrade", "--target", site, "--platform", "win_amd64", "--implementation",
+         "cp", "--python-version", version, "--only-binary=:all:", "--ignore-requires-python", *requirements],
+        log=LOG,
+    )  # fmt: skip
+    add_complex_functions(folder)
+    steps.mark_done(f"wine-{folder.name}", state)
+    return folder / "python.exe"
+
+
+def add_complex_functions(folder: Path) -> None:
+    """Make all libraries in the folder of a Python find C's complex functions."""
+    library = FOLDER / "math" / OWN_MATH
+    if not library.is_file():
+        build_math(library.parent)
+    for path in folder.rglob("*"):
+        if path.suffix.lower() in {".dll", ".pyd"}:
+            content = path.read_bytes()
+            if MATH.encode() in content:
+                path.write_bytes(content.replace(MATH.encode(), OWN_MATH.encode()))
+    shutil.copyfile(library, folder / OWN_MATH)
+
+
+def build_math(folder: Path) -> None:
+    """Build the library: complex functions of MinGW, all else by Wine's own."""
+    folder.mkdir(parents=True, exist_ok=True)
+    source = folder / "complex.c"
+    source.write_text(complex_source())
+    definitions = folder / "math.def"
+    definitions.write_text(math_definition(names_in_wine()))
+    compiler = compilers.program(f"{targets.named(['windows-x64'])[0].triple}-gcc-posix")
+    # Under its final name last: an unfinished file would be taken for done.
+    part = folder / "part.dll"
+    flags = ["-O2", "-shared", "-fno-builtin", "-static", "-s"]
+    steps.run(
+        "building complex functions for Wine", [compiler, *flags, source, definitions, "-o", part, "-lm"], log=LOG
+    )
+    part.rename(folder / OWN_MATH)
+
+
+def complex_source() -> str:
+    """Return C's source that takes the complex functions' addresses, so that the linker puts them in."""
+    names = [name + ending for name in COMPLEX_FUNCTIONS for ending in ("", "f")]
+    return f"#include <complex.h>\nvoid *functions[] = {{{', '.join(f'(void *){name}' for name in names)}}};\n"
+
+
+def math_definition(names: Sequence[str]) -> str:
+    """Return the .def file: a long double is a double for Windows' compilers, and other names are Wine's."""
+    own = {name + ending for name in COMPLEX_FUNCTIONS for ending in ("", "f", "l")}
+    lines = [f"LIBRARY {OWN_MATH}", "EXPORTS"]
+    for name in COMPLEX_FUNCTIONS:
+        lines += [name, f"{name}f", f"{name}l = {name}"]
+    return "\n".join([*lines, *(f"{name} = ucrtbase.{name}" for name in names if name not in own), ""])
+
+
+def names_in_wine() -> list[str]:
+    """Return the names of all functions in Wine's library of C, which has those of mathematics."""
+    # lief is one of the packages of `cross`, which a bare Python does not have.
+    import lief
+
+    found = sorted(Path("/usr/lib").glob("*/wine/x86_64-windows/ucrtbase.dll"))
+    if not found:
+        raise StepError("Wine has no ucrtbase.dll under /usr/lib: install the packages of `wine`.")
+    library = lief.PE.parse(str(found[0]))
+    return [entry.name for entry in library.get_export().entries]
