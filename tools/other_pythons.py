@@ -68,6 +68,7 @@ def compile_bindings(system: System, folder: Path) -> Path:
     (beside / f"python{version}").symlink_to(headers / "x86_64-linux-gnu" / f"python{version}")
     abi = f"cpython-{version.replace('.', '')}-x86_64-linux-gnu"
     definitions = {
+        "CMAKE_UNITY_BUILD": "ON",
         "CMAKE_MAKE_PROGRAM": PYTHON.parent / "ninja",
         "pybind11_DIR": site_packages(VENV) / "pybind11" / "share" / "cmake" / "pybind11",
         "CMAKE_CXX_FLAGS": f"-isystem {beside.parent}",

@@ -39,10 +39,16 @@ def progress(title: str) -> Iterator[None]:
 
 def run(title: str, command: Sequence[object], *, log: str, environ: Mapping[str, str] | None = None) -> None:
     """Run a command as a step with its output in build/logs/<log>.log, appended; raise StepError when it fails."""
+    with progress(title):
+        run_quietly(title, command, log=log, environ=environ)
+
+
+def run_quietly(title: str, command: Sequence[object], *, log: str, environ: Mapping[str, str] | None = None) -> None:
+    """Do the same without a line of progress, as a part of a step."""
     LOGS.mkdir(parents=True, exist_ok=True)
     path = LOGS / f"{log}.log"
     words = [str(word) for word in command]
-    with progress(title), path.open("ab") as output:
+    with path.open("ab") as output:
         start = output.tell()
         output.write(f"$ {' '.join(words)}\n".encode())
         output.flush()

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -122,23 +123,27 @@ def make_all() -> None:
     if obstacle():
         print("\n".join(f"- {line}" for line in left_out()))
         return
-    for system in wanted():
+    missing = [system for system in wanted() if not system.is_made]
+    if not missing:
+        return
+    names = ", ".join(f"build/systems/{system.suite}" for system in missing)
+    with steps.progress(f"making {names}"), ThreadPoolExecutor(len(missing)) as threads:
+        attempts = {system: threads.submit(make, system) for system in missing}
+    for system, attempt in attempts.items():
         try:
-            make(system)
+            attempt.result()
         except StepError as error:
             # The other tests go on: unstable cannot always be installed.
             print(f"{error}\n- not run: {system.serves}")
 
 
 def make(system: System) -> None:
-    """Install a system into its folder, unless it is there."""
-    if system.is_made:
-        return
+    """Install a system into its folder."""
     shutil.rmtree(system.folder, ignore_errors=True)
     FOLDER.mkdir(parents=True, exist_ok=True)
     # A mirror that lags behind has lists past their date; they are as good as others for a test.
     options = ['--aptopt=Acquire::Check-Valid-Until "false"', "--variant=apt"]
-    steps.run(
+    steps.run_quietly(
         f"making build/systems/{system.suite}",
         ["mmdebstrap", *options, f"--include={','.join(system.packages)}", system.suite, system.folder, mirror()],
         log=f"system-{system.suite}",

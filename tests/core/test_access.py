@@ -148,7 +148,7 @@ def test_manifest_asks_for_no_permissions():
     manifest = (ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8")
     keys = set(re.findall(r"^\s*\[?([\w.]+)\]?\s*(?==|$)", manifest, re.MULTILINE))
     assert keys == {
-        *("schema_version", "id", "name", "tagline", "version", "type", "maintainer", "license", "copyright"),
+        *("schema_version", "id", "name", "tagline", "type", "maintainer", "license", "copyright"),
         *("tags", "blender_version_min"),
     }
     assert "permissions" not in manifest

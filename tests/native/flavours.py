@@ -16,13 +16,12 @@ COMMON = {
     "SPECTRAL_CONFORMAL_WARNINGS_AS_ERRORS": "ON",
     "CMAKE_MAKE_PROGRAM": TOOLS / "ninja",
 }
-# Several files as one unit, since most of the time goes into Eigen's headers. GCC then takes the anonymous namespace of
-# such a file for a header's.
+# Several files as one unit, as in the wheel, since most of the time goes into Eigen's headers. The static analyzer
+# (tests/style/test_cpp_style.py) takes them one by one and sees whether one lacks an include.
 UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
-GCC_UNITY = {**UNITY, "CMAKE_CXX_FLAGS": "-Wno-subobject-linkage"}
 FLAVOURS = {
-    # The library that is in the wheel, which was compiled file by file, so that none lacks an include.
-    "release": {"CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CORE": environment.CORE},
+    # The library that is in the wheel.
+    "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CORE": environment.CORE},
     # With clang, for libFuzzer's targets, which share the library with the tests.
     "sanitized": {
         **UNITY,
@@ -34,13 +33,13 @@ FLAVOURS = {
     },
     # Runs one executable only; the others have no threads. OpenBLAS, CHOLMOD and METIS are not instrumented.
     "thread": {
-        **GCC_UNITY,
+        **UNITY,
         "CMAKE_BUILD_TYPE": "Debug",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
         "SPECTRAL_CONFORMAL_SANITIZE": "thread",
     },
     # What is built where SuiteSparse is absent.
-    "eigen_only": {**GCC_UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
+    "eigen_only": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CHOLMOD": "OFF"},
 }
 # What a flavour builds and tests, where that is not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
