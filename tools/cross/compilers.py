@@ -67,6 +67,8 @@ def mingw(target: Target) -> dict[str, str]:
         "CMAKE_RC_COMPILER": program(f"{target.triple}-windres"),
         "CMAKE_EXE_LINKER_FLAGS_INIT": flags,
         "CMAKE_MODULE_LINKER_FLAGS_INIT": f"{flags} -s",
+        # The linker has left the symbols out; strip would put the time of the day in.
+        "CMAKE_STRIP": "/bin/true",
     }
 
 
