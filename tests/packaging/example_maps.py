@@ -20,7 +20,7 @@ def solve(meshes) -> dict:
         results[f"{name} uv"] = solution.uv
         results[f"{name} eigenvalue"] = solution.eigenvalue
         measured = sc.distortion(vertices, triangles, solution.uv)
-        results[f"{name} quality"] = np.array([measured.mean_qc, measured.flipped])
+        results[f"{name} quality"] = np.array([measured.mean_qc, np.count_nonzero(measured.flipped)])
         if len(vertices) > 10000:
             continue
         results[f"{name} fold free"] = sc.parameterize(vertices, triangles, fold_free=True).uv

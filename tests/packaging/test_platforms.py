@@ -98,7 +98,7 @@ def test_notes_say_what_was_run_and_what_was_not(target):
     assert target.was_run in lines
     assert all(f"{other.name}: {other.was_run}" in lines for other in ALL if other is not target)
     assert max(map(len, text.splitlines())) <= notes.WIDTH
-    if target.name != "linux-x64":
+    if target.system == "Darwin":
         assert "Nobody has run it" in target.was_run
 
 

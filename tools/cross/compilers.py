@@ -43,7 +43,7 @@ def toolchain(target: Target) -> Path:
         **(mingw(target) if target.system == "Windows" else zig(target, folder)),
     }
     if target.system == "Darwin":
-        settings |= macos(target)
+        settings |= macos(target, folder)
     elif target.system == "Linux":
         exports = folder / "exports.map"
         write(exports, LINUX_EXPORTS)
@@ -67,6 +67,8 @@ def mingw(target: Target) -> dict[str, str]:
         "CMAKE_RC_COMPILER": program(f"{target.triple}-windres"),
         "CMAKE_EXE_LINKER_FLAGS_INIT": flags,
         "CMAKE_MODULE_LINKER_FLAGS_INIT": f"{flags} -s",
+        # The linker has left the symbols out; strip would put the time of the day in.
+        "CMAKE_STRIP": "/bin/true",
     }
 
 
@@ -90,7 +92,7 @@ def zig(target: Target, folder: Path) -> dict[str, str]:
     }
 
 
-def macos(target: Target) -> dict[str, str]:
+def macos(target: Target, folder: Path) -> dict[str, str]:
     """Return the settings that link modules by LLVM's linker, since zig's own writes damaged bundles."""
     words = [
         program(LINKER_OF_MACOS),
@@ -100,11 +102,14 @@ def macos(target: Target) -> dict[str, str]:
         "-o <TARGET> <OBJECTS> <LINK_LIBRARIES>",
         *(str(path) for path in macos_libraries(target)),
     ]
+    # Of CMake's rules, a toolchain file cannot replace the one for modules: those for macOS are read after it.
+    rules = folder / "rules.cmake"
+    write(rules, f"set(CMAKE_CXX_CREATE_SHARED_MODULE [==[{' '.join(words)}]==])\n")
     return {
         "CMAKE_INSTALL_NAME_TOOL": "/bin/true",
         "CMAKE_OSX_DEPLOYMENT_TARGET": MACOS_MINIMUM,
         "CMAKE_OSX_SYSROOT": "",
-        "CMAKE_CXX_CREATE_SHARED_MODULE": " ".join(words),
+        "CMAKE_USER_MAKE_RULES_OVERRIDE_CXX": str(rules),
     }
 
 

@@ -120,7 +120,7 @@ def include_folder(target: Target, source: Path) -> Path:
     folder = target.folder / "include"
     folder.mkdir(parents=True, exist_ok=True)
     for origin in (source / "SuiteSparse_config" / "SuiteSparse_config.h", *source.glob("CHOLMOD/Include/*.h")):
-        shutil.copyfile(origin, folder / origin.name)
+        compilers.write(folder / origin.name, origin.read_text())
     return folder
 
 
