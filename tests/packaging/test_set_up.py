@@ -73,5 +73,5 @@ def test_quick_sets_up_no_blender_and_leaves_its_tests_out(arguments, monkeypatc
     needed = [name for group in groups for name in (*environment.APT[group], *environment.PIP[group])]
     is_quick = "--quick" in arguments
     assert any("blender" in name or "bpy" in name for name in needed) != is_quick
-    assert {"pytest", "ruff", "clang-format", "git"} <= set(needed)
+    assert {"pytest", "ruff", "clang-format==14.0.6", "git"} <= set(needed)
     assert passed_on == (["-m", environment.QUICK, "-x"] if is_quick else arguments)

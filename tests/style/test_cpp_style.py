@@ -20,6 +20,9 @@ FILES = sorted(path for folder in FOLDERS for suffix in ("*.h", "*.cpp") for pat
 SOURCES = sorted((ROOT / "native" / "src").rglob("*.cpp"))
 
 
+CLANG_FORMAT = environment.PYTHON.parent / "clang-format"
+
+
 def tool(name):
     path = shutil.which(name) or shutil.which(f"{name}-14")
     assert path, f"{name} is missing; install it with: apt install {name}"
@@ -40,13 +43,13 @@ def clang_tidy(path, compile_commands, *options):
 
 
 def test_clang_format():
-    assert not output_if_failed(tool("clang-format"), "--dry-run", "--Werror", *FILES)
+    assert not output_if_failed(CLANG_FORMAT, "--dry-run", "--Werror", *FILES)
 
 
 def test_clang_format_sees_a_violation(tmp_path):
     shutil.copy(ROOT / ".clang-format", tmp_path)
     (tmp_path / "bad.cpp").write_text("int  f( ){return 0;}\n")
-    assert "bad.cpp" in output_if_failed(tool("clang-format"), "--dry-run", "--Werror", tmp_path / "bad.cpp")
+    assert "bad.cpp" in output_if_failed(CLANG_FORMAT, "--dry-run", "--Werror", tmp_path / "bad.cpp")
 
 
 def findings(paths, *arguments):
