@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import platform
 import re
@@ -20,6 +21,9 @@ from tools.steps import BUILD, ROOT, StepError
 FOLDER = BUILD / "systems"
 # Beside the project where there is one: meshes that some tests read.
 SHARED = ROOT.parent / "shared"
+# A shell whose mounts end with it. In a chroot the root is no mount that could be made private; it mostly is.
+OWN_MOUNTS = ("unshare", "--mount", "--propagation", "unchanged", "sh", "-c")
+KEEP_PRIVATE = "mount --make-rprivate / 2>/dev/null"
 
 
 @dataclass(frozen=True)
@@ -67,11 +71,11 @@ class System:
         """
         shared = [path for path in (ROOT, Path(tempfile.gettempdir()), SHARED) if path.is_dir()]
         mounts = [(path, "--bind") for path in shared] + [(Path(path), "--rbind") for path in ("/proc", "/dev", "/sys")]
-        script = "".join(
+        script = f"{KEEP_PRIVATE}; " + "".join(
             f'mkdir -p "$0{path}" && mount {how} "{path}" "$0{path}" && ' for path, how in mounts
         )  # fmt: skip
         script += 'exec chroot "$0" "$@"'
-        return ["unshare", "--mount", "sh", "-c", script, str(self.folder), "env", f"--chdir={ROOT}", *map(str, words)]
+        return [*OWN_MOUNTS, script, str(self.folder), "env", f"--chdir={ROOT}", *map(str, words)]
 
 
 # What a wheel of bpy links to and does not bring along.
@@ -102,9 +106,21 @@ def obstacle() -> str | None:
         return f"the processor is {platform.machine()}, and not x86_64"
     if os.geteuid() != 0:
         return "that needs root"
-    if subprocess.run(["unshare", "--mount", "true"], capture_output=True, check=False).returncode:
-        return "that needs to mount folders, which is not allowed here"
+    if not has_own_mounts():
+        return "that needs mounts that this machine does not see, which is not allowed here"
     return None
+
+
+@functools.cache
+def has_own_mounts() -> bool:
+    """Tell whether a command can have mounts of its own, which nothing else sees."""
+    # A folder mounted on itself is shared with others as the mount is in which it lies.
+    script = (
+        f'{KEEP_PRIVATE} && exit 0; mount --bind "$0" "$0" || exit 1; '
+        'grep -F " $0 " /proc/self/mountinfo | grep -q " shared:"; is_private=$?; umount "$0"; test $is_private -ne 0'
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        return subprocess.run([*OWN_MOUNTS, script, folder], capture_output=True, check=False).returncode == 0
 
 
 def left_out() -> list[str]:
@@ -151,15 +167,15 @@ def make(system: System) -> None:
     steps.mark_done(system.folder.name, system.state)
 
 
-def mirror() -> str:
-    """Return the address from which this machine installs Debian's packages."""
-    sources = [Path("/etc/apt/sources.list"), *sorted(Path("/etc/apt/sources.list.d").glob("*"))]
+def mirror(apt: Path = Path("/etc/apt")) -> str:
+    """Return the address from which this machine installs Debian's packages; `apt` is the folder that names it."""
+    sources = [apt / "sources.list", *sorted((apt / "sources.list.d").glob("*"))]
     for path in sources:
         if path.suffix in {".list", ".sources"} and path.is_file():
             found = re.search(r"^(?:URIs:|deb\s(?:\[.*?\])?)\s*(\S+/debian/?)(?:\s|$)", path.read_text(), re.MULTILINE)
             if found:
                 return found[1]
-    raise StepError("No file under /etc/apt names a mirror of Debian, from which another release could be installed.")
+    raise StepError(f"No file under {apt} names a mirror of Debian, from which another release could be installed.")
 
 
 def log_of(system: System) -> str:
