@@ -47,7 +47,9 @@ def toolchain(target: Target) -> Path:
     elif target.system == "Linux":
         exports = folder / "exports.map"
         write(exports, LINUX_EXPORTS)
-        settings["CMAKE_MODULE_LINKER_FLAGS_INIT"] = f"-s -Wl,--version-script={exports} -Wl,-rpath,$ORIGIN"
+        settings["CMAKE_MODULE_LINKER_FLAGS_INIT"] = f"-s -Wl,--version-script={exports}"
+        # Beside the module, and not where OpenBLAS lay when it was linked.
+        settings |= {"CMAKE_BUILD_WITH_INSTALL_RPATH": "ON", "CMAKE_INSTALL_RPATH": "$ORIGIN"}
     path = folder / "toolchain.cmake"
     text = "".join(f"set({name} [==[{value}]==])\n" for name, value in settings.items())
     if path.is_file() and path.read_text() != text:
