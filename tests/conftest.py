@@ -29,9 +29,7 @@ def pytest_collection_modifyitems(config, items):
         return
     from tests.blender import blenders
 
-    known = list(
-        dict.fromkeys(blender.name for blender in (*blenders.all_blenders(), *blenders.blenders_with_window()))
-    )
+    known = [blender.name for blender in (*blenders.all_blenders(), *blenders.further_blenders())]
     if not set(wanted) <= set(known):
         raise pytest.UsageError(f"--blender must be one of {', '.join(known)}, not {', '.join(wanted)}")
     left_out = [item for item in items if blender_of(item) not in (None, *wanted)]

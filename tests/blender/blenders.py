@@ -98,26 +98,29 @@ def system_blender() -> str:
 
 @functools.cache
 def all_blenders() -> tuple[Blender, ...]:
-    """Return the Blenders that this machine has, without a window.
+    """Return the Blenders in which everything is tested without a window.
 
-    The system's, all versions of `bpy` for this Python, and those of Debian 13 where there is such a system.
+    The system's, all versions of `bpy` for this Python, and the newest in Debian 13 where there is such a system.
     """
     versions = environment.bpy_environments().items()
     found = [Blender("system"), *(Blender(f"bpy-{name}", str(folder / "bin" / "python")) for name, folder in versions)]
     if systems.TRIXIE.is_made:
         packages = (environment.NEWEST_BPY_FOLDER, other_pythons.site(systems.TRIXIE.python))
-        found += [
-            Blender("trixie", system=systems.TRIXIE),
-            Blender(f"bpy-{environment.NEWEST_BPY}", "python3", systems.TRIXIE, packages),
-        ]
+        found.append(Blender(f"bpy-{environment.NEWEST_BPY}", "python3", systems.TRIXIE, packages))
     return tuple(found)
+
+
+@functools.cache
+def further_blenders() -> tuple[Blender, ...]:
+    """Return the Blenders of other systems, in which that is tested where --blender names them."""
+    made = [system for system in systems.wanted() if system.is_made]
+    return tuple(Blender(system.suite, system=system) for system in made)
 
 
 @functools.cache
 def blenders_with_window() -> tuple[Blender, ...]:
     """Return the Blenders that this machine has with a window."""
-    unstable = [Blender("sid", system=systems.SID)] if systems.SID.is_made else []
-    return (Blender("system"), *unstable, Blender("trixie", system=systems.TRIXIE))
+    return (Blender("system"), *(blender for blender in further_blenders() if blender.system == systems.SID))
 
 
 def add_pytest(folder: Path) -> None:

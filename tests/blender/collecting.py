@@ -53,7 +53,9 @@ class InsideFile(pytest.File):
     """A file whose tests run in Blender."""
 
     def collect(self):
-        for blender in blenders.all_blenders():
+        named = self.config.getoption("--blender") or ()
+        further = [blender for blender in blenders.further_blenders() if blender.name in named]
+        for blender in (*blenders.all_blenders(), *further):
             for function in functions_of(self.path):
                 name = f"{function}[{blender.name}]"
                 yield InsideTest.from_parent(self, name=name, inner=function, blender=blender)

@@ -24,7 +24,7 @@ SYSTEM_LIBRARIES = re.compile(
     r"(ld-linux-[\w-]+|libc|libm|libdl|libpthread|librt|libstdc\+\+|libgcc_s|libz)\.so(\.\d+)?"
 )
 SHARED_OBJECT = re.compile(r"\.so(\.|$)")
-BLENDERS = tuple(dict.fromkeys((*blenders.all_blenders(), *blenders.blenders_with_window())))
+BLENDERS = (*blenders.all_blenders(), *blenders.further_blenders())
 
 
 def build_packages():
