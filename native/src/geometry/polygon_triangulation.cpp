@@ -6,6 +6,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -100,7 +101,13 @@ bool constrained_delaunay(const Eigen::Ref<const Positions>& corners, PolygonTri
     if (!face->info().inside) continue;
     result.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   }
-  if (static_cast<int>(result.triangles.size()) != n - 2) {
+  // Where an edge passes through another corner, the number of triangles can be right although one has none.
+  std::vector<char> is_covered(static_cast<std::size_t>(n), 0);
+  for (const auto& triangle : result.triangles) {
+    for (const int corner : triangle) is_covered[static_cast<std::size_t>(corner)] = 1;
+  }
+  const bool covers_all = std::find(is_covered.begin(), is_covered.end(), 0) == is_covered.end();
+  if (static_cast<int>(result.triangles.size()) != n - 2 || !covers_all) {
     result.triangles.clear();
     return false;
   }
