@@ -27,26 +27,21 @@ def set_up() -> None:
             install_newest_bpy()
 
 
-def tag(version: str) -> str:
-    """Return the tag in wheels of a Python version: cp313 of 3.13."""
-    return f"cp{version.replace('.', '')}"
-
-
 def site(version: str) -> Path:
     """Return the folder with the module and the libraries that it needs, to be put on the path of such a Python."""
-    return FOLDER / tag(version) / "site"
+    return FOLDER / wheels.python_tag(version) / "site"
 
 
 def repaired_wheel(version: str) -> Path:
     """Return the self-contained wheel for a Python version."""
-    (found,) = (FOLDER / tag(version) / "repaired").glob("*.whl")
+    (found,) = (FOLDER / wheels.python_tag(version) / "repaired").glob("*.whl")
     return found
 
 
 def build(system: System) -> None:
     """Build the module for the Python of a system, unless its inputs are the same as before."""
     version = system.python
-    folder = FOLDER / tag(version)
+    folder = FOLDER / wheels.python_tag(version)
     state = steps.digest([version, wheel(), Path(wheels.__file__), *(ROOT / name for name in INPUTS)])
     if steps.is_done(folder.name, state) and site(version).is_dir():
         return
@@ -98,6 +93,6 @@ def pack(native: Path, version: str, folder: Path) -> Path:
         own.unlink()
         shutil.copy2(native, own.parent)
         (information,) = content.glob("*.dist-info/WHEEL")
-        information.write_text(information.read_text().replace(own_tag, tag(version)))
+        information.write_text(information.read_text().replace(own_tag, wheels.python_tag(version)))
     (packed,) = folder.glob("spectral_conformal-*.whl")
     return packed

@@ -199,10 +199,10 @@ def with_version(source: bytes) -> bytes:
 def extension_files(modules: Sequence[Path], platforms: Sequence[str]) -> dict[str, bytes]:
     """Return the files of the extension for Blender 4.2 and later, which picks and installs the wheel itself."""
     files = addon_files()
-    wheels = [f"./wheels/{module.name}" for module in modules]
+    listed = [f"./wheels/{module.name}" for module in modules]
     # Keys at the top: further down they could land in a table. A list of strings in JSON is one in TOML.
     keys = f'version = "{version()}"\n'
-    keys += f"platforms = {json.dumps(list(platforms))}\nwheels = {json.dumps(wheels)}\n"
+    keys += f"platforms = {json.dumps(list(platforms))}\nwheels = {json.dumps(listed)}\n"
     files[MANIFEST] = keys.encode() + files[MANIFEST]
     files.update((f"wheels/{module.name}", module.read_bytes()) for module in modules)
     return files

@@ -25,6 +25,11 @@ PREFIX = "spectral_conformal_"
 EARLIEST = {"SOURCE_DATE_EPOCH": "315532800"}
 
 
+def python_tag(version: str) -> str:
+    """Return the tag in the names of wheels of a Python version: cp313 of 3.13."""
+    return f"cp{version.replace('.', '')}"
+
+
 def repair(wheel: Path, folder: Path) -> Path:
     """Write into `folder` a wheel with all libraries that it needs inside, and return it.
 
@@ -53,12 +58,14 @@ def unpacked(wheel: Path, folder: Path) -> Iterator[Path]:
     )
     (content,) = (folder / "unpacked").iterdir()
     yield content
-    steps.run(
-        f"packing {wheel.name}",
-        [PYTHON, "-m", "wheel", "pack", "--dest-dir", folder, content],
-        log="package", environ=EARLIEST,
-    )  # fmt: skip
+    pack(content, folder, log="package")
     shutil.rmtree(folder / "unpacked")
+
+
+def pack(content: Path, folder: Path, *, log: str) -> None:
+    """Pack an unpacked wheel into `folder`, named by its tags; equal files give equal bytes."""
+    command = [PYTHON, "-m", "wheel", "pack", "--dest-dir", folder, content]
+    steps.run(f"packing a wheel of {content.name}", command, log=log, environ=EARLIEST)
 
 
 def prefix_symbols(content: Path, names: Path) -> None:

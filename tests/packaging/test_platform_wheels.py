@@ -19,6 +19,7 @@ from tests.module import meshes
 from tests.packaging.test_packages import SCRIPT, check_unwrapped
 from tools import environment, packaging
 from tools.cross import command, native, notes, targets, wheels, wine
+from tools.wheels import python_tag
 
 if not command.made():
     pytest.skip(
@@ -83,7 +84,7 @@ def binaries(target, python, folder):
 def test_wheel_has_its_tag_module_blas_and_licences(target, python, unpacked):
     folder = unpacked(target, python)
     (information,) = folder.glob("*.dist-info")
-    tag = target.python_tag(python)
+    tag = python_tag(python)
     assert f"Tag: {tag}-{tag}-{target.tag}\n" in (information / "WHEEL").read_text()
     assert all(path.is_file() for path in binaries(target, python, folder))
     texts = {path.name: path.read_text(errors="replace") for path in (information / "licenses").iterdir()}

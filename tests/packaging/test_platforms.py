@@ -11,6 +11,7 @@ import build_addon
 from tools import packaging
 from tools.cross import native, notes, parts, targets, wine
 from tools.steps import StepError
+from tools.wheels import python_tag
 
 ALL = targets.TARGETS
 
@@ -33,7 +34,7 @@ def test_platforms_are_chosen_by_name_in_the_order_of_the_table():
 @pytest.mark.parametrize("target", ALL, ids=lambda target: target.name)
 def test_tag_of_a_wheel_is_one_that_blender_knows(target):
     for python in targets.PYTHONS:
-        tag = target.python_tag(python)
+        tag = python_tag(python)
         wheel = Path(f"spectral_conformal-1.0-{tag}-{tag}-{target.tag}.whl")
         assert packaging.blender_platform(wheel) == target.name
         assert packaging.python_tag(wheel) == tag

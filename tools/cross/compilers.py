@@ -12,6 +12,7 @@ from tools.cross import parts
 from tools.cross.targets import CROSS, MACOS_MINIMUM, PYTHONS, Target
 from tools.environment import PYTHON, VENV, site_packages
 from tools.steps import ROOT, StepError
+from tools.wheels import python_tag
 
 ZIG = site_packages(VENV) / "ziglang" / "zig"
 ZIG_CACHE = CROSS / "zig-cache"
@@ -54,7 +55,7 @@ def toolchain(target: Target) -> Path:
     text = "".join(f"set({name} [==[{value}]==])\n" for name, value in settings.items())
     if path.is_file() and path.read_text() != text:
         # CMake reads these settings once for a build folder.
-        for built in {"cholmod", "core", "tests", *(f"cp{python.replace('.', '')}" for python in PYTHONS)}:
+        for built in {"cholmod", "core", "tests", *map(python_tag, PYTHONS)}:
             shutil.rmtree(target.folder / built, ignore_errors=True)
     write(path, text)
     return path

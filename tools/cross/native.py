@@ -13,6 +13,7 @@ from tools.cross import compilers, parts
 from tools.cross.targets import PYTHONS, Target
 from tools.environment import VENV
 from tools.steps import ROOT
+from tools.wheels import python_tag
 
 # What CHOLMOD and native/src call of the BLAS and of LAPACK.
 BLAS_FUNCTIONS = (
@@ -42,7 +43,7 @@ def build(target: Target) -> None:
 
 def module(target: Target, python: str) -> Path:
     """Return where the native module for a Python is built."""
-    return target.folder / f"cp{python.replace('.', '')}" / target.module_name(python)
+    return target.folder / python_tag(python) / target.module_name(python)
 
 
 def build_core(target: Target, settings: dict[str, object]) -> Path:

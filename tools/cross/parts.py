@@ -16,6 +16,7 @@ from tools import steps
 from tools.cross.targets import CROSS, PYTHONS, Target
 from tools.environment import PYTHON
 from tools.steps import StepError
+from tools.wheels import python_tag
 
 DOWNLOADS = CROSS / "downloads"
 PARTS = CROSS / "parts"
@@ -157,7 +158,7 @@ def windows_python(python: str) -> Path:
             with zipfile.ZipFile(data) as content:
                 content.extractall(folder)
 
-    return unpacked(f"windows-python-{python}", sha256, unpack) / f"cp{python.replace('.', '')}"
+    return unpacked(f"windows-python-{python}", sha256, unpack) / python_tag(python)
 
 
 def python_headers(target: Target, python: str) -> Path:

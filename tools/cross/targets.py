@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tools.steps import BUILD, StepError
+from tools.wheels import python_tag
 
 CROSS = BUILD / "cross"
 WHEELS = CROSS / "wheels"
@@ -45,18 +46,14 @@ class Target:
         """What stands before the names of the BLAS's functions; Windows' library has the plain names as well."""
         return "" if self.system == "Windows" else "scipy_"
 
-    def python_tag(self, python: str) -> str:
-        """Return a Python's tag in the names of wheels, such as cp311."""
-        return f"cp{python.replace('.', '')}"
-
     def module_name(self, python: str) -> str:
         """Return the file name of the native module for a Python."""
         return f"_native{self.module_suffix(python)}"
 
     def module_suffix(self, python: str) -> str:
         """Return the ending of extension modules that a Python looks for."""
-        digits = python.replace(".", "")
-        name = f"cp{digits}" if self.system == "Windows" else f"cpython-{digits}"
+        tag = python_tag(python)
+        name = tag if self.system == "Windows" else tag.replace("cp", "cpython-")
         return f".{name}-{self.python_suffix}"
 
 

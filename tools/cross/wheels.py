@@ -12,14 +12,14 @@ from tools.cross import compilers, native, parts
 from tools.cross.targets import PYTHONS, WHEELS, Target
 from tools.environment import PYTHON
 from tools.steps import ROOT, StepError
+from tools.wheels import pack as pack_wheel
+from tools.wheels import python_tag
 
 PACKAGE = ROOT / "native" / "python" / "spectral_conformal"
 METADATA = parts.CROSS / "metadata"
 LOG = "cross-wheels"
 DEBIAN_COPYRIGHT = Path("/usr/share/doc")
 DEBIAN_LICENCES = Path("/usr/share/common-licenses")
-# The earliest time that a zip can hold, in seconds: equal content gives equal bytes.
-WHEEL_TIME = "315532800"
 
 
 def make(target: Target) -> list[Path]:
@@ -44,21 +44,20 @@ def pack(target: Target, python: str, origin: Path, found: dict[str, bytes]) -> 
         place(path, information / path.relative_to(origin))
     for name, content in found.items():
         (information / "licenses" / name).write_bytes(content)
-    tag = f"{target.python_tag(python)}-{target.python_tag(python)}-{target.tag}"
+    tag = f"{python_tag(python)}-{python_tag(python)}-{target.tag}"
     (information / "WHEEL").write_text(
         f"Wheel-Version: 1.0\nGenerator: spectral-unwrap\nRoot-Is-Purelib: false\nTag: {tag}\n"
     )
     for path in tree.rglob("*"):
         # A module needs no permission to be run, and the zip records what permissions a file had.
         path.chmod(0o755 if path.is_dir() else 0o644)
-    command = [PYTHON, "-m", "wheel", "pack", "--dest-dir", WHEELS, tree]
-    steps.run(f"packing the wheel {tag}", command, log=LOG, environ={"SOURCE_DATE_EPOCH": WHEEL_TIME})
+    pack_wheel(tree, WHEELS, log=LOG)
     return wheel(target, python)
 
 
 def wheel(target: Target, python: str) -> Path:
     """Return where the wheel of a target for a Python lies."""
-    tag = target.python_tag(python)
+    tag = python_tag(python)
     found = sorted(WHEELS.glob(f"spectral_conformal-*-{tag}-{tag}-{target.tag}.whl"))
     if len(found) != 1:
         raise StepError(
