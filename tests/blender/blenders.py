@@ -5,6 +5,7 @@ import functools
 import importlib.util
 import os
 import shutil
+import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -121,6 +122,24 @@ def further_blenders() -> tuple[Blender, ...]:
 def blenders_with_window() -> tuple[Blender, ...]:
     """Return the Blenders that this machine has with a window."""
     return (Blender("system"), *(blender for blender in further_blenders() if blender.system == systems.SID))
+
+
+def run(command: list[str], *, environ: dict[str, str], folder: Path, seconds: float) -> tuple[int | None, str]:
+    """Run a Blender to its end; return its exit code, None when stopped after `seconds`, and what it printed."""
+    try:
+        result = subprocess.run(
+            command,
+            env=environ,
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            timeout=seconds,
+        )
+    except subprocess.TimeoutExpired as error:
+        return None, (error.stdout or b"").decode(errors="replace")
+    return result.returncode, result.stdout
 
 
 def add_pytest(folder: Path) -> None:

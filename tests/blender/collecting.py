@@ -9,7 +9,6 @@ A file runs in one process per Blender, with the functions that are selected; as
 
 import ast
 import os
-import subprocess
 import tempfile
 import xml.etree.ElementTree
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -98,27 +97,15 @@ def run(path, functions, blender):
         environ = blender.make_profile(Path(folder))
         if not blender.python:
             blenders.add_pytest(Path(folder))
-        try:
-            result = subprocess.run(
-                [*blender.pytest_command(), *options, *selected],
-                env=environ,
-                cwd=folder,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                errors="replace",
-                timeout=SECONDS,
-            )
-        except subprocess.TimeoutExpired as error:
-            output = (error.stdout or b"").decode(errors="replace")
-            return dict.fromkeys(functions, f"{blender.name} was still running after {SECONDS} s:\n{output}")
+        command = [*blender.pytest_command(), *options, *selected]
+        code, printed = blenders.run(command, environ=environ, folder=Path(folder), seconds=SECONDS)
+        if code is None:
+            return dict.fromkeys(functions, f"{blender.name} was still running after {SECONDS} s:\n{printed}")
         found = outcomes(report) if report.exists() else {}
     # Also when Blender crashes at its end, or pytest does not run a test that this file finds, or the other way round.
-    is_complete = result.returncode in (0, 1) and (
-        set(found) == set(functions) if whole else set(found) >= set(functions)
-    )
-    if not is_complete or (result.returncode == 1 and not any(found.values())):
-        text = f"{path.name} in {blender.name}, exit code {result.returncode}:\n{result.stdout}"
+    is_complete = code in (0, 1) and (set(found) == set(functions) if whole else set(found) >= set(functions))
+    if not is_complete or (code == 1 and not any(found.values())):
+        text = f"{path.name} in {blender.name}, exit code {code}:\n{printed}"
         return {function: found.get(function) or text for function in functions}
     return {function: found[function] for function in functions}
 

@@ -47,20 +47,12 @@ def drive(driver, blender):
         environ = {**blender.make_profile(Path(folder)), "DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
         options = ["--factory-startup", "--python-use-system-env", "--window-geometry", "0", "0", *SIZE]
         options += ["--python", HERE / driver, "--", screenshots, verdict]
-        try:
-            result = subprocess.run(
-                blender.command(*options),
-                env=environ,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                errors="replace",
-                timeout=SECONDS,
-            )
-        except subprocess.TimeoutExpired as error:
-            return f"still running after {SECONDS} s:\n{(error.stdout or b'').decode(errors='replace')}"
+        command = blender.command(*options)
+        code, printed = blenders.run(command, environ=environ, folder=Path(folder), seconds=SECONDS)
+        if code is None:
+            return f"still running after {SECONDS} s:\n{printed}"
         outcome = verdict.read_text() if verdict.exists() else "Blender ended without a verdict"
-    return "" if outcome == "passed" else f"{outcome}\nScreenshots: {screenshots}\n{result.stdout}"
+    return "" if outcome == "passed" else f"{outcome}\nScreenshots: {screenshots}\n{printed}"
 
 
 @pytest.fixture(scope="module")
