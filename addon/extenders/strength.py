@@ -3,7 +3,7 @@
 
 from ..core import texts
 
-# Bounds drags and scripts, as the limits of the other soft constraints do.
+# Of every soft constraint: bounds drags and scripts.
 STRENGTH_LIMIT = 1e4
 # Arguments of the property.
 STRENGTH = {

@@ -13,13 +13,13 @@ from bmesh.types import BMesh, BMLoop
 
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
-from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_loops
 from ..extenders import storage
 from ..extenders.strength import STRENGTH_LIMIT
 from ..unwrapping.last_settings import last_settings
 from . import following
+from .extenders import note_on_subsurf
 
 
 class AdjustedMap:
@@ -71,8 +71,7 @@ class AdjustedMap:
 
     def _take(self, edit_object: bpy.types.Object, ends: tuple[int, int]) -> ExtenderAdjustment:
         settings = last_settings()
-        subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
-        self.note = texts.ADJUSTED_WITHOUT_SUBSURF if subdivided else ""
+        self.note = note_on_subsurf(settings, edit_object)
         for all_visible in (False, True):
             polygons = read_mesh(edit_object, False, all_visible, settings.correct_aspect).polygons
             unwrapped = polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
+from ..core.options import Settings
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import write_uv
@@ -36,5 +37,10 @@ def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], fl
     uv = np.zeros((len(corners), 2))
     uv[corners] = adjustment.map(list(strengths.values()), is_final=True)
     write_uv(edit_mesh, uv, corners)
-    subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
-    return texts.ADJUSTED_WITHOUT_SUBSURF if subdivided else texts.unused_extenders(adjustment.unused)
+    return note_on_subsurf(settings, edit_object) or texts.unused_extenders(adjustment.unused)
+
+
+def note_on_subsurf(settings: Settings, edit_object: bpy.types.Object) -> str:
+    """Return what to say where `settings` are to subdivide the object's mesh, which adjusting does not."""
+    is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
+    return texts.ADJUSTED_WITHOUT_SUBSURF if is_subdivided else ""

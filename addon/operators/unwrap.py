@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
 from ..core import texts
+from ..extenders.strength import STRENGTH_LIMIT
 from ..live import following
 from ..unwrapping import steps
 from ..unwrapping.last_settings import settings_of
@@ -32,7 +33,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         default=0.0,
         min=0.0,
         soft_max=10.0,
-        max=1e4,
+        max=STRENGTH_LIMIT,
     )
     area_blend: FloatProperty(
         **texts.AREA_BLEND_PROPERTY,
@@ -57,8 +58,8 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         default=100.0,
         min=1e-6,
         soft_min=1.0,
-        max=1e4,
-        soft_max=1e4,
+        max=STRENGTH_LIMIT,
+        soft_max=STRENGTH_LIMIT,
     )
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
     margin_method: EnumProperty(**texts.MARGIN_METHOD_PROPERTY, items=texts.MARGIN_METHOD_ITEMS)

@@ -139,9 +139,12 @@ TEST_CASE("polygons without a simple triangulation get a fan that uses every cor
   coincident.row(4) = coincident.row(1);
   Positions unbounded = tilted(l_shape);
   unbounded(2, 1) = std::numeric_limits<double>::quiet_NaN();
+  // An edge passes through another corner, exactly: the three triangles inside leave out corner 2.
+  Positions touching(5, 3);
+  touching << 0, 0, 0, 1, 3, 0, 0, 3, 0, 3, 3, 0, 1, 2, 0;
   const Points star{{1, 0}, {-0.8, 0.6}, {0.3, -0.95}, {0.3, 0.95}, {-0.8, -0.6}};
   for (const Positions& corners : {tilted(star), coincident, unbounded, Positions(Positions::Ones(5, 3)),
-                                   tilted({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}})}) {
+                                   tilted({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}), touching}) {
     const int n = static_cast<int>(corners.rows());
     const PolygonTriangulation result = triangulate(corners);
     CHECK_FALSE(result.simple);
