@@ -16,6 +16,7 @@ class Options:
     hole_rigidity: float = 0.0
     area_blend: float = 0.0
     fold_free: bool = False
+    polish: bool = True
     stretch: float = 1.0
     """How much longer the map is along `PolygonMesh.stretch_direction` than across it, where the mesh has one."""
 

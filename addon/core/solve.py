@@ -122,6 +122,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "fill_holes": options.fill_holes,
         "area_blend": options.area_blend,
         "fold_free": options.fold_free,
+        "polish": options.polish,
         "metric": _stretched_space(mesh, options.stretch) if stretched else None,
         **_pins(mesh, options),
     }

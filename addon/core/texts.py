@@ -77,6 +77,10 @@ FOLD_FREE_PROPERTY = {
         "cannot be unfolded where they are get another map, which takes longer"
     ),
 }
+POLISH_PROPERTY = {
+    "name": "Polish",
+    "description": "Lower the angle distortion further by a few steps from the spectral map",
+}
 STRETCH_PROPERTY = {
     "name": "Edge Stretch",
     "description": "How much longer the islands get along the direction of the active edge than across it",

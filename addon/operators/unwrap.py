@@ -43,6 +43,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         subtype="FACTOR",
     )
     fold_free: BoolProperty(**texts.FOLD_FREE_PROPERTY)
+    polish: BoolProperty(**texts.POLISH_PROPERTY, default=True)
     stretch: FloatProperty(
         **texts.STRETCH_PROPERTY,
         default=1.0,
@@ -81,6 +82,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         row.prop(self, "hole_rigidity")
         layout.separator()
         layout.prop(self, "fold_free")
+        layout.prop(self, "polish")
         layout.prop(self, "area_blend")
         layout.prop(self, "stretch")
         layout.separator()

@@ -22,6 +22,7 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
             hole_rigidity=properties.hole_rigidity,
             area_blend=properties.area_blend,
             fold_free=properties.fold_free,
+            polish=properties.polish,
             stretch=properties.stretch,
         ),
         keep_in_place=properties.placement == KEEP,

@@ -77,6 +77,7 @@ PatchOptions patch_options_of(const py::object& options) {
   result.fill_holes = options.attr("fill_holes").cast<bool>();
   result.area_blend = options.attr("area_blend").cast<double>();
   result.fold_free = options.attr("fold_free").cast<bool>();
+  result.polish = options.attr("polish").cast<bool>();
   return result;
 }
 

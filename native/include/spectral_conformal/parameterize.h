@@ -31,7 +31,7 @@ enum class Fallback {
 /// What an eigenvalue belongs to.
 enum class EigenvalueOf {
   eigenvector,  ///< of the problem that was solved
-  map           ///< the quotient of Eq. 5 of a map that is no eigenvector: pinned, unfolded or replaced
+  map           ///< the quotient of Eq. 5 of a map that is no eigenvector: pinned, polished, unfolded or replaced
 };
 
 /// What is fixed when a Solver is made.
@@ -46,6 +46,9 @@ struct PatchOptions {
   /// Solves unfold flipped triangles, or replace the map by an embedding, at some cost in distortion; what stays
   /// flipped is reported. See fold_free_map.h.
   bool fold_free = false;
+  /// Solves of Method::spectral without pins, soft constraints or a metric go on from the eigenvector to a lower mean
+  /// QC (polish.h), where they find one.
+  bool polish = false;
 };
 
 /// What one solve of a Solver may vary.
@@ -72,6 +75,7 @@ struct SolveRecord {
   int iterations = 0;         ///< solves with the factor
   int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
   int turning_number = 0;     ///< of the outer boundary loop
+  int polish_steps = 0;       ///< steps of PatchOptions::polish from the eigenvector to this map
   int unfolded = 0;           ///< flipped triangles that PatchOptions::fold_free has unfolded
   bool is_embedding = false;  ///< whether it had to replace the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.

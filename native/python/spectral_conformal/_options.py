@@ -56,6 +56,10 @@ class Options:
             more than once or there is none, a Tutte embedding, one-to-one by theorem, is relaxed without flipping a
             triangle. `message` says what was done and what it cost, and where several pins leave no room. Triangles
             without area in 3D cannot flip; of a quad's two splits the first is kept unfolded.
+        polish: bool, go on from the map of "spectral" to a lower mean QC by a few steps with the factor that is there
+            (no pins, soft constraints, `metric` or `area_blend`). The conformal energy counts a triangle by its area in
+            the map, mean QC by its area on the surface. No step flips a triangle; `polish_steps` says how many there
+            were, and with any, `eigenvalue` is the quotient of the map.
         fallbacks: bool, whether "spectral" may change the problem where its map fails the checks: clamp thin triangles,
             then take the other boundary, then the other weights. The result's `fallback` names what was changed. False:
             such a failure is an error. The embedding of `fold_free` is asked for by that option, and made either way.
@@ -71,6 +75,7 @@ class Options:
     fill_holes: bool = False
     area_blend: float = 0.0
     fold_free: bool = False
+    polish: bool = False
     fallbacks: bool = True
     tolerance: float = 1e-8
     factorization: Factorization = "auto"
@@ -82,7 +87,7 @@ class Options:
             ValueError: a value is of the wrong kind, out of its range or at odds with another.
         """
         _check_choices(self)
-        for name in ("fill_holes", "fold_free", "fallbacks"):
+        for name in ("fill_holes", "fold_free", "polish", "fallbacks"):
             _set(self, name, _arguments.checked_flag(getattr(self, name), name))
         for name, low, high in (
             ("soft_pins", 0.0, _arguments.STRENGTH_LIMIT),
@@ -169,6 +174,7 @@ class OptionChanges(SolveChanges, total=False):
     fill_holes: bool
     area_blend: float
     fold_free: bool
+    polish: bool
     factorization: Factorization
 
 

@@ -64,6 +64,8 @@ class Parameterization:
     """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise not a number."""
     scale_deviation: float
     """With `area_blend`: the same of this map. Otherwise not a number."""
+    polish_steps: int
+    """Steps of `polish` from the eigenvector to this map; 0: it is the eigenvector."""
     unfolded: int
     """Flipped triangles that `fold_free` has unfolded."""
     is_embedding: bool
@@ -148,6 +150,8 @@ class Chart:
     scale_deviation_before: float
     """See `Parameterization`; so is the next."""
     scale_deviation: float
+    polish_steps: int
+    """Steps of `polish` from the eigenvector to this map; 0: it is the eigenvector."""
     unfolded: int
     """Flipped triangles that `fold_free` has unfolded."""
     is_embedding: bool

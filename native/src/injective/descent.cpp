@@ -4,18 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <memory>
+
+#include "injective/lbfgs.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// The inner product of the real (2V,) vectors.
-double dot(const ComplexVector& a, const ComplexVector& b) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i].real() * b[i].real() + a[i].imag() * b[i].imag();
-  return sum;
-}
 
 /// The quadratic form that stands for the Hessian of the energy, one weight each for |f_z|^2 and |f_zbar|^2 per
 /// triangle.
@@ -122,47 +116,6 @@ class QuadraticForm {
   double min_weight_ = 1e-12;
 };
 
-/// The two-loop recursion of L-BFGS (Nocedal and Wright, Numerical Optimization, 2006, Algorithm 7.4), the inverse of
-/// the quadratic form in its middle.
-class Directions {
- public:
-  void clear() { pairs_.clear(); }
-
-  void add(ComplexVector step, ComplexVector gradient_change) {
-    const double curvature = dot(step, gradient_change);
-    // Rounding decides on a smaller one, and a negative one would make the form indefinite.
-    constexpr double min_cosine = 1e-12;
-    if (!(curvature > min_cosine * step.norm() * gradient_change.norm())) return;
-    if (pairs_.size() == capacity) pairs_.pop_front();
-    pairs_.push_back({std::move(step), std::move(gradient_change), curvature});
-  }
-
-  ComplexVector descent(QuadraticForm& form, const ComplexVector& gradient) const {
-    ComplexVector remaining = gradient;
-    std::vector<double> projections(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-      projections[k] = dot(pairs_[k].step, remaining) / pairs_[k].curvature;
-      remaining -= projections[k] * pairs_[k].gradient_change;
-    }
-    ComplexVector direction;
-    form.solve(remaining, direction);
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double projection = dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
-      direction += (projections[k] - projection) * pairs_[k].step;
-    }
-    return -direction;
-  }
-
- private:
-  static constexpr std::size_t capacity = 10;  // of 3 to 20, ibid.; as many as steps per factor
-  struct Pair {
-    ComplexVector step;
-    ComplexVector gradient_change;
-    double curvature;
-  };
-  std::deque<Pair> pairs_;
-};
-
 /// The descent on given elements, which regains the barriers of triangles that gain image area.
 class Relaxation {
  public:
@@ -232,7 +185,7 @@ class Relaxation {
     constexpr int steps_per_factor = 10;  // together they take about as long as one factorisation
     while (result_.factorizations < options_.max_factorizations) {
       const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
-      directions_.clear();
+      lbfgs_.clear();
       if (!form_.factorize(z_, result_.factorizations)) return DescentStatus::indefinite_form;
       for (int k = 0; k < steps_per_factor; ++k) {
         report(progress, done, "relax");
@@ -269,8 +222,9 @@ class Relaxation {
     constexpr double fraction_of_max_step = 0.9;  // leaves each triangle a tenth of its way to a flip
     constexpr double sufficient = 1e-4;           // Armijo's condition, as in Nocedal and Wright (2006), Section 3.1
     constexpr int max_halvings = 20;              // a step of 1e-6 of the full one changes nothing that is visible
-    const ComplexVector direction = directions_.descent(form_, gradient_);
-    const double slope = dot(gradient_, direction);
+    const auto inverse = [this](const ComplexVector& b, ComplexVector& x) { form_.solve(b, x); };
+    const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
+    const double slope = real_dot(gradient_, direction);
     Step step;
     step.promised_fall = -0.5 * slope / excess(energy_);
     if (!(slope < 0)) return step;
@@ -282,7 +236,7 @@ class Relaxation {
       if (!(energy <= energy_ + sufficient * length * slope)) continue;
       step.length = length;
       step.relative_fall = (energy_ - energy) / excess(energy);
-      directions_.add(moved - z_, gradient - gradient_);
+      lbfgs_.add(moved - z_, gradient - gradient_);
       z_ = moved;
       energy_ = energy;
       gradient_ = std::move(gradient);
@@ -323,7 +277,7 @@ class Relaxation {
       --regularized_;
     }
     if (regularized_ == before) return;
-    directions_.clear();
+    lbfgs_.clear();
     energy_ = evaluate(z_, gradient_);
   }
 
@@ -332,7 +286,7 @@ class Relaxation {
   ComplexVector& z_;
   DescentOptions options_;
   QuadraticForm form_;
-  Directions directions_;
+  Lbfgs lbfgs_;
   double energy_ = 0;
   ComplexVector gradient_;
   int regularized_ = 0;   ///< elements

@@ -36,12 +36,22 @@ struct Density {
   double by_determinant;
 };
 
-Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
+/// sqrt(c^2 - 1 + smoothing^2) of DistortionMeasure::quasi_conformal.
+double smoothed_anisotropy(const MapJacobian& j, double smoothing) { return std::hypot(j.anisotropy(), smoothing); }
+
+Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j, double smoothing) {
   if (std::isinf(element.regularization)) return {2 * j.half_square, 2, 0};
   const RegularizedDeterminant determinant(j.determinant, element.regularization);
   const double inverse = 1 / determinant.value;
-  if (measure == DistortionMeasure::conformal) {
+  const bool is_smoothed = measure == DistortionMeasure::quasi_conformal && element.barrier();
+  if (measure != DistortionMeasure::symmetric_dirichlet && !is_smoothed) {
     return {2 * j.half_square * inverse, 2 * inverse, -2 * j.half_square * inverse * inverse * determinant.slope};
+  }
+  if (is_smoothed) {
+    const double c = j.half_square * inverse;
+    const double root = smoothed_anisotropy(j, smoothing);
+    const double by_c = 1 + c / root;
+    return {c + root, by_c * inverse, -by_c * c * inverse * determinant.slope};
   }
   const double inverse_square = inverse * inverse;
   return {2 * j.half_square * (1 + inverse_square), 2 * (1 + inverse_square),
@@ -75,8 +85,16 @@ MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
   return j;
 }
 
-DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
+DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j,
+                              double smoothing) {
   if (std::isinf(element.regularization)) return {isometry, isometry};
+  if (measure == DistortionMeasure::quasi_conformal) {
+    // By the slope of the distortion over the conformal one, 2 c.
+    const DistortionStiffness conformal = stiffness(element, DistortionMeasure::conformal, j);
+    if (!element.barrier()) return conformal;
+    const double slope = 0.5 * (1 + j.half_square / j.determinant / smoothed_anisotropy(j, smoothing));
+    return {slope * conformal.holomorphic, slope * conformal.antiholomorphic};
+  }
   const double determinant = RegularizedDeterminant(j.determinant, element.regularization).value;
   if (measure == DistortionMeasure::conformal) {
     if (!element.barrier()) {
@@ -105,13 +123,13 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
 }
 
 double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
-                           const ComplexVector& z, ComplexVector& gradient) {
+                           const ComplexVector& z, ComplexVector& gradient, double smoothing) {
   gradient.setZero(z.size());
   double sum = 0;
   for (const DistortionElement& element : elements) {
     const MapJacobian j = jacobian(element, z);
     if (element.barrier() && !(j.determinant > 0)) return infinity;
-    const Density f = density(element, measure, j);
+    const Density f = density(element, measure, j, smoothing);
     sum += element.weight * f.value;
     const double scale = element.weight / (element.shape.x1 * element.shape.y2);
     const Complex g = scale * (f.by_square + f.by_determinant) * j.holomorphic;

@@ -19,7 +19,12 @@ enum class DistortionMeasure {
   symmetric_dirichlet,
   /// s1 / s2 + s2 / s1: 2 where angles are kept, at any scale (Hormann and Greiner, MIPS: An Efficient Global
   /// Parametrization Method, 2000).
-  conformal
+  conformal,
+  /// s1 / s2, the quasi-conformal distortion QC: 1 where angles are kept, at any scale. With c = (s1 / s2 + s2 / s1) /
+  /// 2
+  /// it is c + sqrt(c^2 - 1), which has a kink at similarities; smoothed, c + sqrt(c^2 - 1 + smoothing^2). Elements
+  /// without a barrier have the conformal measure instead.
+  quasi_conformal
 };
 
 /// One triangle in a distortion energy.
@@ -50,6 +55,8 @@ struct MapJacobian {
   Complex antiholomorphic;
   double half_square;
   double determinant;
+  /// sqrt(c^2 - 1), half of s1 / s2 - s2 / s1: without cancellation near similarities.
+  double anisotropy() const { return 2 * std::abs(holomorphic) * std::abs(antiholomorphic) / determinant; }
   bool has_area() const { return determinant > min_determinant * half_square && determinant > min_squared_scale; }
 };
 
@@ -68,13 +75,15 @@ struct DistortionStiffness {
   double antiholomorphic;
 };
 
-/// A form that stands for the Hessian of the triangle's distortion: positive definite.
-DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j);
+/// A form that stands for the Hessian of the triangle's distortion: positive definite. `smoothing`: of
+/// DistortionMeasure::quasi_conformal, positive there.
+DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j,
+                              double smoothing = 0);
 
 /// The weighted sum of the elements' distortions, infinite where a barrier is crossed. The gradient is that of the real
-/// (2V,) vector, u + i v. z (V,).
+/// (2V,) vector, u + i v. z (V,). `smoothing`: as for stiffness.
 double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
-                           const ComplexVector& z, ComplexVector& gradient);
+                           const ComplexVector& z, ComplexVector& gradient, double smoothing = 0);
 
 /// The step along `direction` at which the first triangle with image area, however little, loses it; infinite where
 /// none does.

@@ -59,4 +59,11 @@ ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexV
   return all;
 }
 
+Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z) {
+  const auto n = static_cast<std::ptrdiff_t>(patch.triangles.size() - patch.n_virtual);
+  const auto triangles = patch.triangles.begin();
+  const auto weights = patch.triangle_weights.begin();
+  return measure_distortion(patch.surface(), {triangles, triangles + n}, {weights, weights + n}, z);
+}
+
 }  // namespace spectral_conformal

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/charts.h"
+#include "spectral_conformal/distortion.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -29,5 +30,8 @@ NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Posi
 
 /// The map z (chart vertices,) with the vertices added in filled holes, each at the mean of its neighbours.
 ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexVector& z);
+
+/// Distortion of a map (chart vertices,) in 3D, without virtual triangles.
+Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z);
 
 }  // namespace spectral_conformal

@@ -49,6 +49,7 @@ struct Solver::State {
   Timings timings;  ///< of what is done once
   NormalizedPatch patch;
   SpectralSolver spectral;
+  bool has_metric = false;
   std::string repairs;  ///< sentences, each with a space behind
   bool is_blended = false;
   std::optional<RelaxationStatus> relaxation;
@@ -154,6 +155,12 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
   result.attempts = failed_blend ? 1 : map.attempts;
   if (!failed_blend && map.rejection == Rejection::none) {
     result.message = describe_attempts(map, settings);
+    const bool is_plain = settings.method == Method::spectral && attractors.empty() && !is_blended && !has_metric &&
+                          !settings.has_extenders_or_rigidity();
+    if (options.polish && is_plain) {
+      result.polish_steps = spectral.polish(map, part(progress, 0.95, 1.0), result.timings);
+      if (result.polish_steps > 0) result.eigenvalue_of = EigenvalueOf::map;
+    }
     take(std::move(map), result);
     return std::nullopt;
   }
@@ -261,6 +268,7 @@ Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions,
     }
   }
   if (!metric.empty()) state_->spectral.stretch(metric);
+  state_->has_metric = !metric.empty();
   watch.lap("assembly");
   state_->timings = std::move(timings);
 }

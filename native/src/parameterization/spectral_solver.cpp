@@ -10,6 +10,7 @@
 #include "conformal/pin_attraction.h"
 #include "conformal/placement.h"
 #include "conformal/start_vector.h"
+#include "injective/polish.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
 
@@ -220,6 +221,39 @@ SpectralMap SpectralSolver::factorize(const Progress& progress) {
   outcome.shift = factor_.shift;
   if (!is_factored()) outcome.rejection = Rejection::not_factorized;
   return outcome;
+}
+
+int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& timings) {
+  if (!is_factored() || previous_.size() == 0) return 0;
+  Stopwatch watch(timings);
+  SpectralMap polished;
+  polished.whole = map.whole;
+  const int steps = spectral_conformal::polish(*energy_, *factor_.factorization, polished.whole, {}, progress);
+  watch.lap("polish");
+  if (steps == 0 || !polished.whole.allFinite()) return 0;
+  const Numbers after = numbers(polished.whole);
+  polished.z = polished.whole.head(patch_->n_vertices);
+  const bool is_sound =
+      after.turning_number == map.turning_number &&
+      place(polished.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale) &&
+      chart_distortion(*patch_, polished.z).mean_qc < chart_distortion(*patch_, map.z).mean_qc;
+  watch.lap("placement");
+  if (!is_sound) return 0;
+  map.z = std::move(polished.z);
+  map.whole = std::move(polished.whole);
+  map.eigenvalue = after.eigenvalue;
+  map.residual = after.residual;
+  return steps;
+}
+
+SpectralSolver::Numbers SpectralSolver::numbers(const ComplexVector& whole) const {
+  Numbers result;
+  result.turning_number = turning_number(patch_->outer, patch_->triangles, patch_->triangle_weights, whole);
+  ComplexVector r;
+  const double lambda = eigen_residual(*energy_, quotient_form(form_), whole, r);
+  result.eigenvalue = lambda * eigenvalue_unit(Method::spectral);
+  result.residual = r.norm() / (energy_->max_diagonal() * whole.norm());
+  return result;
 }
 
 void SpectralSolver::stretch(const std::vector<TriangleMetric>& metric) {

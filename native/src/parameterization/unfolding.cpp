@@ -3,19 +3,10 @@
 #include <limits>
 #include <utility>
 
-#include "conformal/correction.h"
 #include "conformal/placement.h"
-#include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
-
-Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z) {
-  const auto n = static_cast<std::ptrdiff_t>(patch.triangles.size() - patch.n_virtual);
-  const auto triangles = patch.triangles.begin();
-  const auto weights = patch.triangle_weights.begin();
-  return measure_distortion(patch.surface(), {triangles, triangles + n}, {weights, weights + n}, z);
-}
 
 UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z, const Progress& progress) {
   const NormalizedPatch& patch = solver.patch();
@@ -38,12 +29,10 @@ UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const Complex
   if (held.empty() && !place(map.z, energy, patch.outer, patch.surface(), energy.area() * patch.scale * patch.scale)) {
     throw SolveFailure("The map has no positive area", "add seams that make the island flatter.");
   }
-  const ComplexVector whole = with_virtual_vertices(patch, map.z);
-  result.turning_number = turning_number(patch.outer, patch.triangles, patch.triangle_weights, whole);
-  ComplexVector r;
-  const double lambda = eigen_residual(energy, quotient_form(solver.form()), whole, r);
-  result.eigenvalue = lambda * solver.eigenvalue_unit(Method::spectral);
-  result.residual = r.norm() / (energy.max_diagonal() * map.z.norm());
+  const SpectralSolver::Numbers after = solver.numbers(with_virtual_vertices(patch, map.z));
+  result.turning_number = after.turning_number;
+  result.eigenvalue = after.eigenvalue;
+  result.residual = after.residual;
   result.mean_qc = chart_distortion(patch, map.z).mean_qc;
   return result;
 }

@@ -2,7 +2,6 @@
 
 #include "injective/fold_free_map.h"
 #include "parameterization/spectral_solver.h"
-#include "spectral_conformal/distortion.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -21,8 +20,5 @@ struct UnfoldedMap {
 /// fold_free_map for the map z (V,) of a patch, or for none where z is empty. Pins hold their vertices. Throws
 /// SolveFailure where what it ends with has no area, and what fold_free_map throws.
 UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z, const Progress& progress);
-
-/// Distortion of a map (V,) of the patch in 3D, without virtual triangles.
-Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z);
 
 }  // namespace spectral_conformal

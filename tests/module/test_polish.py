@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polish: from the eigenvector to a lower mean QC."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+MESHES = {
+    "bumpy": meshes.bumpy_disk(1500),
+    "holes": meshes.bumpy_disk(1500, holes=3),
+    "bulge": meshes.bulge(17, 1.0),
+    "finger": meshes.finger(16, 12),
+}
+
+
+def mean_qc(mesh, solution):
+    return sc.distortion(*mesh, solution.uv).mean_qc
+
+
+def triangulated(mesh):
+    vertices, faces = mesh
+    faces = np.asarray(faces)
+    return vertices, faces if faces.shape[1] == 3 else np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+
+
+@pytest.fixture(params=MESHES)
+def mesh(request):
+    return triangulated(MESHES[request.param])
+
+
+def test_mean_qc_falls_and_no_triangle_flips(mesh):
+    plain, polished = sc.parameterize(*mesh), sc.parameterize(*mesh, polish=True)
+    assert polished.polish_steps > 0
+    assert mean_qc(mesh, polished) < mean_qc(mesh, plain)
+    assert not sc.distortion(*mesh, polished.uv).flipped.any()
+    assert abs(polished.turning_number) == 1
+
+
+def test_the_result_says_that_it_is_no_eigenvector(mesh):
+    plain, polished = sc.parameterize(*mesh), sc.parameterize(*mesh, polish=True)
+    assert (plain.polish_steps, plain.eigenvalue_of) == (0, "eigenvector")
+    assert polished.eigenvalue_of == "map"
+    # The eigenvector has the least quotient.
+    assert polished.eigenvalue >= plain.eigenvalue * (1 - 1e-9)
+    assert polished.fallback is None
+    assert polished.message == plain.message
+
+
+def test_place_and_size_are_those_of_any_map(mesh):
+    vertices, triangles = mesh
+    uv = sc.parameterize(*mesh, polish=True).uv
+    a, b, c = (uv[triangles[:, k]] for k in range(3))
+    side, other = b - a, c - a
+    area = 0.5 * (side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0]).sum()
+    p, q, r = (vertices[triangles[:, k]] for k in range(3))
+    assert area == pytest.approx(0.5 * np.linalg.norm(np.cross(q - p, r - p), axis=1).sum())
+    again = sc.parameterize(vertices * 1e3 + 7.0, triangles, polish=True).uv
+    assert meshes.similarity_deviation(again, uv) < 1e-6
+
+
+def test_no_mesh_gets_worse():
+    improved = 0
+    for seed in range(12):
+        mesh = meshes.rough_grid(12, 0.3 + 0.15 * seed, seed)
+        try:
+            plain = sc.parameterize(*mesh, fallbacks=False)
+        except sc.SolveError:
+            continue
+        polished = sc.parameterize(*mesh, fallbacks=False, polish=True)
+        before, after = sc.distortion(*mesh, plain.uv), sc.distortion(*mesh, polished.uv)
+        assert after.mean_qc <= before.mean_qc
+        assert after.flipped.sum() <= before.flipped.sum()
+        improved += after.mean_qc < before.mean_qc
+    assert improved >= 6
+
+
+def test_a_flat_patch_is_left_alone():
+    mesh = triangulated(meshes.bulge(9, 0.0))
+    plain, polished = sc.parameterize(*mesh), sc.parameterize(*mesh, polish=True)
+    assert polished.polish_steps == 0
+    np.testing.assert_array_equal(polished.uv, plain.uv)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"extenders": [(3, 900, 1.0)]},
+        {"hole_rigidity": 1.0},
+        {"pins": {3: (0, 0), 700: (1, 0)}},
+        {"pins": {3: (0, 0), 700: (1, 0), 200: (0, 1)}, "soft_pins": 10.0},
+        {"area_blend": 0.5},
+        {"method": "lscm"},
+        {"method": "fiedler"},
+    ],
+    ids=lambda given: "-".join(given),
+)
+def test_what_the_user_asked_of_the_shape_is_not_polished_away(given):
+    mesh = MESHES["holes"]
+    plain, polished = sc.parameterize(*mesh, **given), sc.parameterize(*mesh, **given, polish=True)
+    assert polished.polish_steps == 0
+    np.testing.assert_array_equal(polished.uv, plain.uv)
+
+
+def test_nor_is_a_metric():
+    mesh = MESHES["bumpy"]
+    metric = sc.metric_from_direction(*mesh, np.broadcast_to([1.0, 0.0, 0.0], (len(mesh[1]), 3)), 2.0)
+    assert sc.parameterize(*mesh, metric=metric, polish=True).polish_steps == 0
+
+
+def test_one_pin_moves_the_polished_map():
+    mesh = MESHES["bumpy"]
+    free, pinned = sc.parameterize(*mesh, polish=True), sc.parameterize(*mesh, polish=True, pins={5: (3.0, 4.0)})
+    np.testing.assert_allclose(pinned.uv[5], (3, 4))
+    np.testing.assert_allclose(pinned.uv - pinned.uv[5], free.uv - free.uv[5], atol=1e-12)
+
+
+def test_unwrap_and_a_kept_solver_make_the_same_map(mesh):
+    alone = sc.parameterize(*mesh, polish=True)
+    solver = sc.Solver(*mesh, polish=True)
+    for _ in range(2):
+        np.testing.assert_array_equal(solver.solve().uv, alone.uv)
+    result = sc.unwrap(mesh[0], *meshes.polygons(mesh[1].tolist()), polish=True)
+    (chart,) = result.charts
+    assert chart.polish_steps == alone.polish_steps
+    assert meshes.similarity_deviation(result.uv, alone.uv[mesh[1].ravel()]) < 1e-9
+
+
+def test_flips_are_unfolded_after_it():
+    mesh = meshes.rough_grid(14, 2.0, 3)
+    solution = sc.parameterize(*mesh, polish=True, fold_free=True)
+    assert not sc.distortion(*mesh, solution.uv).flipped.any()
+
+
+def test_it_can_be_cancelled_and_is_reported():
+    phases = set()
+
+    def stop(_done, phase):
+        phases.add(phase)
+        return phase != "polish"
+
+    with pytest.raises(sc.Cancelled):
+        sc.parameterize(*MESHES["bumpy"], polish=True, progress=stop)
+    assert "polish" in phases
+    assert "polish" in dict(sc.parameterize(*MESHES["bumpy"], polish=True).timings)
