@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The wheels and zips of `package --platforms`: what is in them, and those for Windows and Linux at work.
 
-Windows' run under Wine: the C++ tests, the module's tests, the extension installed in Blender for Windows.
+Windows' run under Wine: the C++ tests, the module's tests, the extension installed in Blender for Windows. Those for
+Linux on ARM run under qemu, where it is installed: the module's tests.
 """
 
 import json
@@ -18,7 +19,7 @@ import pytest
 from tests.module import meshes
 from tests.packaging.test_packages import SCRIPT, check_unwrapped
 from tools import environment, packaging
-from tools.cross import command, native, notes, targets, wheels, wine
+from tools.cross import command, native, notes, qemu, targets, wheels, wine
 from tools.wheels import python_tag
 
 if not command.made():
@@ -267,6 +268,36 @@ def test_linux_module_passes_the_modules_tests(unpacked):
     folder = unpacked(target_or_skip("linux-x64"), this_python())
     call = [environment.PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/module"]
     result = subprocess.run(call, cwd=ROOT, env=module_path(folder), capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout[-8000:]
+
+
+@pytest.fixture(scope="module")
+def linux_on_arm():
+    target = target_or_skip("linux-arm64")
+    if reason := qemu.obstacle():
+        pytest.skip(f"not run: the module for Linux on ARM: {reason}")
+    return target
+
+
+@pytest.mark.slow
+def test_arm_module_solves_as_the_one_built_here(linux_on_arm, unpacked, examples, tmp_path):
+    folder = unpacked(linux_on_arm, qemu.VERSION)
+    words = [EXAMPLES, examples / "meshes.npz", tmp_path / "found.npz"]
+    result = qemu.run(words, environ={"PYTHONPATH": str(folder)}, timeout=1800)
+    assert result.returncode == 0, result.stdout
+    assert str(folder / "spectral_conformal" / linux_on_arm.blas_name) in result.stdout
+    check_equal(tmp_path / "found.npz", examples)
+
+
+# What test_memory.py limits is qemu's own address space, which is larger than that of the program that it runs.
+NOT_UNDER_QEMU = ["--ignore=tests/module/test_memory.py"]
+
+
+@pytest.mark.slow
+def test_arm_module_passes_the_modules_tests(linux_on_arm, unpacked):
+    words = ["-m", "pytest", "-q", "-p", "no:cacheprovider", *NOT_UNDER_QEMU, "tests/module"]
+    environ = {"PYTHONPATH": str(unpacked(linux_on_arm, qemu.VERSION)), "PYTHONDONTWRITEBYTECODE": "1"}
+    result = qemu.run(words, environ=environ, folder=ROOT, timeout=5400)
     assert result.returncode == 0, result.stdout[-8000:]
 
 

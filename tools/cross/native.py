@@ -29,7 +29,7 @@ JOBS = min(2, os.cpu_count() or 1)
 
 def build(target: Target) -> None:
     """Compile everything of a target that the wheels need; quick when nothing has changed."""
-    recipes = [path for path in steps.source_files(Path(__file__).parent) if path.name != "wine.py"]
+    recipes = [path for path in steps.source_files(Path(__file__).parent) if path.name not in {"wine.py", "qemu.py"}]
     state = steps.digest([*SOURCES, *recipes])
     stamp = f"cross-native-{target.name}"
     if steps.is_done(stamp, state) and all(module(target, python).is_file() for python in PYTHONS):
