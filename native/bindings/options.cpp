@@ -24,7 +24,8 @@ constexpr Name<BoundaryMeasure> boundaries[] = {{"length", BoundaryMeasure::leng
 constexpr Name<FactorizationBackend> backends[] = {{"auto", FactorizationBackend::automatic},
                                                    {"cholmod", FactorizationBackend::cholmod},
                                                    {"eigen", FactorizationBackend::eigen}};
-constexpr Name<Fallback> fallbacks[] = {{"clamped_triangles", Fallback::clamped_triangles},
+constexpr Name<Fallback> fallbacks[] = {{"unfolded", Fallback::unfolded},
+                                        {"clamped_triangles", Fallback::clamped_triangles},
                                         {"other_boundary", Fallback::other_boundary},
                                         {"other_weights", Fallback::other_weights},
                                         {"tutte_embedding", Fallback::tutte_embedding}};

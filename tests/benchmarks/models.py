@@ -405,9 +405,7 @@ def decimated(made: bpy.types.Object, ratio: float) -> bpy.types.Object:
 
 def dissolved(made: bpy.types.Object) -> bpy.types.Object:
     """Return a model whose nearly flat parts between seams are n-gons."""
-    return applied(
-        modified(made, "DECIMATE", decimate_type="DISSOLVE", angle_limit=math.radians(8), delimit={"SEAM"})
-    )
+    return applied(modified(made, "DECIMATE", decimate_type="DISSOLVE", angle_limit=math.radians(8), delimit={"SEAM"}))
 
 
 def terrain(side: int) -> bpy.types.Object:
@@ -450,8 +448,10 @@ def turned(profile: list[tuple[float, float]], segments: int) -> bpy.types.Objec
     is_side = np.concatenate([[False], np.ones(len(faces), dtype=bool)])
     seams_between(
         mesh,
-        lambda a, b: (np.einsum("ij,ij->i", normals[a], normals[b]) < math.cos(SHARP))
-        | (is_side[a] & is_side[b] & (np.abs(column[a] - column[b]) == n - 1)),
+        lambda a, b: (
+            (np.einsum("ij,ij->i", normals[a], normals[b]) < math.cos(SHARP))
+            | (is_side[a] & is_side[b] & (np.abs(column[a] - column[b]) == n - 1))
+        ),
     )
     return made
 

@@ -7,12 +7,13 @@ import spectral_conformal as sc
 
 from tests.module import degenerate, meshes, reference
 
-# Surfaces so rough that the boundary of their own map winds round twice: (mesh, weights, fallback that helps).
+# Surfaces so rough that the boundary of their own map winds round twice or more: (mesh, weights), by what stands in.
 CASES = {
-    "clamped_triangles": (degenerate.needles(*meshes.rough_grid(10, 2.0, 4), 1e-5), "inverse_area"),
-    "other_boundary": (meshes.rough_grid(10, 4.0, 6), "uniform"),
-    "other_weights": (meshes.rough_grid(10, 2.0, 10), "uniform"),
-    "other_weights, from inverse area": (meshes.rough_grid(10, 4.0, 5), "inverse_area"),
+    "unfolded": (meshes.rough_grid(10, 4.0, 6), "uniform"),
+    "unfolded, from inverse area": (meshes.rough_grid(10, 4.0, 5), "inverse_area"),
+    "unfolded, of needles": (degenerate.needles(*meshes.rough_grid(10, 2.0, 4), 1e-5), "inverse_area"),
+    "tutte_embedding": (meshes.rough_grid(8, 3.0, 2), "uniform"),
+    "other_weights": (meshes.rough_grid(10, 3.0, 0), "inverse_area"),
 }
 OTHER = {"uniform": "inverse_area", "inverse_area": "uniform"}
 
@@ -24,32 +25,61 @@ def case(request):
     return vertices, triangles, weights, request.param.partition(",")[0]
 
 
-def test_the_fields_say_what_was_solved(case):
+def mean_qc(vertices, triangles, solution):
+    """Mean QC, infinite for a map with flipped triangles."""
+    measured = sc.distortion(vertices, triangles, solution.uv)
+    return np.inf if measured.flipped.any() else measured.mean_qc
+
+
+def test_the_fields_say_what_stands_in(case):
     vertices, triangles, weights, fallback = case
     solution = sc.parameterize(vertices, triangles, weights=weights)
     assert solution.fallback == fallback
     assert solution.method == "spectral"
     assert solution.weights == (OTHER[weights] if fallback == "other_weights" else weights)
-    assert solution.boundary == ("vertex" if fallback == "other_boundary" else "length")
-    assert (solution.clamped_triangles > 0) == (fallback == "clamped_triangles")
+    assert solution.boundary == "length"
+    assert solution.clamped_triangles == 0
     assert solution.attempts > 2  # two of its own, and those of the fallbacks
     assert abs(solution.turning_number) == 1
+    assert solution.unfolded > 0 or fallback == "other_weights"
+    assert solution.is_embedding == (fallback == "tutte_embedding")
+    assert solution.eigenvalue_of == ("eigenvector" if fallback == "other_weights" else "map")
+    assert "winds round" in solution.message
     (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles), weights=weights).charts
     for name in ("method", "weights", "boundary", "fallback", "clamped_triangles", "eigenvalue", "eigenvalue_of"):
         assert getattr(chart, name) == getattr(solution, name)
-    assert chart.attempts == solution.attempts
+    assert (chart.attempts, chart.unfolded, chart.flipped) == (solution.attempts, solution.unfolded, 0)
 
 
-def test_the_eigenvalue_is_that_of_what_was_solved(case):
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("weights", OTHER)
+def test_no_other_map_without_flips_has_a_lower_mean_qc(weights, seed):
+    mesh = meshes.rough_grid(10, 4.0, seed)
+    solution = sc.parameterize(*mesh, weights=weights)
+    best = mean_qc(*mesh, solution)
+    assert abs(solution.turning_number) == 1
+    if solution.fallback is None:
+        return  # the map that was asked for passes; flips of its own are fold_free's
+    assert np.isfinite(best)
+    for changes in ({"boundary": "vertex"}, {"weights": OTHER[weights]}):
+        try:
+            other = sc.parameterize(*mesh, **{"weights": weights, **changes}, fallbacks=False)
+        except sc.SolveError:
+            continue
+        assert best <= mean_qc(*mesh, other) * (1 + 1e-9)
+
+
+def test_the_eigenvalue_is_that_of_the_map(case):
     vertices, triangles, weights, fallback = case
     solution = sc.parameterize(vertices, triangles, weights=weights)
-    assert solution.eigenvalue_of == "eigenvector"
-    if fallback == "clamped_triangles":
-        return  # the energy of other triangles than the mesh's
     matrix = reference.conformal_energy_matrix(vertices, triangles, solution.weights)
     mass = reference.boundary_masses(vertices, triangles, solution.boundary)
     z = solution.uv @ [1, 1j]
-    assert solution.eigenvalue == pytest.approx(reference.rayleigh_quotient(matrix, mass, z), rel=1e-6)
+    # Next to the needles' cotangents of 1e5 the reference, which is not summed by triangles, keeps fewer digits.
+    digits = 1e-4 if len(vertices) > 100 else 1e-6
+    assert solution.eigenvalue == pytest.approx(reference.rayleigh_quotient(matrix, mass, z), rel=digits)
+    if fallback != "other_weights":
+        return
     same = sc.parameterize(vertices, triangles, weights=solution.weights, boundary=solution.boundary, fallbacks=False)
     assert (same.fallback, same.eigenvalue) == (None, pytest.approx(solution.eigenvalue, rel=1e-9))
     assert meshes.similarity_deviation(same.uv, solution.uv) < 1e-7
@@ -62,7 +92,7 @@ def test_without_fallbacks_the_failure_is_the_answer(case):
         lambda: sc.Solver(vertices, triangles, weights=weights, fallbacks=False).solve(),
         lambda: sc.Solver(vertices, triangles, weights=weights).solve(fallbacks=False),
     ):
-        with pytest.raises(sc.SolveError, match="winds round 2 times instead of once"):
+        with pytest.raises(sc.SolveError, match="winds round . times instead of once"):
             solve()
     more, other = meshes.bumpy_disk(60)
     both = [*triangles.tolist(), *(other + len(vertices)).tolist()]
@@ -73,7 +103,7 @@ def test_without_fallbacks_the_failure_is_the_answer(case):
     ):
         failed, solved = result.charts
         assert (failed.status, solved.status) == ("failed", "solved")
-        assert "winds round 2 times" in failed.message
+        assert "winds round" in failed.message
         assert failed.fallback is None
 
 

@@ -19,13 +19,14 @@ class ConformalEnergy;
 struct Chart;
 struct PolygonMesh;
 
-/// What was changed about a problem whose own attempts had failed (see SolveOptions::fallbacks).
+/// What stands in for the map of a problem whose own attempts had failed (see SolveOptions::fallbacks).
 enum class Fallback {
   none,
+  unfolded,           ///< that map, its boundary winding round once after flipped triangles were unfolded
   clamped_triangles,  ///< thin triangles were given a minimal height in the energy
   other_boundary,     ///< the form B with the other BoundaryMeasure
   other_weights,      ///< the energy L with the other Weights
-  tutte_embedding     ///< PatchOptions::fold_free replaced the map by a relaxed Tutte embedding
+  tutte_embedding     ///< a relaxed Tutte embedding
 };
 
 /// What an eigenvalue belongs to.
@@ -58,7 +59,8 @@ struct SolveOptions {
   double soft_pins = 0;                  ///< strength of pins as a soft force (see pin_attraction.h); 0: held exactly
   std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
   double hole_rigidity = 0;  ///< beta of ExtendedForm::add_spread for every loop but the outer one; likewise
-  /// Whether Method::spectral may solve another problem where its own fails. When false, that failure is the answer;
+  /// Whether Method::spectral may take another map where its own fails: unfolded, an embedding, or that of another
+  /// problem (fallbacks.h). When false, that failure is the answer;
   /// the second attempt at the same problem, with another start and a larger shift unless that was raised already, is
   /// made either way, and so is the embedding that PatchOptions::fold_free asks for.
   bool fallbacks = true;
@@ -135,8 +137,8 @@ class Solver {
   /// Every map is checked by one rule (map_check.h): finite, equations satisfied, positive area, and for the spectral
   /// method a turning number of 1, or -1 where the longest loop in 3D is a hole of the map. An eigenvector that fails
   /// is solved again with another start and, unless it was raised already, a larger shift, then, where
-  /// SolveOptions::fallbacks allows it (spectral only), with thin triangles clamped, with the other boundary form and
-  /// with the other weights; the fields of the result and `message` say so. Extenders and hole rigidity change the form
+  /// SolveOptions::fallbacks allows it (spectral only), gives way to the best of some other maps (fallbacks.h); the
+  /// fields of the result and `message` say which. Extenders and hole rigidity change the form
   /// B of Method::spectral and leave the factor; a solve with them starts from the maps of earlier solves, has no
   /// fallbacks, and fails where they are so strong that the map winds round more than once. With `fold_free` flipped
   /// triangles are unfolded, and a map that winds round more than once, or none, is replaced by an embedding; `message`

@@ -60,9 +60,10 @@ class Options:
             (no pins, soft constraints, `metric` or `area_blend`). The conformal energy counts a triangle by its area in
             the map, mean QC by its area on the surface. No step flips a triangle; `polish_steps` says how many there
             were, and with any, `eigenvalue` is the quotient of the map.
-        fallbacks: bool, whether "spectral" may change the problem where its map fails the checks: clamp thin triangles,
-            then take the other boundary, then the other weights. The result's `fallback` names what was changed. False:
-            such a failure is an error. The embedding of `fold_free` is asked for by that option, and made either way.
+        fallbacks: bool, whether "spectral" may take another map where its own fails the checks: the one of least mean
+            QC without flipped triangles among the failed map unfolded (or an embedding, where that leaves no room) and
+            the maps with thin triangles clamped, with the other boundary and with the other weights. The result's
+            `fallback` names which. False: such a failure is an error. The embedding of `fold_free` is asked for by that option, and made either way.
         tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops.
         factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen; or "cholmod", "eigen".
     """

@@ -10,11 +10,11 @@ import numpy.typing as npt
 
 from ._options import Boundary, Method, Weights
 
-Fallback = Optional[Literal["clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
-"""What was changed about a problem whose own solve failed the checks; None where nothing was. "clamped_triangles": thin
-triangles were given a minimal height in the energy. "other_boundary", "other_weights": the form B with the other
-`boundary`, the energy L with the other `weights`. "tutte_embedding": `fold_free` replaced the map by a relaxed Tutte
-embedding."""
+Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
+"""What stands in for a map that failed the checks; None for the map that was asked for. "unfolded": that map, its
+boundary winding round once after flipped triangles were unfolded. "clamped_triangles": thin triangles were given a
+minimal height in the energy. "other_boundary", "other_weights": the form B with the other `boundary`, the energy L with
+the other `weights`. "tutte_embedding": a relaxed Tutte embedding, here or because `fold_free` asks for it."""
 EigenvalueOf = Literal["eigenvector", "map"]
 """What an eigenvalue belongs to: the "eigenvector" of the problem that was solved, or a "map" that is none (pinned,
 unfolded, replaced), of which it is the quotient z*Lz / z*Bz of Eq. 5."""

@@ -73,6 +73,7 @@ struct Solver::State {
                                              const Progress& progress, Parameterization& result);
   void unfold(const Pins& held, const std::optional<SolveFailure>& failure, const Progress& progress,
               Parameterization& result);
+  void take_unfolded(UnfoldedMap&& unfolded, const std::string& failure, bool held, Parameterization& result) const;
   Parameterization solve(const SolveOptions& settings, const Pins& pins, const Progress& progress);
 };
 
@@ -172,8 +173,13 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
   const double not_blended = is_blended ? 0 : options.area_blend;
   std::optional<FallbackMap> other =
-      solve_fallback(spectral, settings, attractors, not_blended, rest, result.timings, result.attempts);
+      solve_fallback(spectral, map, settings, attractors, not_blended, rest, result.timings, result.attempts);
   if (!other) return failure;
+  if (other->unfolded) {
+    take_unfolded(std::move(*other->unfolded), failure.reason(), false, result);
+    result.fallback = other->fallback;
+    return std::nullopt;
+  }
   result.fallback = other->fallback;
   result.weights = other->weights;
   result.boundary = other->boundary;
@@ -191,7 +197,13 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
 void Solver::State::unfold(const Pins& held, const std::optional<SolveFailure>& failure, const Progress& progress,
                            Parameterization& result) {
   Stopwatch watch(result.timings);
-  UnfoldedMap unfolded = spectral_conformal::unfold(spectral, held, result.z, progress);
+  take_unfolded(spectral_conformal::unfold(spectral, held, result.z, progress), failure ? failure->reason() : "",
+                !held.empty(), result);
+  watch.lap("unfolding");
+}
+
+void Solver::State::take_unfolded(UnfoldedMap&& unfolded, const std::string& failure, bool held,
+                                  Parameterization& result) const {
   FoldFreeMap& map = unfolded.fold_free;
   if (unfolded.changed) {
     result.z = std::move(map.z);
@@ -208,9 +220,8 @@ void Solver::State::unfold(const Pins& held, const std::optional<SolveFailure>& 
     result.clamped_triangles = 0;
     if (map.is_embedding) result.fallback = Fallback::tutte_embedding;
   }
-  result.message += describe_unfolding(map, failure ? failure->reason() : "", unfolded.mean_qc_before, unfolded.mean_qc,
-                                       result.turning_number, !held.empty());
-  watch.lap("unfolding");
+  result.message +=
+      describe_unfolding(map, failure, unfolded.mean_qc_before, unfolded.mean_qc, result.turning_number, held);
 }
 
 Parameterization Solver::State::solve(const SolveOptions& given, const Pins& pins, const Progress& progress) {

@@ -88,6 +88,7 @@ std::string describe_fallback(const FallbackMap& fallback, const SolveFailure& f
   std::string what;
   switch (fallback.fallback) {
     case Fallback::none:
+    case Fallback::unfolded:
     case Fallback::tutte_embedding:
       break;
     case Fallback::clamped_triangles:
@@ -157,8 +158,9 @@ std::string describe_unfolding(const FoldFreeMap& map, const std::string& failur
     text += ": replaced by an embedding, relaxed without folding it; mean QC ";
     text += failure.empty() ? five_digits(before) + " -> " + five_digits(after) + ". " : five_digits(after) + ". ";
   } else if (map.flipped < map.flipped_before) {
-    text = count(map.flipped_before - map.flipped, "flipped triangle", "flipped triangles") + " unfolded; mean QC " +
-           five_digits(before) + " -> " + five_digits(after) + ". ";
+    if (!failure.empty()) text = failure + ": ";
+    text += count(map.flipped_before - map.flipped, "flipped triangle", "flipped triangles") + " unfolded; mean QC " +
+            five_digits(before) + " -> " + five_digits(after) + ". ";
   }
   if (map.flipped > 0) {
     text += count(map.flipped, "triangle", "triangles") +

@@ -139,6 +139,7 @@ SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& att
   check.turning_number = map.turning_number;
   check.must_wind_once = options.method == Method::spectral;
   map.rejection = check_map(v.z, check);
+  if (map.rejection == Rejection::winding) map.whole = std::move(v.z);
   if (map.rejection != Rejection::none) return map;
 
   // Place it: centred, with the area in 3D, turned to lie along the axes.

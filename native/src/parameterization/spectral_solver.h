@@ -18,8 +18,9 @@ namespace spectral_conformal {
 /// A map found by SpectralSolver, or why there is none.
 struct SpectralMap {
   Rejection rejection = Rejection::none;
-  ComplexVector z;        ///< (V,) placed; where it was accepted
-  ComplexVector whole;    ///< the same with virtual vertices, at no particular place and scale
+  ComplexVector z;  ///< (V,) placed; where it was accepted
+  ComplexVector
+      whole;  ///< the same with virtual vertices, at no particular place and scale; for Rejection::winding, too
   double eigenvalue = 0;  ///< in the units of the input
   double residual = 0;    ///< see SolveRecord
   double shift = 0;       ///< s of the last attempt
