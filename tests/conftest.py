@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).resolve().parent
+BUILDS = pytest.StashKey()
 
 
 def pytest_addoption(parser):
@@ -40,6 +41,24 @@ def pytest_collection_modifyitems(config, items):
     if left_out:
         config.hook.pytest_deselected(items=left_out)
         items[:] = [item for item in items if item not in left_out]
+
+
+def pytest_collection_finish(session):
+    """Begin to build what the C++ tests need, beside the tests that leave a core idle."""
+    fuzzed = any(item.path == TESTS / "fuzz" / "test_native_fuzz.py" for item in session.items)
+    tested = [item.callspec.params["build"] for item in session.items if item.path == TESTS / "native/test_native.py"]
+    if session.config.option.collectonly or not (fuzzed or tested):
+        return
+    from tests.fuzz import run_native
+    from tests.native import flavours
+
+    wanted = [("sanitized", *run_native.TARGETS)] if fuzzed else []
+    session.stash[BUILDS] = flavours.build_ahead([*wanted, *((flavour,) for flavour in dict.fromkeys(tested))])
+
+
+def pytest_sessionfinish(session):
+    if BUILDS in session.stash:
+        session.stash[BUILDS].shutdown(wait=False, cancel_futures=True)
 
 
 def blender_of(item):

@@ -36,6 +36,11 @@ LICENCES = re.compile(r"^.+\.dist-info/licenses/(?!LICENSE$)")
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
+def is_for_legacy_zips(tag: str) -> bool:
+    """Tell whether a Blender before 4.2 has the Python of this tag: its own, or, from a distribution, the system's."""
+    return tag in LEGACY_PYTHONS or (0,) < system_blender_version() < OLDEST_WITH_EXTENSIONS
+
+
 def run() -> int:
     """Write the zips to build/packages/ that a Blender with this Python can load."""
     module = repair_wheel()
@@ -46,7 +51,7 @@ def run() -> int:
     shutil.rmtree(PACKAGES, ignore_errors=True)
     PACKAGES.mkdir(parents=True)
     with steps.progress("packing"):
-        if tag in LEGACY_PYTHONS:
+        if is_for_legacy_zips(tag):
             write_zip(PACKAGES / "-legacy-".join(target), legacy_files(module))
         if for_extensions(module):
             write_zip(extension, extension_files([module], [f"linux-{architecture}"]))

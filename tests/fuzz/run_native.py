@@ -22,9 +22,7 @@ SEEDS = 100
 
 def build():
     """Build the targets; returns their folder."""
-    folder = flavours.configure("sanitized")
-    flavours.run(flavours.TOOLS / "cmake", "--build", folder, "--target", *TARGETS)
-    return folder / "tests" / "fuzz"
+    return flavours.build("sanitized", *TARGETS) / "tests" / "fuzz"
 
 
 def command(folder, target, runs, seed):

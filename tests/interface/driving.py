@@ -46,6 +46,7 @@ class Layout:
 LAYOUTS = {
     (5, 0): Layout(259, 380, 423, 443, 47, 23, 18, (278, 248), True),
     (4, 3): Layout(77, 199, 241, 262, 47, 23, 18, (278, 174), True),
+    (4, 0): Layout(217, 339, 381, 402, 47, 23, 18, (215, 170), False),
     (3, 4): Layout(225, 351, 395, 417, -44, 22, 20, (215, 170), False),
 }
 LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >= version)

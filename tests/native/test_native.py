@@ -11,10 +11,7 @@ from tests.native import flavours
 
 @pytest.fixture(scope="module", params=flavours.FLAVOURS)
 def build(request):
-    folder = flavours.configure(request.param)
-    target, _ = flavours.ONLY.get(request.param, ("all", None))
-    flavours.run(flavours.TOOLS / "cmake", "--build", folder, "--target", target)
-    return folder
+    return flavours.build(request.param)
 
 
 def test_ctest(build, monkeypatch):

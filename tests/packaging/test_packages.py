@@ -40,7 +40,8 @@ def build_packages():
 def packages():
     found = build_packages()
     tag = packaging.python_tag(environment.wheel())
-    assert set(found) == {"extension"} | ({"legacy"} if tag in packaging.LEGACY_PYTHONS else set())
+    older = (0,) < environment.system_blender_version() < (4, 2)
+    assert set(found) == {"extension"} | ({"legacy"} if tag in packaging.LEGACY_PYTHONS or older else set())
     return found
 
 
@@ -96,7 +97,7 @@ def hide_libraries(folder, names):
 
 
 def install(blender, package, profile, tmp_path):
-    """Run installation.py in a Blender, without the system's solver libraries, and return what it saw."""
+    """Run installation.py in a Blender, on this machine without the system's solver libraries; return what it saw."""
     seen = tmp_path / "seen.json"
     if blender.python and blender.system:
         command, path = blender.command(), [environment.NEWEST_BPY_FOLDER]
@@ -115,9 +116,8 @@ def install(blender, package, profile, tmp_path):
         return json.loads(seen.read_text())
 
     if blender.system:
-        # Has no libraries of these versions that could be hidden.
-        folder = blender.system.folder / "usr" / "lib" / "x86_64-linux-gnu"
-        assert not [name for name in libraries_of_built_module() if "cholmod" in name and (folder / name).exists()]
+        # Its Blender needs its own libraries, which may have the names of those that were built with here. That the
+        # package's are loaded beside them is what check sees.
         return run(package, seen)
     # What Blender and NumPy load by themselves stays, Debian's BLAS for instance.
     present = {Path(path) for path in run(seen)["libraries"]}

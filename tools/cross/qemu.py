@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tools import steps
+from tools.cross import emulated
 from tools.environment import PYTHON
 from tools.steps import BUILD
 from tools.systems import mirror
@@ -39,19 +39,7 @@ def run(
     words: Sequence[object], *, environ: Mapping[str, str] | None = None, folder: Path = BUILD, timeout: float = 300
 ) -> subprocess.CompletedProcess[str]:
     """Run Python for ARM with these arguments; it sees the files of this machine behind those of its own system."""
-    inherited = ("PYTHON", "BLENDER_", "VIRTUAL_ENV")
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(inherited)}
-    return subprocess.run(
-        [python(), *map(str, words)],
-        cwd=folder,
-        env={**kept, **(environ or {})},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        check=False,
-        timeout=timeout,
-    )
+    return emulated.run([python(), *words], environ=emulated.environment(environ or {}), folder=folder, timeout=timeout)
 
 
 def python() -> Path:

@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from tools import steps
-from tools.cross import compilers, parts, targets
+from tools.cross import compilers, emulated, parts, targets
 from tools.environment import PYTHON
 from tools.steps import BUILD, StepError
 
@@ -37,25 +36,12 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     """Run a program for Windows; what it prints goes through pipes, since Python under Wine cannot write to files."""
     prefix()
-    return subprocess.run(
-        ["wine", *map(str, words)],
-        cwd=folder,
-        env=environment(environ),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        check=False,
-        timeout=timeout,
-    )
+    return emulated.run(["wine", *words], environ=environment(environ), folder=folder, timeout=timeout)
 
 
 def environment(more: Mapping[str, str] | None = None) -> dict[str, str]:
     """Return the environment of programs under Wine, without what this machine's Python and Blender are told."""
-    inherited = ("PYTHON", "BLENDER_", "VIRTUAL_ENV")
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(inherited)}
-    return {**kept, **ENVIRONMENT, **(more or {})}
+    return emulated.environment({**ENVIRONMENT, **(more or {})})
 
 
 def windows_path(path: Path) -> str:
