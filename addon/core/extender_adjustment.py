@@ -45,7 +45,7 @@ class ExtenderAdjustment:
         if not faces.any():
             raise AdjustmentError(texts.NO_COMMON_ISLAND)
         self._mesh = replace(mesh, selected_faces=faces)
-        self._options = options
+        self._options = replace(options, method="spectral")
         self._pairs = list(pairs)
         adjusted = {frozenset(pair) for pair in pairs}
         self._others = [extender for extender in mesh.extenders if frozenset(extender[:2]) not in adjusted]
@@ -56,7 +56,7 @@ class ExtenderAdjustment:
                 mesh.vertices,
                 mesh.face_offsets,
                 mesh.corner_vertices,
-                **solve.arguments(self._mesh, replace(options, method="spectral")),
+                **solve.arguments(self._mesh, self._options),
             )
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
@@ -71,12 +71,10 @@ class ExtenderAdjustment:
             AdjustmentError: an island could not be solved with these strengths, or pins hold all of them.
         """
         adjusted = [(*pair, strength) for pair, strength in zip(self._pairs, strengths)]
+        extenders = [*self._others, *adjusted]
+        constraints = {**solve.soft_constraints(self._mesh, self._options), "extenders": extenders}
         try:
-            result = self._unwrapper.solve(
-                extenders=[*self._others, *adjusted],
-                hole_rigidity=self._options.hole_rigidity,
-                **({} if is_final else {"tolerance": _TOLERANCE}),
-            )
+            result = self._unwrapper.solve(**constraints, **({} if is_final else {"tolerance": _TOLERANCE}))
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
         failed = [chart.message for chart in result.charts if chart.status != "solved"]

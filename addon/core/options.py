@@ -14,6 +14,8 @@ class Options:
     fill_holes: bool = False
     soft_pins: float = 0.0
     hole_rigidity: float = 0.0
+    automatic_holes: bool = True
+    """Where `hole_rigidity` is 0: let each island have the one that lowers its distortion."""
     area_blend: float = 0.0
     fold_free: bool = False
     polish: bool = True

@@ -133,7 +133,8 @@ def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     # Only the spectral method has a form that soft constraints could change.
     if options.method != "spectral":
         return {}
-    return {"extenders": mesh.extenders, "hole_rigidity": options.hole_rigidity}
+    is_automatic = options.automatic_holes and options.hole_rigidity == 0.0
+    return {"extenders": mesh.extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
 
 
 def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:

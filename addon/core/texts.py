@@ -66,6 +66,13 @@ HOLE_RIGIDITY_PROPERTY = {
     "name": "Hole Rigidity",
     "description": "How strongly holes are kept from shrinking to a point, at 1 they count like the island's border",
 }
+AUTOMATIC_HOLES_PROPERTY = {
+    "name": "Automatic Holes",
+    "description": (
+        "Keep the holes of an island from shrinking where that lowers its distortion; a Hole Rigidity above 0 "
+        "takes the place of this"
+    ),
+}
 AREA_BLEND_PROPERTY = {
     "name": "Angle to Area",
     "description": "0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",

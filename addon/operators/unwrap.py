@@ -35,6 +35,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         soft_max=10.0,
         max=STRENGTH_LIMIT,
     )
+    automatic_holes: BoolProperty(**texts.AUTOMATIC_HOLES_PROPERTY, default=True)
     area_blend: FloatProperty(
         **texts.AREA_BLEND_PROPERTY,
         default=0.0,
@@ -80,6 +81,9 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         row = layout.row()
         row.active = self.method == "SPECTRAL"
         row.prop(self, "hole_rigidity")
+        row = layout.row()
+        row.active = self.method == "SPECTRAL" and self.hole_rigidity == 0.0
+        row.prop(self, "automatic_holes")
         layout.separator()
         layout.prop(self, "fold_free")
         layout.prop(self, "polish")

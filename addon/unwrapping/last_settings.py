@@ -20,6 +20,7 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
             fill_holes=properties.fill_holes,
             soft_pins=properties.soft_pin_strength if properties.soft_pins and properties.method == "SPECTRAL" else 0.0,
             hole_rigidity=properties.hole_rigidity,
+            automatic_holes=properties.automatic_holes,
             area_blend=properties.area_blend,
             fold_free=properties.fold_free,
             polish=properties.polish,

@@ -87,7 +87,12 @@ SolveOptions solve_options_of(const py::object& options) {
   result.method = named(options, "method", methods);
   result.tolerance = options.attr("tolerance").cast<double>();
   result.soft_pins = options.attr("soft_pins").cast<double>();
-  result.hole_rigidity = options.attr("hole_rigidity").cast<double>();
+  const py::object rigidity = options.attr("hole_rigidity");
+  if (py::isinstance<py::str>(rigidity)) {
+    result.hole_rigidity.reset();  // "automatic"
+  } else {
+    result.hole_rigidity = rigidity.cast<double>();
+  }
   result.fallbacks = options.attr("fallbacks").cast<bool>();
   return result;
 }

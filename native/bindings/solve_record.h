@@ -26,6 +26,7 @@ inline pybind11::dict solve_record(const SolveRecord& result) {
   record["scale_deviation_before"] = result.scale_deviation_before;
   record["scale_deviation"] = result.scale_deviation;
   record["unfolded"] = result.unfolded;
+  record["hole_rigidity"] = result.hole_rigidity;
   record["polish_steps"] = result.polish_steps;
   record["is_embedding"] = result.is_embedding;
   record["mean_qc_before"] = result.mean_qc_before;

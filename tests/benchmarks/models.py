@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import bpy  # first: it puts Blender's own modules on the path
-import bmesh  # isort: skip
+import bpy  # isort: skip - first: it puts Blender's own modules on the path
+
+import bmesh
 import numpy as np
-from mathutils import Vector  # isort: skip
+from mathutils import Vector
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 

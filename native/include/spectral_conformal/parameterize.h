@@ -58,13 +58,17 @@ struct SolveOptions {
   double tolerance = 1e-8;               ///< see EigenproblemOptions
   double soft_pins = 0;                  ///< strength of pins as a soft force (see pin_attraction.h); 0: held exactly
   std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
-  double hole_rigidity = 0;  ///< beta of ExtendedForm::add_spread for every loop but the outer one; likewise
+  /// For Method::spectral: beta of ExtendedForm::add_spread for every loop but the outer one. Lowered as far as the
+  /// patch asks for, where there are no extenders and no soft pins; none: chosen per patch (hole_rigidity.h), 0 with
+  /// these.
+  std::optional<double> hole_rigidity = 0.0;
   /// Whether Method::spectral may take another map where its own fails: unfolded, an embedding, or that of another
   /// problem (fallbacks.h). When false, that failure is the answer;
   /// the second attempt at the same problem, with another start and a larger shift unless that was raised already, is
   /// made either way, and so is the embedding that PatchOptions::fold_free asks for.
   bool fallbacks = true;
-  bool has_extenders_or_rigidity() const;  ///< whether extenders or hole rigidity change the form B
+  bool has_extenders() const;              ///< whether extenders change the form B
+  bool has_extenders_or_rigidity() const;  ///< whether these or a given hole rigidity do
 };
 
 /// The numbers of a map, and what was really solved for it.
@@ -78,6 +82,7 @@ struct SolveRecord {
   int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
   int turning_number = 0;     ///< of the outer boundary loop
   int polish_steps = 0;       ///< steps of PatchOptions::polish from the eigenvector to this map
+  double hole_rigidity = 0;   ///< of the form B, see SolveOptions::hole_rigidity
   int unfolded = 0;           ///< flipped triangles that PatchOptions::fold_free has unfolded
   bool is_embedding = false;  ///< whether it had to replace the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.

@@ -78,7 +78,7 @@ class Unwrapper {
   Unwrapper(const Unwrapper&) = delete;
   Unwrapper& operator=(const Unwrapper&) = delete;
 
-  Unwrap solve(const std::vector<VertexExtender>& extenders, double hole_rigidity, double tolerance,
+  Unwrap solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
                const Progress& progress);
 
  private:

@@ -16,6 +16,7 @@ Method = Literal["spectral", "lscm", "fiedler", "area"]
 Weights = Literal["uniform", "inverse_area"]
 Boundary = Literal["length", "vertex"]
 Factorization = Literal["auto", "cholmod", "eigen"]
+AUTOMATIC = "automatic"
 
 _CHOICES = {
     "method": get_args(Method),
@@ -45,7 +46,9 @@ class Options:
             hard.
         hole_rigidity: 0 to 1e4, for "spectral": how strongly every boundary loop but the longest is kept from shrinking
             to a point, as a soft constraint about its barycentre (section 4.2). At 1 a hole counts like the outer
-            boundary.
+            boundary. Without extenders and soft pins it is lowered as far as a map without flipped triangles asks for.
+            "automatic": chosen for each patch by the mean QC, 0 where another constraint, a `metric` or an `area_blend`
+            acts. The result's `hole_rigidity` says what was taken.
         fill_holes: bool, close every boundary loop but the longest by virtual triangles, which keep the holes' shape.
             They count in the eigenvalue and in no measure of the map.
         area_blend: 0 to 1. 0 keeps angles; towards 1 the map gives them up for areas: the patch is unfolded
@@ -63,7 +66,8 @@ class Options:
         fallbacks: bool, whether "spectral" may take another map where its own fails the checks: the one of least mean
             QC without flipped triangles among the failed map unfolded (or an embedding, where that leaves no room) and
             the maps with thin triangles clamped, with the other boundary and with the other weights. The result's
-            `fallback` names which. False: such a failure is an error. The embedding of `fold_free` is asked for by that option, and made either way.
+            `fallback` names which. False: such a failure is an error. The embedding of `fold_free` is asked for by that
+            option, and made either way.
         tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops.
         factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen; or "cholmod", "eigen".
     """
@@ -72,7 +76,7 @@ class Options:
     weights: Weights = "uniform"
     boundary: Boundary = "length"
     soft_pins: float = 0.0
-    hole_rigidity: float = 0.0
+    hole_rigidity: float | Literal["automatic"] = 0.0
     fill_holes: bool = False
     area_blend: float = 0.0
     fold_free: bool = False
@@ -96,9 +100,15 @@ class Options:
             ("area_blend", 0.0, 1.0),
             ("tolerance", 1e-14, 1e-3),
         ):
-            _set(self, name, _arguments.checked_between(getattr(self, name), low, high, name))
+            value = getattr(self, name)
+            if name == "hole_rigidity" and isinstance(value, str):
+                if value != AUTOMATIC:
+                    raise ValueError(f"{name} must lie between 0 and {high:g}, or be {AUTOMATIC!r}, not {value!r}.")
+                continue
+            _set(self, name, _arguments.checked_between(value, low, high, name))
         for name, needs in (("soft_pins", "soft_pins need"), ("hole_rigidity", "hole_rigidity needs")):
-            if getattr(self, name) > 0.0 and self.method != "spectral":
+            value = getattr(self, name)
+            if value != AUTOMATIC and value > 0.0 and self.method != "spectral":
                 raise ValueError(f"{needs} the method 'spectral', not '{self.method}'.")
 
 
@@ -155,7 +165,7 @@ def _set(options: Options | SeamOptions, name: str, value: object) -> None:
 class ResolveChanges(TypedDict, total=False):
     """What the solves of one `Unwrapper` may vary."""
 
-    hole_rigidity: float
+    hole_rigidity: float | Literal["automatic"]
     tolerance: float
 
 

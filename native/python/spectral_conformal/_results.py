@@ -64,6 +64,9 @@ class Parameterization:
     """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise not a number."""
     scale_deviation: float
     """With `area_blend`: the same of this map. Otherwise not a number."""
+    hole_rigidity: float
+    """Of the form B that was really solved: less than what was asked for where that was too much, and what was chosen
+    where it was "automatic"."""
     polish_steps: int
     """Steps of `polish` from the eigenvector to this map; 0: it is the eigenvector."""
     unfolded: int
@@ -150,6 +153,8 @@ class Chart:
     scale_deviation_before: float
     """See `Parameterization`; so is the next."""
     scale_deviation: float
+    hole_rigidity: float
+    """See `Parameterization`."""
     polish_steps: int
     """Steps of `polish` from the eigenvector to this map; 0: it is the eigenvector."""
     unfolded: int

@@ -11,6 +11,7 @@
 #include "parameterization/area_blend.h"
 #include "parameterization/chart_metric.h"
 #include "parameterization/fallbacks.h"
+#include "parameterization/hole_rigidity.h"
 #include "parameterization/pinned_map.h"
 #include "parameterization/report.h"
 #include "parameterization/spectral_solver.h"
@@ -22,6 +23,10 @@ namespace {
 
 bool is_attracted(const SolveOptions& options) { return options.method == Method::spectral && options.soft_pins > 0; }
 
+std::ptrdiff_t n_flipped(const Distortion& distortion) {
+  return std::count(distortion.flipped.begin(), distortion.flipped.end(), true);
+}
+
 void take(SpectralMap&& map, Parameterization& result) {
   result.z = std::move(map.z);
   result.eigenvalue = map.eigenvalue;
@@ -32,10 +37,11 @@ void take(SpectralMap&& map, Parameterization& result) {
 
 }  // namespace
 
-bool SolveOptions::has_extenders_or_rigidity() const {
-  return hole_rigidity != 0 ||
-         std::any_of(extenders.begin(), extenders.end(), [](const Extender& e) { return e.strength != 0; });
+bool SolveOptions::has_extenders() const {
+  return std::any_of(extenders.begin(), extenders.end(), [](const Extender& e) { return e.strength != 0; });
 }
+
+bool SolveOptions::has_extenders_or_rigidity() const { return hole_rigidity.value_or(0) != 0 || has_extenders(); }
 
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
   if (n_pins < 2 || options.method == Method::lscm || is_attracted(options)) return options.method;
@@ -69,7 +75,9 @@ struct Solver::State {
   SpectralMap factorize(const Progress& progress);
   std::optional<SolveFailure> solve_pinned(const SolveOptions& settings, const Pins& pins, const Progress& progress,
                                            Parameterization& result);
-  std::optional<SolveFailure> solve_spectral(const SolveOptions& settings, const Pins& attractors,
+  SpectralMap solve_eigenproblem(const SolveOptions& settings, const Pins& attractors, const Progress& progress,
+                                 Parameterization& result);
+  std::optional<SolveFailure> solve_spectral(const SolveOptions& given, const Pins& attractors,
                                              const Progress& progress, Parameterization& result);
   void unfold(const Pins& held, const std::optional<SolveFailure>& failure, const Progress& progress,
               Parameterization& result);
@@ -134,8 +142,52 @@ std::optional<SolveFailure> Solver::State::solve_pinned(const SolveOptions& sett
   return std::nullopt;
 }
 
-std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& settings, const Pins& attractors,
+/// The map of a factored patch, polished where that was asked for, and what it is the map of.
+SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, const Pins& attractors,
+                                              const Progress& progress, Parameterization& result) {
+  const bool is_free = settings.method == Method::spectral && !settings.has_extenders() && attractors.empty();
+  SpectralMap map;
+  std::optional<SpectralMap> with_free_holes;
+  if (is_free && settings.hole_rigidity != 0.0) {
+    RigidMap rigid = solve_with_rigid_holes(spectral, settings, progress, result.timings);
+    result.hole_rigidity = rigid.rigidity;
+    result.message = describe_rigidity(settings.hole_rigidity, rigid.rigidity);
+    map = std::move(rigid.map);
+    with_free_holes = std::move(rigid.free);
+    result.attempts = rigid.attempts;
+  } else {
+    map = spectral.solve(settings, attractors, progress, result.timings);
+    result.hole_rigidity = settings.hole_rigidity.value_or(0);
+    result.attempts = map.attempts;
+  }
+  if (map.rejection != Rejection::none) return map;
+  result.message += describe_attempts(map, settings);
+  // What was asked of the shape is not to be polished away.
+  const bool is_shaped = is_blended || has_metric || settings.hole_rigidity.value_or(0) != 0;
+  if (options.polish && is_free && !is_shaped) {
+    result.polish_steps = spectral.polish(map, progress, result.timings);
+    if (with_free_holes) {
+      // The lead of rigid holes can be less than what polishing takes away.
+      const int steps = spectral.polish(*with_free_holes, progress, result.timings);
+      const Distortion rigid = chart_distortion(patch, map.z);
+      const Distortion free = chart_distortion(patch, with_free_holes->z);
+      if (free.mean_qc < rigid.mean_qc && n_flipped(free) <= n_flipped(rigid)) {
+        map = std::move(*with_free_holes);
+        result.hole_rigidity = 0;
+        result.polish_steps = steps;
+      }
+    }
+    if (result.polish_steps > 0) result.eigenvalue_of = EigenvalueOf::map;
+  }
+  return map;
+}
+
+std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& given, const Pins& attractors,
                                                           const Progress& progress, Parameterization& result) {
+  SolveOptions settings = given;
+  // A metric is what the map is to be measured by, not the distortion that rigidity is chosen by.
+  const bool is_chosen = attractors.empty() && !settings.has_extenders() && !has_metric && !(options.area_blend > 0);
+  if (patch.inner.empty() || (!settings.hole_rigidity && !is_chosen)) settings.hole_rigidity = 0;
   const bool own_factor = settings.method == Method::fiedler;
   const double begun = own_factor ? 0.3 : 0.6;
   SpectralMap map;
@@ -150,21 +202,16 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
     failed_blend = failure;
   }
   result.timings = timings;
+  result.attempts = 1;
   if (!failed_blend && map.rejection == Rejection::none) {
-    map = spectral.solve(settings, attractors, part(progress, begun, 0.95), result.timings);
-  }
-  result.attempts = failed_blend ? 1 : map.attempts;
-  if (!failed_blend && map.rejection == Rejection::none) {
-    result.message = describe_attempts(map, settings);
-    const bool is_plain = settings.method == Method::spectral && attractors.empty() && !is_blended && !has_metric &&
-                          !settings.has_extenders_or_rigidity();
-    if (options.polish && is_plain) {
-      result.polish_steps = spectral.polish(map, part(progress, 0.95, 1.0), result.timings);
-      if (result.polish_steps > 0) result.eigenvalue_of = EigenvalueOf::map;
+    map = solve_eigenproblem(settings, attractors, part(progress, begun, 0.95), result);
+    if (map.rejection == Rejection::none) {
+      take(std::move(map), result);
+      return std::nullopt;
     }
-    take(std::move(map), result);
-    return std::nullopt;
   }
+  // Rigidity that was not lowered to 0 acts together with forces.
+  settings.hole_rigidity = result.hole_rigidity;
   SolveFailure failure = failed_blend ? *failed_blend : failure_of(map, settings);
   // With soft constraints, these are what to change.
   if (settings.method != Method::spectral || settings.has_extenders_or_rigidity() || !settings.fallbacks)
@@ -184,7 +231,7 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& se
   result.weights = other->weights;
   result.boundary = other->boundary;
   result.clamped_triangles = other->clamped_triangles;
-  result.message = describe_fallback(*other, failure) + describe_attempts(other->map, settings);
+  result.message += describe_fallback(*other, failure) + describe_attempts(other->map, settings);
   if (other->blend) {
     result.relaxation = other->blend->relaxed.status;
     result.scale_deviation_before = other->blend->scale_deviation_before;

@@ -58,7 +58,11 @@ std::string advice_for(const SpectralMap& map, const SolveOptions& options) {
     if (map.rejection == Rejection::no_area) return "use the spectral method, or pin other vertices.";
     return "clean up degenerate faces, or pin other vertices.";
   }
-  if (options.has_extenders_or_rigidity()) return "weaken or remove extenders, or lower the hole rigidity.";
+  if (options.has_extenders_or_rigidity()) {
+    const bool rigid = options.hole_rigidity.value_or(0) != 0;
+    if (!options.has_extenders()) return "lower the hole rigidity.";
+    return rigid ? "weaken or remove extenders, or lower the hole rigidity." : "weaken or remove extenders.";
+  }
   if (map.rejection == Rejection::not_factorized) {
     return "the island has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces.";
   }
@@ -82,6 +86,12 @@ std::string describe_attempts(const SpectralMap& map, const SolveOptions& option
   }
   if (std::abs(map.turning_number) != 1) text += describe_winding(map.turning_number) + ". ";
   return text;
+}
+
+std::string describe_rigidity(const std::optional<double>& asked, double used) {
+  if (!asked || !(used < *asked)) return "";
+  return "Hole rigidity lowered from " + five_digits(*asked) + " to " + five_digits(used) +
+         ", which is what the island bears. ";
 }
 
 std::string describe_fallback(const FallbackMap& fallback, const SolveFailure& failure) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "conformal/conformal_energy.h"
@@ -23,6 +24,9 @@ SolveFailure failure_of(const SpectralMap& map, const SolveOptions& options);
 
 /// That the retry at the same problem was needed, or that a map of a method that may wind does.
 std::string describe_attempts(const SpectralMap& map, const SolveOptions& options);
+
+/// That a rigidity that was asked for was too much for the patch. asked: empty where it was left to the program.
+std::string describe_rigidity(const std::optional<double>& asked, double used);
 
 /// What was solved instead, and why. Precondition: a fallback was taken.
 std::string describe_fallback(const FallbackMap& fallback, const SolveFailure& failure);

@@ -220,10 +220,11 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
 ExtendedForm SpectralSolver::extended_form(const BoundaryForm& form, const SolveOptions& options,
                                            const Pins& attractors) const {
   ExtendedForm extended(form);
-  if (options.hole_rigidity != 0) {
+  const double hole_rigidity = options.hole_rigidity.value_or(0);
+  if (hole_rigidity != 0) {
     for (const BoundaryLoop& loop : patch_->inner) {
       const BoundaryForm spread = boundary_form(loop, patch_->positions, boundary_);
-      if (!spread.vertices.empty()) extended.add_spread(spread, options.hole_rigidity);
+      if (!spread.vertices.empty()) extended.add_spread(spread, hole_rigidity);
     }
   }
   for (const Extender& extender : options.extenders) extended.add_extender(extender);

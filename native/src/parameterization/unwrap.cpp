@@ -76,8 +76,8 @@ class ChartUnwrapper {
   }
 
   /// Solves and writes the corners' places to `result`; the extenders that act are no longer unused.
-  UnwrappedChart solve(const std::vector<VertexExtender>& extenders, double hole_rigidity, double tolerance,
-                       const Progress& progress, Unwrap& result) {
+  UnwrappedChart solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
+                       double tolerance, const Progress& progress, Unwrap& result) {
     UnwrappedChart report = report_;
     if (!solver_) return report;
     try {
@@ -226,8 +226,8 @@ Unwrapper::Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options)
 
 Unwrapper::~Unwrapper() = default;
 
-Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, double hole_rigidity, double tolerance,
-                        const Progress& progress) {
+Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
+                        double tolerance, const Progress& progress) {
   Unwrap result = empty_result(state_->cut, extenders.size());
   for (std::size_t i = 0; i < state_->charts.size(); ++i) {
     const auto& [from, to] = state_->parts[i];

@@ -135,7 +135,11 @@ def corners_of(edited, faces):
 
 
 def directly_solved(edited, **options):
-    """Return the map that the native module makes of the whole mesh; an island of the operator's is similar to it."""
+    """Return the map that the native module makes of the whole mesh; an island of the operator's is similar to it.
+
+    Options that are not given are those that the operator begins with.
+    """
+    options = {"polish": True, "hole_rigidity": "automatic", **options}
     native = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()
     bm = edit_mesh(edited)
     offsets = np.cumsum([0] + [len(face.loops) for face in bm.faces])

@@ -216,8 +216,31 @@ def test_hole_rigidity_reaches_the_solver():
     expected = [scenes.normalized(scenes.directly_solved(ring, hole_rigidity=strength)) for strength in strengths]
     assert np.abs(expected[0] - expected[1]).max() > 1e-3
     for strength, map_ in zip(strengths, expected):
-        assert bpy.ops.uv.spectral_unwrap(hole_rigidity=strength) == {"FINISHED"}
+        assert bpy.ops.uv.spectral_unwrap(hole_rigidity=strength, automatic_holes=False) == {"FINISHED"}
         np.testing.assert_allclose(scenes.normalized(scenes.read_uv(ring)), map_, atol=1e-5)
+
+
+def test_automatic_holes_are_the_modules_unless_a_rigidity_is_given():
+    # Its upper edge is torn and therefore the longest border, so that the lower one is a hole of the map.
+    torn = scenes.cylinder(24, 10, closed_seam=False)
+    for vertex in torn.data.vertices:
+        x, y, z = vertex.co
+        radius = 1.0 - 0.325 * z
+        is_peak = vertex.index >= 240 and vertex.index % 2
+        vertex.co = (radius * x, radius * y, 0.25 * z + 0.25 * is_peak)
+    scenes.edit(torn)
+    expected = {
+        rigidity: scenes.normalized(scenes.directly_solved(torn, hole_rigidity=rigidity))
+        for rigidity in (0.0, "automatic", 0.2)
+    }
+    assert np.abs(expected[0.0] - expected["automatic"]).max() > 1e-2
+    for properties, rigidity in (
+        ({}, "automatic"),
+        ({"automatic_holes": False}, 0.0),
+        ({"hole_rigidity": 0.2}, 0.2),
+    ):
+        assert bpy.ops.uv.spectral_unwrap(**properties) == {"FINISHED"}
+        np.testing.assert_allclose(scenes.normalized(scenes.read_uv(torn)), expected[rigidity], atol=1e-5)
 
 
 def test_stretching_goes_along_the_active_edge(reports):

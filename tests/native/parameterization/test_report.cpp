@@ -41,8 +41,14 @@ TEST_CASE("failures name their reason and what to do, with soft constraints thes
   SolveOptions forced;
   forced.hole_rigidity = 1;
   CHECK(failure_of(map, forced).what() ==
+        std::string("The boundary of the map winds round 2 times instead of once: lower the hole rigidity."));
+  forced.extenders = {{{0}, {1}, 1.0}};
+  CHECK(failure_of(map, forced).what() ==
         std::string("The boundary of the map winds round 2 times instead of once: weaken or remove extenders, or lower "
                     "the hole rigidity."));
+  forced.hole_rigidity.reset();
+  CHECK(failure_of(map, forced).what() ==
+        std::string("The boundary of the map winds round 2 times instead of once: weaken or remove extenders."));
   for (const auto rejection : {Rejection::not_factorized, Rejection::not_converged, Rejection::not_finite,
                                Rejection::collapsed, Rejection::unresolved, Rejection::no_area}) {
     map.rejection = rejection;
@@ -76,6 +82,12 @@ TEST_CASE("fallbacks and retries are named") {
   map.attempts = 1;
   map.turning_number = 2;
   CHECK(describe_attempts(map, {Method::lscm}) == "The boundary of the map winds round 2 times instead of once. ");
+}
+
+TEST_CASE("a rigidity that was lowered is told") {
+  CHECK(describe_rigidity(10, 10).empty());
+  CHECK(describe_rigidity(std::nullopt, 3).empty());
+  CHECK(describe_rigidity(10, 2.5) == "Hole rigidity lowered from 10 to 2.5, which is what the island bears. ");
 }
 
 TEST_CASE("an area blend that did little says so, and why") {

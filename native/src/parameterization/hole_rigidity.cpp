@@ -1,0 +1,123 @@
+#include "parameterization/hole_rigidity.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace spectral_conformal {
+namespace {
+
+constexpr double reduction = 4;
+/// Below, holes are as free as without: the form of the outer loop outweighs theirs a thousandfold.
+constexpr double least_rigidity = 1e-3;
+/// A mean QC up to which rigidity is not worth its solves.
+constexpr double hardly_distorted = 1.02;
+
+struct Quality {
+  std::ptrdiff_t flipped = 0;
+  double mean_qc = 0;
+  double max_qc = 0;
+};
+
+Quality quality_of(const NormalizedPatch& patch, const ComplexVector& z) {
+  const Distortion distortion = chart_distortion(patch, z);
+  return {std::count(distortion.flipped.begin(), distortion.flipped.end(), true), distortion.mean_qc,
+          distortion.max_qc};
+}
+
+std::vector<double> lowered_from(double rigidity) {
+  std::vector<double> result;
+  for (; rigidity >= least_rigidity; rigidity /= reduction) result.push_back(rigidity);
+  if (result.empty()) result.push_back(rigidity);
+  return result;
+}
+
+/// Solves for one rigidity after the other and keeps the best.
+class Search {
+ public:
+  Search(SpectralSolver& solver, const SolveOptions& options, const Progress& progress, Timings& timings)
+      : solver_(solver), options_(options), progress_(progress), timings_(timings) {}
+
+  /// From a rigidity downwards to the first map without flipped triangles, or that with the fewest.
+  RigidMap lower(double rigidity) {
+    std::vector<double> rigidities = lowered_from(rigidity);
+    rigidities.push_back(0);
+    for (const double each : rigidities) {
+      SpectralMap map = solve(each);
+      if (map.rejection != Rejection::none) {
+        if (!found_) best_.map = std::move(map);
+        continue;
+      }
+      const Quality quality = quality_of(solver_.patch(), map.z);
+      if (found_ && quality.flipped >= least_.flipped) continue;
+      take(std::move(map), each, quality);
+      if (quality.flipped == 0) break;
+    }
+    return std::move(best_);
+  }
+
+  /// By mean QC.
+  RigidMap choose() {
+    best_.map = solve(0);
+    double worst = std::numeric_limits<double>::infinity();
+    if (best_.map.rejection == Rejection::none) {
+      least_ = quality_of(solver_.patch(), best_.map.z);
+      found_ = true;
+      if (least_.flipped == 0 && least_.mean_qc <= hardly_distorted) return std::move(best_);
+      worst = 2 * least_.max_qc;
+    }
+    for (const double rigidity : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+      SpectralMap map = solve(rigidity);
+      if (map.rejection != Rejection::none) continue;
+      const Quality quality = quality_of(solver_.patch(), map.z);
+      // Where that of rigidity 0 is refused, only a map without flipped triangles is better than what fallbacks.h
+      // finds.
+      const bool is_better =
+          found_ ? quality.flipped <= least_.flipped && quality.mean_qc < least_.mean_qc : quality.flipped == 0;
+      if (!is_better || quality.max_qc > worst) continue;
+      if (found_ && best_.rigidity == 0) best_.free = std::move(best_.map);
+      take(std::move(map), rigidity, quality);
+    }
+    return std::move(best_);
+  }
+
+ private:
+  SpectralMap solve(double rigidity) {
+    SolveOptions changed = options_;
+    changed.hole_rigidity = rigidity;
+    // The fraction done only rises: the first solve has used it up.
+    const bool is_first = best_.attempts == 0;
+    const Progress rest = [&](double fraction, const char* phase) {
+      return !progress_ || progress_(is_first ? fraction : 1.0, phase);
+    };
+    SpectralMap map = solver_.solve(changed, {}, rest, timings_);
+    best_.attempts += map.attempts;
+    return map;
+  }
+  void take(SpectralMap&& map, double rigidity, const Quality& quality) {
+    best_.map = std::move(map);
+    best_.rigidity = rigidity;
+    least_ = quality;
+    found_ = true;
+  }
+
+  SpectralSolver& solver_;
+  const SolveOptions& options_;
+  const Progress& progress_;
+  Timings& timings_;
+  RigidMap best_;
+  Quality least_;       ///< of the best
+  bool found_ = false;  ///< whether it passes its checks
+};
+
+}  // namespace
+
+RigidMap solve_with_rigid_holes(SpectralSolver& solver, const SolveOptions& options, const Progress& progress,
+                                Timings& timings) {
+  Search search(solver, options, progress, timings);
+  return options.hole_rigidity ? search.lower(*options.hole_rigidity) : search.choose();
+}
+
+}  // namespace spectral_conformal

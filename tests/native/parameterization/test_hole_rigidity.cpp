@@ -1,0 +1,132 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "meshes.h"
+#include "parameterization/hole_rigidity.h"
+
+namespace spectral_conformal::test {
+
+TEST_SUITE_BEGIN("hole_rigidity");
+
+namespace {
+
+/// A tube that narrows towards its longer border, so that the shorter one, a hole of the map, lies inside.
+Mesh hat() {
+  Mesh mesh;
+  const int around = 24;
+  const int rings = 12;
+  for (int r = 0; r <= rings; ++r) {
+    const double t = static_cast<double>(r) / rings;
+    const double radius = 0.3 + (r == 0 ? 0.2 : t);
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2 * 3.14159265358979 * k / around;
+      mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle), 2 * t});
+    }
+  }
+  for (int r = 0; r < rings; ++r) {
+    for (int k = 0; k < around; ++k) {
+      const int a = around * r + k;
+      const int b = around * r + (k + 1) % around;
+      mesh.add({a, b, b + around});
+      mesh.add({a, b + around, a + around});
+    }
+  }
+  return mesh;
+}
+
+struct Solved {
+  Patch patch;
+  NormalizedPatch normalized;
+  SpectralSolver solver;
+  Timings timings;
+  explicit Solved(const Mesh& mesh)
+      : patch(mesh),
+        normalized(normalized_patch(patch.chart, patch.positions, false)),
+        solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic) {}
+  RigidMap with(std::optional<double> rigidity) {
+    SolveOptions options;
+    options.hole_rigidity = rigidity;
+    return solve_with_rigid_holes(solver, options, {}, timings);
+  }
+  double mean_qc(const SpectralMap& map) const { return chart_distortion(normalized, map.z).mean_qc; }
+};
+
+}  // namespace
+
+TEST_CASE("a rigidity that the patch bears is taken as it is") {
+  Solved solved(perforated_grid(10, 10));
+  const RigidMap rigid = solved.with(1.0);
+  CHECK((rigid.map.rejection == Rejection::none && rigid.rigidity == 1 && rigid.attempts == 1));
+  SolveOptions options;
+  options.hole_rigidity = 1;
+  CHECK(difference(rigid.map.z, solved.solver.solve(options, {}, {}, solved.timings).z) < 1e-7);
+}
+
+TEST_CASE("one that it does not bear is lowered to a fourth, and again") {
+  Mesh mesh = perforated_grid(13, 13);
+  std::mt19937 engine(1);
+  const auto noise = [&engine] { return 1.7 * (static_cast<double>(engine()) / 4294967296.0 - 0.5); };
+  for (auto& point : mesh.points) {
+    for (int k = 0; k < 3; ++k) point[k] += noise();
+  }
+  Solved solved(mesh);
+  const RigidMap free = solved.with(0.0);
+  const RigidMap rigid = solved.with(1e4);
+  REQUIRE(rigid.map.rejection == Rejection::none);
+  CHECK(rigid.rigidity < 1e4);
+  CHECK(rigid.attempts > 1);
+  CHECK(count_flipped(solved.patch, rigid.map.z) <= count_flipped(solved.patch, free.map.z));
+  double borne = 1e4;
+  while (borne > rigid.rigidity) borne /= 4;
+  CHECK((rigid.rigidity == 0 || rigid.rigidity == borne));
+}
+
+TEST_CASE("without one, that of the least mean QC is chosen, and the map of free holes is at hand") {
+  Solved solved(hat());
+  const RigidMap chosen = solved.with(std::nullopt);
+  const RigidMap free = solved.with(0.0);
+  REQUIRE(chosen.rigidity > 0);
+  REQUIRE(chosen.free);
+  CHECK(solved.mean_qc(chosen.map) < solved.mean_qc(free.map));
+  CHECK(difference(chosen.free->z, free.map.z) < 1e-6);
+  for (const double rigidity : {0.1, 1.0, 10.0}) {
+    CHECK(solved.mean_qc(chosen.map) <= solved.mean_qc(solved.with(rigidity).map) + 1e-9);
+  }
+}
+
+TEST_CASE("a patch with next to no distortion is solved once") {
+  Mesh flat = perforated_grid(7, 7);
+  for (auto& point : flat.points) point.z() = 0;
+  Solved solved(flat);
+  const RigidMap chosen = solved.with(std::nullopt);
+  CHECK((chosen.rigidity == 0 && chosen.attempts == 1 && !chosen.free));
+}
+
+TEST_CASE("choosing can be stopped at every report") {
+  Solved solved(hat());
+  SolveOptions options;
+  options.hole_rigidity.reset();
+  int calls = 0;
+  double last = 0;
+  solve_with_rigid_holes(
+      solved.solver, options,
+      [&](double fraction, const char*) {
+        CHECK(fraction >= last);
+        last = fraction;
+        ++calls;
+        return true;
+      },
+      solved.timings);
+  REQUIRE(calls > 3);
+  for (int stop_at = 1; stop_at <= calls; stop_at += 3) {
+    int call = 0;
+    const Progress stop = [&](double, const char*) { return ++call < stop_at; };
+    CHECK_THROWS_AS(solve_with_rigid_holes(solved.solver, options, stop, solved.timings), Cancelled);
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
