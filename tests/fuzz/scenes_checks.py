@@ -134,6 +134,8 @@ def _unwrap(rng, edited):
         "hole_rigidity": float(rng.choice([0.0, 0.0, 0.5, 1e4])),
         "area_blend": float(rng.choice([0.0, 0.0, 0.0, 0.3, 1.0])),
         "fold_free": bool(rng.random() < 0.3),
+        "polish": bool(rng.random() < 0.8),
+        "automatic_holes": bool(rng.random() < 0.8),
         "stretch": float(rng.choice([1.0, 1.0, 0.01, 2.0, 100.0])),
         "use_subsurf_data": bool(rng.random() < 0.3),
         "soft_pins": bool(rng.random() < 0.4),

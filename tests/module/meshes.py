@@ -126,11 +126,20 @@ def floater(offset):
     return vertices, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
 
 
+def rough_grid_points(n, roughness, seed):
+    """The vertices of n by n quads (grid_quads), every one moved at random."""
+    return _rough_grid_points(n, roughness, np.random.default_rng(seed))
+
+
+def _rough_grid_points(n, roughness, rng):
+    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
+    return np.stack([x, y, 0 * x], -1).reshape(-1, 3) + roughness * rng.normal(size=(n * n, 3)) / n
+
+
 def rough_grid(n, roughness, seed, dropped=0.0):
     """A grid of triangles, every vertex moved at random, some cells left out: its conformal map has folds."""
     rng = np.random.default_rng(seed)
-    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
-    vertices = np.stack([x, y, 0 * x], -1).reshape(-1, 3) + roughness * rng.normal(size=(n * n, 3)) / n
+    vertices = _rough_grid_points(n, roughness, rng)
     index = np.arange(n * n).reshape(n, n)
     kept = rng.random((n - 1, n - 1)) >= dropped
     a, b, c, d = (part[kept] for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))

@@ -138,7 +138,7 @@ class Relaxation {
       if (first) result_.energy_before = energy_;
       result_.status = minimize(progress);
       if (!first && count_flipped(elements_, z_) >= count_flipped(elements_, before.z)) restore(before);
-      if (regularized_ == 0 || count_flipped(elements_, z_) == 0) break;
+      if (result_.status == DescentStatus::enough || regularized_ == 0 || count_flipped(elements_, z_) == 0) break;
     }
     result_.energy = energy_;
     return result_;
@@ -191,6 +191,7 @@ class Relaxation {
         report(progress, done, "relax");
         const Step step = descend();
         if (step.length > 0) ++result_.iterations;
+        if (options_.is_enough && options_.is_enough(z_)) return DescentStatus::enough;
         const bool small = step.relative_fall < options_.tolerance;
         if (small && k == 0) {
           const bool is_minimum = step.length >= short_step || step.promised_fall < options_.tolerance;

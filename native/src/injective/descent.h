@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "injective/distortion_energy.h"
@@ -16,10 +17,13 @@ struct DescentOptions {
   int max_factorizations = 20;
   /// Whether triangles with next to no image area keep their barrier, too, which takes longer but leaves none behind.
   bool keep_all_barriers = false;
+  /// Asked after every step whether the map is what is sought, which ends the descent. Empty: never.
+  std::function<bool(const ComplexVector&)> is_enough = {};
 };
 
 /// Why a descent ended.
 enum class DescentStatus {
+  enough,               ///< DescentOptions::is_enough
   converged,            ///< a step with a fresh factor took away less than DescentOptions::tolerance
   factorization_limit,  ///< DescentOptions::max_factorizations came first
   stalled,              ///< the gradient promises more, but barriers or rounding leave (almost) no step along it

@@ -10,6 +10,8 @@
 #include "injective/descent.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
+#include "quality/map_degree.h"
+#include "quality/overlap.h"
 #include "quality/turning_number.h"
 
 namespace spectral_conformal {
@@ -37,6 +39,14 @@ class FoldFree {
   }
 
   FoldFreeMap run(ComplexVector given) {
+    FoldFreeMap result = without_folds(std::move(given));
+    result.turning_number = turning_number_of(result.z);
+    if (patch_.moves_apart && result.is_locally_injective && patch_.held.empty()) move_apart(result);
+    return result;
+  }
+
+ private:
+  FoldFreeMap without_folds(ComplexVector given) {
     FoldFreeMap result;
     result.z = std::move(given);
     if (result.z.size() > 0) {
@@ -46,6 +56,11 @@ class FoldFree {
         result.flipped = unfold_locally(elements_, patch_.held, patch_.backend, result.z, first);
       }
       result.is_locally_injective = result.flipped == 0 && goes_round_once(result.z);
+      if (patch_.relaxes && result.is_locally_injective && patch_.held.empty()) {
+        ComplexVector z = result.z;
+        result.relaxation = relax_angles(clamped_elements(), part(progress_, 0.3, 0.9), z);
+        if (count_flipped(elements_, z, unplaced) == 0 && goes_round_once(z)) result.z = std::move(z);
+      }
       if (result.is_locally_injective || !patch_.held.empty()) return result;
     }
     FoldFreeMap embedded = embed();
@@ -54,11 +69,35 @@ class FoldFree {
     return embedded;
   }
 
- private:
+  void move_apart(FoldFreeMap& map) const {
+    const auto is_apart = [this](const ComplexVector& z) { return has_degree_at_most_one(patch_.loops, z); };
+    map.covers_itself = map.covered_itself = covers_itself(map.z);
+    if (!map.covers_itself) return;
+    ComplexVector z = map.z;
+    DescentOptions options;
+    options.keep_all_barriers = true;
+    options.is_enough = is_apart;
+    relax(clamped_elements(), options, part(progress_, 0.9, 1), z);
+    if (covers_itself(z) || count_flipped(elements_, z, unplaced) > 0 || !goes_round_once(z)) return;
+    map.z = std::move(z);
+    map.covers_itself = false;
+  }
+
+  /// Precondition: no triangle is flipped.
+  bool covers_itself(const ComplexVector& z) const {
+    if (has_degree_at_most_one(patch_.loops, z)) return false;
+    const std::vector<bool> overlapping = overlapping_triangles(single_, z);
+    return std::find(overlapping.begin(), overlapping.end(), true) != overlapping.end();
+  }
+
+  int turning_number_of(const ComplexVector& z) const {
+    const std::vector<double> whole(single_.size(), 1.0);
+    return turning_number(patch_.loops.front(), single_, whole, z);
+  }
+
   /// Whether the triangles go round every inner vertex once, and the outer loop round the map.
   bool goes_round_once(const ComplexVector& z) const {
-    const std::vector<double> whole(single_.size(), 1.0);
-    if (std::abs(turning_number(patch_.loops.front(), single_, whole, z)) != 1) return false;
+    if (std::abs(turning_number_of(z)) != 1) return false;
     std::vector<double> angle(static_cast<std::size_t>(z.size()), 0);
     for (const auto& triangle : single_) {
       for (int k = 0; k < 3; ++k) {
@@ -83,8 +122,9 @@ class FoldFree {
       unfold_locally(clamped, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
     }
     // The first need not converge as far as the second, which is what is seen.
-    relax(clamped, DistortionMeasure::symmetric_dirichlet, 1e-2, part(progress_, 0.6, 0.8), result.z);
-    result.relaxation = relax(clamped, DistortionMeasure::conformal, 1e-3, part(progress_, 0.8, 1), result.z);
+    relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress_, 0.6, 0.8),
+          result.z);
+    result.relaxation = relax_angles(clamped, part(progress_, 0.8, 1), result.z);
     result.flipped = count_flipped(elements_, result.z, unplaced);
     result.is_locally_injective = result.flipped == 0 && goes_round_once(result.z);
     return result;
@@ -125,21 +165,26 @@ class FoldFree {
     return clamped;
   }
 
+  std::optional<Descent> relax_angles(const std::vector<DistortionElement>& elements, const Progress& progress,
+                                      ComplexVector& z) const {
+    return relax(elements, {DistortionMeasure::conformal, 1e-3, max_factorizations, true}, progress, z);
+  }
+
   /// Lowers the distortion without a new fold. None where that failed and z stays as it was.
-  std::optional<Descent> relax(std::vector<DistortionElement> elements, DistortionMeasure measure, double tolerance,
+  std::optional<Descent> relax(std::vector<DistortionElement> elements, const DescentOptions& options,
                                const Progress& progress, ComplexVector& z) const {
-    // Three times the default of a descent: an embedding begins far from its minimum.
-    constexpr int max_factorizations = 60;
     const int flipped = count_flipped(elements, z, unplaced);
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
-    const Descent descent =
-        descend(elements, {}, relaxed, patch_.backend, {measure, tolerance, max_factorizations, true}, progress);
+    const Descent descent = descend(elements, {}, relaxed, patch_.backend, options, progress);
     if (!relaxed.allFinite() || count_flipped(elements, relaxed, unplaced) > flipped) return std::nullopt;
     z = std::move(relaxed);
     return descent;
   }
+
+  /// Three times the default of a descent: an embedding begins far from its minimum.
+  static constexpr int max_factorizations = 60;
 
   const FoldFreePatch& patch_;
   const Progress& progress_;

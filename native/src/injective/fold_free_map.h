@@ -18,6 +18,8 @@ struct FoldFreePatch {
   const std::vector<BoundaryLoop>& loops;  ///< the outer one first
   const std::vector<char>& held;           ///< (V,) or empty: vertices that must stay
   FactorizationBackend backend = FactorizationBackend::automatic;
+  bool relaxes = false;      ///< whether an unfolded map is relaxed as a whole, as an embedding is
+  bool moves_apart = false;  ///< whether parts that lie on each other are to come apart, too
 };
 
 struct FoldFreeMap {
@@ -25,12 +27,15 @@ struct FoldFreeMap {
   int flipped_before = 0;     ///< triangles without positive image area in the given map
   int flipped = 0;            ///< the same of z
   bool is_embedding = false;  ///< whether the given map had to be given up for an embedding
-  /// Of an embedding: how the last descent, of its conformal distortion, ended. None where there was no such descent,
-  /// or its result was rejected.
+  /// Of an embedding, or a map that is relaxed as a whole: how the last descent, of its conformal distortion, ended.
+  /// None where there was no such descent, or its result was rejected.
   std::optional<Descent> relaxation;
   /// z has no flipped triangle, its triangles go round every inner vertex once, and the outer loop round the map once:
   /// it is locally one-to-one.
   bool is_locally_injective = false;
+  int turning_number = 0;       ///< of the outer loop, by one split of each quad
+  bool covered_itself = false;  ///< whether it was so, and yet had parts that lay on each other; if asked
+  bool covers_itself = false;   ///< whether z still has such parts
 };
 
 /// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are
@@ -38,7 +43,9 @@ struct FoldFreeMap {
 /// winds round more than once, a Tutte embedding of the chart (tutte_embedding.h) is relaxed, first towards an
 /// isometry, then towards the least conformal distortion, without a step that folds a triangle (descent.h); not with
 /// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an
-/// edge), the other where there is room. Degenerate triangles have no fold.
+/// edge), the other where there is room. Degenerate triangles have no fold. Where the map is then locally one-to-one
+/// and yet has parts that lie on each other, it is relaxed towards an isometry, where that was asked for, only as far
+/// as these come apart; where they do not, it stays.
 ///
 /// z (V,) mostly counter-clockwise, or empty for none. Throws Cancelled, SolveFailure and what Factorization throws.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});

@@ -30,6 +30,7 @@ BestScale best_scale(const std::vector<DistortionElement>& elements, const Compl
 
 RelaxationStatus relaxation_status(DescentStatus status) {
   switch (status) {
+    case DescentStatus::enough:
     case DescentStatus::converged:
       return RelaxationStatus::converged;
     case DescentStatus::factorization_limit:

@@ -29,7 +29,7 @@ std::optional<FallbackMap> unfolded_map(const SpectralSolver& failed, const Spec
   if (rejected.whole.size() > 0) z = rejected.whole.head(patch.n_vertices);
   FallbackMap result;
   try {
-    result.unfolded = unfold(failed, {}, z, progress);
+    result.unfolded = unfold(failed, {}, z, {true, false}, progress);
   } catch (const SolveFailure&) {
     return std::nullopt;  // the failure of the map itself is the one to report
   }
@@ -60,12 +60,15 @@ std::optional<FallbackMap> solve_fallback(const SpectralSolver& failed, const Sp
     best = std::move(candidate);
     least = cost;
   };
-  if (area_blend == 0 && attractors.empty()) {
-    if (std::optional<FallbackMap> unfolded = unfolded_map(failed, rejected, progress, timings)) {
-      const ComplexVector z = unfolded->unfolded->fold_free.z;
-      consider(std::move(*unfolded), z);
-    }
-  }
+  const auto consider_unfolded = [&] {
+    std::optional<FallbackMap> unfolded = unfolded_map(failed, rejected, progress, timings);
+    if (!unfolded) return;
+    const ComplexVector z = unfolded->unfolded->fold_free.z;
+    consider(std::move(*unfolded), z);
+  };
+  // It heeds neither a blend nor attractors.
+  const bool is_last = area_blend > 0 || !attractors.empty();
+  if (!is_last) consider_unfolded();
   FallbackMap candidates[3];
   candidates[0] = {{}, {}, Fallback::clamped_triangles, weights, boundary, 0, {}};
   candidates[1] = {{}, {}, Fallback::other_boundary, weights, other_boundary, 0, {}};
@@ -91,6 +94,7 @@ std::optional<FallbackMap> solve_fallback(const SpectralSolver& failed, const Sp
     const ComplexVector z = candidate.map.z;
     consider(std::move(candidate), z);
   }
+  if (!best && is_last) consider_unfolded();
   return best;
 }
 

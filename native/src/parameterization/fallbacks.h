@@ -23,12 +23,12 @@ struct FallbackMap {
 
 /// Where a patch has no map by Method::spectral: the one of least mean QC among those without flipped triangles, or, if
 /// all have some, among those with the fewest, of
-///   the rejected map itself, where it is there, its flipped triangles unfolded, or else an embedding
+///   the rejected map itself, where it is there, its flipped triangles unfolded, or else an embedding, relaxed
 ///   (fold_free_map.h); the accepted maps of the energy with thin triangles clamped, of the form B with the other
 ///   measure, and of the energy with the other weights.
 /// rejected: what solving the patch ended with. area_blend: what other problems are blended by first; 0 where the patch
-/// is blended already or not at all. Where it is not 0, or there are attractors, only these problems are solved: the
-/// first map knows neither. Raises `attempts` by the problems solved. Empty where there is none.
+/// is blended already or not at all. Where it is not 0, or there are attractors, these problems come first: the first
+/// map knows neither. Raises `attempts` by the problems solved. Empty where there is none.
 std::optional<FallbackMap> solve_fallback(const SpectralSolver& failed, const SpectralMap& rejected,
                                           const SolveOptions& options, const Pins& attractors, double area_blend,
                                           const Progress& progress, Timings& timings, int& attempts);

@@ -244,8 +244,8 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& gi
 void Solver::State::unfold(const Pins& held, const std::optional<SolveFailure>& failure, const Progress& progress,
                            Parameterization& result) {
   Stopwatch watch(result.timings);
-  take_unfolded(spectral_conformal::unfold(spectral, held, result.z, progress), failure ? failure->reason() : "",
-                !held.empty(), result);
+  take_unfolded(spectral_conformal::unfold(spectral, held, result.z, {false, true}, progress),
+                failure ? failure->reason() : "", !held.empty(), result);
   watch.lap("unfolding");
 }
 

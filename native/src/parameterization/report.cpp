@@ -172,6 +172,12 @@ std::string describe_unfolding(const FoldFreeMap& map, const std::string& failur
     text += count(map.flipped_before - map.flipped, "flipped triangle", "flipped triangles") + " unfolded; mean QC " +
             five_digits(before) + " -> " + five_digits(after) + ". ";
   }
+  if (map.covers_itself) {
+    text += "The island still covers itself somewhere; add seams. ";
+  } else if (map.covered_itself) {
+    text += "Parts that covered each other moved apart; mean QC " + five_digits(before) + " -> " + five_digits(after) +
+            ". ";
+  }
   if (map.flipped > 0) {
     text += count(map.flipped, "triangle", "triangles") +
             (held ? " could not be unfolded between the pins; move or remove pins. "

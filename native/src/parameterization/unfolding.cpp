@@ -8,7 +8,8 @@
 
 namespace spectral_conformal {
 
-UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z, const Progress& progress) {
+UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z,
+                   const UnfoldingOptions& options, const Progress& progress) {
   const NormalizedPatch& patch = solver.patch();
   const ConformalEnergy& energy = solver.energy();
   std::vector<char> held_vertices(held.empty() ? 0 : static_cast<std::size_t>(patch.n_vertices), 0);
@@ -20,17 +21,19 @@ UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const Complex
   // Pins may hold the map mirrored, which is no fold.
   const bool mirrored = !held.empty() && signed_area(energy, z) < 0;
   FoldFreeMap& map = result.fold_free;
-  map = fold_free_map({energy, patch.surface(), loops, held_vertices, solver.backend()},
-                      mirrored ? ComplexVector(z.conjugate()) : z, progress);
+  map = fold_free_map(
+      {energy, patch.surface(), loops, held_vertices, solver.backend(), options.is_refused, options.moves_apart},
+      mirrored ? ComplexVector(z.conjugate()) : z, progress);
   if (mirrored) map.z = map.z.conjugate().eval();
-  result.changed = map.is_embedding || map.flipped != map.flipped_before;
+  result.changed = options.is_refused || map.is_embedding || map.flipped != map.flipped_before ||
+                   map.covered_itself != map.covers_itself;
   result.mean_qc = result.mean_qc_before;
   if (!result.changed) return result;
   if (held.empty() && !place(map.z, energy, patch.outer, patch.surface(), energy.area() * patch.scale * patch.scale)) {
     throw SolveFailure("The map has no positive area", "add seams that make the island flatter.");
   }
   const SpectralSolver::Numbers after = solver.numbers(with_virtual_vertices(patch, map.z));
-  result.turning_number = after.turning_number;
+  result.turning_number = map.turning_number;
   result.eigenvalue = after.eigenvalue;
   result.residual = after.residual;
   result.mean_qc = chart_distortion(patch, map.z).mean_qc;

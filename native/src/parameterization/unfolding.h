@@ -17,8 +17,14 @@ struct UnfoldedMap {
   int turning_number = 0;
 };
 
+struct UnfoldingOptions {
+  bool is_refused = false;   ///< the map is not placed and has not passed its checks: it is relaxed as a whole
+  bool moves_apart = false;  ///< see FoldFreePatch
+};
+
 /// fold_free_map for the map z (V,) of a patch, or for none where z is empty. Pins hold their vertices. Throws
 /// SolveFailure where what it ends with has no area, and what fold_free_map throws.
-UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z, const Progress& progress);
+UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z,
+                   const UnfoldingOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -9,7 +9,7 @@ import numpy as np
 from tests.blender.inside import scenes
 
 
-def rough_grid(n=14, roughness=2.0, seed=3):
+def rough_grid(n=14, roughness=2.0, seed=0):
     """Triangles over a grid, every vertex moved at random: the conformal map has folds."""
     rng = np.random.default_rng(seed)
     x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")

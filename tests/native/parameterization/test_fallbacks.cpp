@@ -28,7 +28,7 @@ TEST_CASE("of the maps without flips that with the least mean QC stands in") {
     const ComplexVector& z = best->unfolded ? best->unfolded->fold_free.z : best->map.z;
     CHECK(count_flipped(patch, z) == 0);
     const double mean_qc = chart_distortion(normalized, z).mean_qc;
-    CHECK(mean_qc <= chart_distortion(normalized, unfold(solver, {}, rejected.whole, {}).fold_free.z).mean_qc);
+    CHECK(mean_qc <= chart_distortion(normalized, unfold(solver, {}, rejected.whole, {}, {}).fold_free.z).mean_qc);
     SpectralSolver clamped(solver, Weights::uniform, BoundaryMeasure::length);
     clamped.clamp(1e-5);
     SpectralSolver vertex(solver, Weights::uniform, BoundaryMeasure::vertex);

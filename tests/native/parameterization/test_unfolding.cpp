@@ -15,12 +15,12 @@ TEST_CASE("a map without folds is left as it is, one with a fold is unfolded, no
   SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
   Timings timings;
   const ComplexVector z = solver.solve({}, {}, {}, timings).z;
-  const UnfoldedMap same = unfold(solver, {}, z, {});
+  const UnfoldedMap same = unfold(solver, {}, z, {}, {});
   CHECK_FALSE(same.changed);
   CHECK(same.mean_qc == same.mean_qc_before);
   ComplexVector flipped = z;
   flipped[24] += 1.5 * (z[25] - z[24]);
-  const UnfoldedMap unfolded = unfold(solver, {}, flipped, {});
+  const UnfoldedMap unfolded = unfold(solver, {}, flipped, {}, {});
   CHECK(unfolded.changed);
   CHECK_FALSE(unfolded.fold_free.is_embedding);
   CHECK(unfolded.fold_free.flipped_before > 0);
@@ -28,7 +28,7 @@ TEST_CASE("a map without folds is left as it is, one with a fold is unfolded, no
   CHECK(unfolded.turning_number == 1);
   CHECK(unfolded.mean_qc == doctest::Approx(chart_distortion(normalized, unfolded.fold_free.z).mean_qc));
   CHECK(unfolded.eigenvalue > 0);
-  const UnfoldedMap embedded = unfold(solver, {}, {}, {});
+  const UnfoldedMap embedded = unfold(solver, {}, {}, {}, {});
   CHECK((embedded.changed && embedded.fold_free.is_embedding));
   CHECK(std::isnan(embedded.mean_qc_before));
 }

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""With `fold_free`, parts of a map without folds that lie on each other come apart where descent can move them."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+COVERED = [meshes.rough_grid(8, 0.8, 12, 0.1), meshes.rough_grid(10, 1.0, 10, 0.1), meshes.rough_grid(6, 1.5, 9, 0.2)]
+# Flat but for its rise, and more than once round: its parts lie on each other in every map without much distortion.
+SPIRAL = meshes.spiral_ramp(1.5)
+
+
+def triangulated(vertices, faces):
+    faces = np.asarray(faces)
+    return vertices, faces if faces.shape[1] == 3 else np.vstack([faces[:, :3], faces[:, [0, 2, 3]]])
+
+
+@pytest.mark.parametrize("mesh", COVERED)
+def test_parts_come_apart_at_some_cost(mesh):
+    plain = sc.parameterize(*mesh, polish=True)
+    before = sc.distortion(*mesh, plain.uv)
+    assert before.overlapping.any()
+    assert not before.flipped.any()
+    apart = sc.parameterize(*mesh, polish=True, fold_free=True)
+    after = sc.distortion(*mesh, apart.uv)
+    assert not after.overlapping.any()
+    assert not after.flipped.any()
+    assert abs(apart.turning_number) == 1
+    assert apart.eigenvalue_of == "map"
+    assert apart.mean_qc_before == pytest.approx(before.mean_qc)
+    assert after.mean_qc < 1.1 * before.mean_qc
+    assert apart.message.startswith("Parts that covered each other moved apart; mean QC ")
+    (chart,) = sc.unwrap(mesh[0], *meshes.polygons(mesh[1]), polish=True, fold_free=True).charts
+    assert (chart.overlapping, chart.flipped) == (0, 0)
+
+
+def test_what_does_not_come_apart_stays_and_is_told():
+    mesh = triangulated(*SPIRAL)
+    plain = sc.parameterize(*mesh)
+    assert sc.distortion(*mesh, plain.uv).overlapping.any()
+    told = sc.parameterize(*mesh, fold_free=True)
+    assert np.array_equal(told.uv, plain.uv)
+    assert told.message == "The island still covers itself somewhere; add seams."
+    assert told.unfolded == 0
+    assert not told.is_embedding
+
+
+def test_a_map_that_covers_nothing_twice_stays():
+    mesh = meshes.bumpy_disk(300, 0, 1)
+    told = sc.parameterize(*mesh, fold_free=True)
+    assert told.message == ""
+    assert np.array_equal(told.uv, sc.parameterize(*mesh).uv)
+
+
+def test_it_can_be_stopped_at_every_report():
+    mesh = COVERED[0]
+    last, calls = 0.0, 0
+
+    def count(fraction, _phase):
+        nonlocal last, calls
+        assert fraction >= last
+        last, calls = fraction, calls + 1
+
+    sc.parameterize(*mesh, fold_free=True, progress=count)
+    for stop in range(1, calls + 1):
+        seen = 0
+
+        def cancel(_fraction, _phase, stop=stop):
+            nonlocal seen
+            seen += 1
+            return seen < stop
+
+        with pytest.raises(sc.Cancelled):
+            sc.parameterize(*mesh, fold_free=True, progress=cancel)
