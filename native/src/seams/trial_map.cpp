@@ -52,7 +52,10 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   result.chart = std::move(chart);
   const Positions positions = result.chart.positions(mesh);
   try {
-    result.z = Solver(result.chart, positions, options).solve({}, {}, progress).z;
+    // A map that had to be replaced asks for a cut, and takes long.
+    SolveOptions strict;
+    strict.fallbacks = false;
+    result.z = Solver(result.chart, positions, options).solve(strict, {}, progress).z;
     result.solved = true;
   } catch (const InvalidMesh&) {
     return result;  // not solved, which is the answer
