@@ -53,7 +53,7 @@ LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >
 # From 5.0 the UV selection belongs to the mesh.
 UV_SELECTION_ON_MESH = hasattr(bmesh.types.BMLoop, "uv_select_vert")
 # Rows of Adjust Last Operation, counted from 0 at the bottom.
-ROWS = {"margin": 0, "margin_method": 1, "placement": 2}
+ROWS = {"margin": 0, "margin_method": 1, "turn_to_pack": 2, "placement": 3}
 
 
 def window():

@@ -73,7 +73,8 @@ std::vector<Moment> moments_of(const ComplexVector& w, const Eigen::VectorXd& ma
   std::vector<Moment> moments;
   for (std::size_t k = 0; k < exponents.size(); ++k) {
     const auto [p, q] = exponents[k];
-    moments.push_back({p - q, sums[k] / size[static_cast<std::size_t>(p + q)]});
+    const auto order = static_cast<std::size_t>(p) + static_cast<std::size_t>(q);
+    moments.push_back({p - q, sums[k] / size[order]});
   }
   return moments;
 }
