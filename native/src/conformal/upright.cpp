@@ -31,6 +31,12 @@ constexpr double odd_moment = 3e-4;
 // A moment above this tells where an axis is; with odd_moment, to 0.6 degrees at least.
 constexpr double clear_harmonic = 0.03;
 constexpr double same_axis = 0.02;  // in radians
+// An outline is straight where this fraction of it runs within 3 degrees along its smallest rectangle: of a circle 7 %
+// does, of a regular octagon half; no regular outline is at the limit.
+constexpr double straight_fraction = 0.18;
+constexpr double straight_sine = 0.0523;
+// Of an outline that is not, how much larger its box may get to be exactly upright.
+constexpr double larger_box = 0.1;
 
 /// A third of the area of its triangles in the map, per vertex, the sum scaled to 1.
 Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
@@ -107,6 +113,21 @@ Complex gradient_of_fit(const ComplexVector& w, const Eigen::VectorXd& mass, con
   return spread > 1e-12 ? 2.0 * (along - shape * std::conj(along)) / spread : along;
 }
 
+double area_of(const Rectangle& r) { return r.width * r.height; }
+
+/// Whether enough of the outline, a closed polygon, runs along the sides of the rectangle for an eye to see it lean.
+bool is_straight(const std::vector<Complex>& outline, const Rectangle& rectangle) {
+  double along = 0;
+  double length = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex edge = (outline[(i + 1) % outline.size()] - outline[i]) * std::conj(rectangle.direction);
+    const double off = std::min(std::abs(edge.real()), std::abs(edge.imag()));
+    length += std::abs(edge);
+    if (off <= straight_sine * std::abs(edge)) along += std::abs(edge);
+  }
+  return along >= straight_fraction * length;
+}
+
 double deviation(Complex turned) { return std::abs(std::arg(turned / up)); }
 
 /// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
@@ -161,7 +182,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   std::vector<Complex> boundary;
   boundary.reserve(outer_loop.size());
   for (const int vertex : outer_loop) boundary.push_back(w[vertex]);
-  const std::vector<Complex> hull = convex_hull(std::move(boundary));
+  const std::vector<Complex> hull = convex_hull(boundary);
   const std::vector<Moment> moments = moments_of(w, mass);
   Preferences preferred = preferences(w, mass, positions);
 
@@ -169,13 +190,19 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   std::vector<Rectangle> rectangles;
   if (axes.empty()) {
     rectangles = smallest_rectangles(hull, equal_area);
+    const auto straight = [&](const Rectangle& r) { return is_straight(boundary, r); };
+    if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
+      const Complex highest = preferred.directions.front();
+      const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));
+      if (area_of(exact) <= area_of(rectangles.front()) * (1 + larger_box)) rectangles = {exact};
+    }
   } else {
     double smallest = std::numeric_limits<double>::infinity();
     for (const Complex axis : axes) {
       rectangles.push_back(bounding_rectangle(hull, axis));
-      smallest = std::min(smallest, rectangles.back().width * rectangles.back().height);
+      smallest = std::min(smallest, area_of(rectangles.back()));
     }
-    const auto is_larger = [&](const Rectangle& r) { return r.width * r.height > smallest * (1 + equal_area); };
+    const auto is_larger = [&](const Rectangle& r) { return area_of(r) > smallest * (1 + equal_area); };
     rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), is_larger), rectangles.end());
   }
   const bool stands_on_axis = axes.size() == 1 && !preferred.has_height;

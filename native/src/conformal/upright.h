@@ -17,6 +17,7 @@ namespace spectral_conformal {
 ///   - an axis of its mirror symmetry, where it has one; if it has only one and the third coordinate is weak, that axis
 ///     stands;
 ///   - otherwise the smallest rectangle around its outer loop; of about equally small ones, the nearest.
+/// A map without symmetry or straight borders is exactly upright where its bounding box then is hardly larger.
 /// Between quarter turns that are about equally near, the other coordinates decide, and where no coordinate tells
 /// directions apart, the shape: higher than wide, the broader end down.
 ///

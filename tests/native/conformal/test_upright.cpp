@@ -62,6 +62,20 @@ Mesh gable() {
   return mesh;
 }
 
+/// An irregular round outline about a point, without straight parts.
+Mesh pebble() {
+  Mesh mesh;
+  mesh.points.emplace_back(0, 0, 0);
+  constexpr int n = 60;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * pi * k / n;
+    const double radius = 1 + 0.06 * std::cos(2 * angle) + 0.04 * std::sin(3 * angle) + 0.02 * std::sin(7 * k);
+    mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    mesh.add({0, 1 + k, 1 + (k + 1) % n});
+  }
+  return mesh;
+}
+
 /// The turns differ by less than 0.1 degrees, as angles.
 bool is_near(double degrees, double expected) { return std::abs(std::remainder(degrees - expected, 360)) < 0.1; }
 
@@ -103,11 +117,11 @@ TEST_CASE("of two quarter turns that are equally near always the same is taken")
 TEST_CASE("a floor is seen from above, and so is a roof of small slope; a steep one stands") {
   for (const auto& [columns, rows] : {std::pair(8, 3), std::pair(5, 5)}) {
     CHECK(is_near(sheet(columns, rows, floor_of).angle(), 0));
-    const auto roof = [&](double slope) {
-      return sheet(columns, rows, [slope](double x, double y) { return Eigen::Vector3d(x, y, -slope * y); }).angle();
+    const auto roof = [](double slope) {
+      return [slope](double x, double y) { return Eigen::Vector3d(x, y, -slope * y); };
     };
-    CHECK(is_near(roof(0.2), 0));
-    CHECK(is_near(roof(0.4), 180));
+    CHECK(is_near(sheet(columns, rows, roof(0.2)).angle(), 0));
+    CHECK(is_near(sheet(columns, rows, roof(0.4)).angle(), 180));
   }
 }
 
@@ -133,6 +147,15 @@ TEST_CASE("a symmetric map stands on its axis though a smaller rectangle leans")
   ComplexVector z = sheared.flat;
   for (Complex& p : z) p += 0.3 * p.imag();
   CHECK_FALSE(is_near(sheared.angle(z), 0));
+}
+
+TEST_CASE("a round outline without symmetry is exactly upright, an oblong one by quarter turns") {
+  for (const double degrees : {-70.0, -20.0, 10.0, 130.0}) {
+    CHECK(is_near(Sheet(pebble(), leaning(degrees)).angle(), degrees));
+  }
+  Mesh oblong = pebble();
+  for (auto& p : oblong.points) p.x() *= 3;
+  CHECK_FALSE(is_near(Sheet(oblong, leaning(30)).angle(), 30));
 }
 
 TEST_CASE("rounding decides nothing: not of a square, a regular outline, a saddle or a dome") {

@@ -16,6 +16,7 @@ std::vector<Complex> random_points(Eigen::Index n) {
 
 std::vector<Complex> regular_polygon(int n) {
   std::vector<Complex> corners;
+  corners.reserve(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k) corners.push_back(std::polar(1.0, 0.3 + 2 * pi * k / n));
   return corners;
 }
