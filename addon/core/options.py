@@ -38,6 +38,7 @@ class Settings:
     Attributes:
         options: what the solver does.
         keep_in_place: fit every island into its former bounds instead of packing all.
+        turn_to_pack: lay islands that are higher than wide on their side when packing.
         margin: space between packed islands.
         correct_aspect: map without distortion on the image of the active face, whatever its shape.
         use_subsurf: solve the subdivided mesh of objects whose first modifier is a Subdivision Surface modifier.
@@ -45,6 +46,7 @@ class Settings:
 
     options: Options = Options()
     keep_in_place: bool = False
+    turn_to_pack: bool = False
     margin: Margin = Margin()
     correct_aspect: bool = True
     use_subsurf: bool = False

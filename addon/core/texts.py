@@ -58,6 +58,10 @@ METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
 WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
 BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
 PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
+TURN_TO_PACK_PROPERTY = {
+    "name": "Turn to Pack",
+    "description": "Lay islands that are higher than wide on their side to pack them; otherwise all stand upright",
+}
 FILL_HOLES_PROPERTY = {
     "name": "Fill Holes",
     "description": "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
@@ -188,8 +192,8 @@ MARGIN_METHOD_ITEMS = (
 PACK = "PACK"
 KEEP = "KEEP"
 PLACEMENT_ITEMS = (
-    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile"),
-    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before"),
+    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile, upright"),
+    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before, turned as it was"),
 )
 PAIRS_IN_ORDER = "IN_ORDER"
 PAIRS_TO_ACTIVE = "TO_ACTIVE"

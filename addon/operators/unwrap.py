@@ -27,6 +27,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
     weights: EnumProperty(**texts.WEIGHTS_PROPERTY, items=texts.WEIGHTS_ITEMS)
     boundary: EnumProperty(**texts.BOUNDARY_PROPERTY, items=texts.BOUNDARY_ITEMS)
     placement: EnumProperty(**texts.PLACEMENT_PROPERTY, items=texts.PLACEMENT_ITEMS)
+    turn_to_pack: BoolProperty(**texts.TURN_TO_PACK_PROPERTY)
     fill_holes: BoolProperty(**texts.FILL_HOLES_PROPERTY)
     hole_rigidity: FloatProperty(
         **texts.HOLE_RIGIDITY_PROPERTY,
@@ -103,6 +104,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         layout.prop(self, "placement")
         column = layout.column()
         column.active = self.placement == texts.PACK
+        column.prop(self, "turn_to_pack")
         column.prop(self, "margin_method")
         column.prop(self, "margin")
 

@@ -27,6 +27,7 @@ def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or
             stretch=properties.stretch,
         ),
         keep_in_place=properties.placement == KEEP,
+        turn_to_pack=properties.turn_to_pack,
         margin=Margin(properties.margin, properties.margin_method),
         correct_aspect=properties.correct_aspect,
         use_subsurf=properties.use_subsurf_data,

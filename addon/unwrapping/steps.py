@@ -79,7 +79,8 @@ def write(
     if summary.solved == 0:
         last_result.remember(edit_meshes, solutions)
         return Outcome(summary, 0, _notes(edit_meshes, settings), _warnings(edit_meshes, settings, solutions))
-    placement = place([edit_mesh.polygons for edit_mesh in edit_meshes], solutions, settings.keep_in_place)
+    polygons = [edit_mesh.polygons for edit_mesh in edit_meshes]
+    placement = place(polygons, solutions, settings.keep_in_place, settings.turn_to_pack)
     solved = [
         _Solved(edit_mesh, uv, solution)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)

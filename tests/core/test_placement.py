@@ -47,13 +47,24 @@ def test_side_by_side_keeps_shapes_and_relative_sizes_without_overlap(sizes):
             assert (np.minimum(high_i, high_j) < np.maximum(low_i, low_j)).any()
 
 
-def test_side_by_side_lays_charts_down_without_mirroring():
+def test_side_by_side_turns_charts_only_where_it_may():
     upright = RECTANGLE[[0, 3, 2, 1]][:, ::-1]
-    placed = side_by_side(np.vstack([upright, RECTANGLE * 2.0]), np.repeat([0, 1], 4))
-    for rectangle in placed.reshape(2, 4, 2):
+    both = np.vstack([upright, RECTANGLE * 2.0])
+    chart = np.repeat([0, 1], 4)
+    for rectangle, original in zip(side_by_side(both, chart).reshape(2, 4, 2), both.reshape(2, 4, 2)):
+        size, former = (np.ptp(points, axis=0) for points in (rectangle, original))
+        np.testing.assert_allclose(rectangle - rectangle[0], (original - original[0]) * (size / former)[0], atol=1e-15)
+    for rectangle in side_by_side(both, chart, may_turn=True).reshape(2, 4, 2):
         width, height = np.ptp(rectangle, axis=0)
         assert width == pytest.approx(2.0 * height)
         assert signed_area(rectangle) > 0.0
+
+
+@pytest.mark.parametrize("noise", [-1e-9, 0.0, 1e-9])
+def test_rounding_does_not_lay_a_square_down(noise):
+    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0 + noise), (0.0, 1.0 + noise)])
+    placed = side_by_side(square, np.zeros(4, dtype=int), may_turn=True)
+    assert np.argmin(placed.sum(axis=1)) == 0
 
 
 def test_side_by_side_leaves_corners_without_a_chart():
@@ -79,12 +90,37 @@ def test_former_bounds_are_filled_as_far_as_the_shape_allows(magnitude):
     np.testing.assert_allclose((low + high) / 2.0, (5.0, 5.5))
 
 
-def test_chart_is_turned_when_it_fits_larger_that_way():
+def test_chart_of_another_shape_is_turned_when_it_fits_larger_that_way():
     former = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (0.0, 2.0)])
     uv, _ = into_former_bounds(RECTANGLE, former, np.zeros(4, dtype=int))
     np.testing.assert_allclose(box(uv), [(0.0, 0.0), (1.0, 2.0)], atol=1e-15)
     # Turned, not mirrored: the winding stays.
     assert signed_area(uv) > 0.0
+
+
+@pytest.mark.parametrize("quarters", range(4))
+@pytest.mark.parametrize("shape", [RECTANGLE, RECTANGLE * (0.5, 1.0)], ids=["rectangle", "square"])
+def test_chart_in_place_lies_as_it_did(shape, quarters):
+    turned = shape
+    for _ in range(quarters):
+        turned = turned[:, ::-1] * (-1.0, 1.0)
+    # As after another way of unwrapping: turned and distorted somewhat.
+    rotation = np.array([(np.cos(0.3), np.sin(0.3)), (-np.sin(0.3), np.cos(0.3))])
+    former = (turned * 3.0) @ rotation * (1.2, 1.0) + (5.0, 7.0)
+    uv, placed = into_former_bounds(shape, former, np.zeros(4, dtype=int))
+    assert placed.all()
+    side, expected = uv[1] - uv[0], turned[1] - turned[0]
+    np.testing.assert_allclose(side / np.linalg.norm(side), expected / np.linalg.norm(expected), atol=1e-12)
+    again, _ = into_former_bounds(shape, uv, np.zeros(4, dtype=int))
+    np.testing.assert_allclose(again, uv, atol=1e-12)
+
+
+def test_chart_in_place_stays_upright_where_nothing_tells_how_it_lay():
+    rng = np.random.default_rng(3)
+    # Many points of a square, so that noise correlates with nothing.
+    shape = rng.random((200, 2))
+    uv, _ = into_former_bounds(shape, rng.random((200, 2)), np.zeros(200, dtype=int))
+    assert np.corrcoef(uv[:, 0], shape[:, 0])[0, 1] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(

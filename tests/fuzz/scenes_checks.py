@@ -143,6 +143,7 @@ def _unwrap(rng, edited):
         "correct_aspect": bool(rng.random() < 0.5),
         "margin_method": str(rng.choice(["SCALED", "ADD", "FRACTION"])),
         "margin": float(rng.choice([0.0, 0.001, 0.05, 1.0])),
+        "turn_to_pack": bool(rng.random() < 0.3),
     }
     if rng.random() < 0.1:
         properties[str(rng.choice(["hole_rigidity", "area_blend", "stretch", "soft_pin_strength", "margin"]))] = np.nan

@@ -71,7 +71,7 @@ def steps():
     drive.point_at_setting("placement")
     xdotool("click", 1)
     yield
-    yield from drive.click_below(drive.LAYOUT.pack_to_keep, "choose_placement")
+    yield from drive.click_below(drive.PACK_TO_KEEP, "choose_placement")
     yield
     assert drive.last_operator().properties.placement == "KEEP"
     kept = uv()

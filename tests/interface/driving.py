@@ -25,7 +25,6 @@ class Layout:
     Attributes:
         unwrap_to_mark_seam: in the menu of U.
         header_to_unwrap, header_to_select_defects, header_to_suggest_seams: from the header to entries of its menu.
-        pack_to_keep: in the list of placements.
         row: height of the rows of Adjust Last Operation.
         bottom_row: its last row, above the lower end.
         sidebar_tab: from the sidebar's top left corner.
@@ -36,7 +35,6 @@ class Layout:
     header_to_unwrap: int
     header_to_select_defects: int
     header_to_suggest_seams: int
-    pack_to_keep: int
     row: int
     bottom_row: int
     sidebar_tab: tuple
@@ -44,16 +42,18 @@ class Layout:
 
 
 LAYOUTS = {
-    (5, 0): Layout(259, 380, 423, 443, 47, 23, 18, (278, 248), True),
-    (4, 3): Layout(77, 199, 241, 262, 47, 23, 18, (278, 174), True),
-    (4, 0): Layout(217, 339, 381, 402, 47, 23, 18, (215, 170), False),
-    (3, 4): Layout(225, 351, 395, 417, -44, 22, 20, (215, 170), False),
+    (5, 0): Layout(259, 380, 423, 443, 23, 18, (278, 248), True),
+    (4, 3): Layout(77, 199, 241, 262, 23, 18, (278, 174), True),
+    (4, 0): Layout(217, 339, 381, 402, 23, 18, (215, 170), False),
+    (3, 4): Layout(225, 351, 395, 417, 22, 20, (215, 170), False),
 }
 LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >= version)
 # From 5.0 the UV selection belongs to the mesh.
 UV_SELECTION_ON_MESH = hasattr(bmesh.types.BMLoop, "uv_select_vert")
+# In the list of placements.
+PACK_TO_KEEP = 47
 # Rows of Adjust Last Operation, counted from 0 at the bottom.
-ROWS = {"margin": 0, "margin_method": 1, "placement": 2}
+ROWS = {"margin": 0, "margin_method": 1, "turn_to_pack": 2, "placement": 3}
 
 
 def window():

@@ -85,7 +85,8 @@ def test_map_is_placed():
         reference.gradients(vertices, triangles)[2].sum()
     )
     assert np.abs(uv.mean(0)).max() < 1e-12
-    assert np.ptp(uv[:, 0]) >= np.ptp(uv[:, 1])
+    # A disk with bumps is seen from above.
+    assert np.corrcoef(uv[:, 1], vertices[:, 1])[0, 1] > np.sqrt(0.5)
 
 
 def test_orientation_follows_the_majority():

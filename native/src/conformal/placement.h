@@ -10,9 +10,8 @@ namespace spectral_conformal {
 double signed_area(const ConformalEnergy& energy, const ComplexVector& z);
 
 /// Fixes what the conformal energy leaves free: the mean of the vertices goes to 0, the signed area becomes `area`, and
-/// the smallest rectangle around the outer loop gets horizontal and vertical sides, the longer one horizontal. Of the
-/// two ways that remain, the one in which v rises with the third coordinate of the positions (on a tie: u with the
-/// first). Orientation-preserving. Returns false when the signed area is not positive; z is then unchanged.
+/// the map stands upright (upright_turn). Orientation-preserving. Returns false when the signed area is not positive; z
+/// is then unchanged.
 bool place(ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,
            const Eigen::Ref<const Positions>& positions, double area);
 

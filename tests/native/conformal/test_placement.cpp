@@ -16,9 +16,9 @@ struct Placed {
   }
 };
 
-/// A flat 8 x 3 grid of quads, stood upright: z is the third coordinate.
-Mesh upright_rectangle() {
-  Mesh mesh = quad_grid(8, 3);
+/// A flat 3 x 8 grid of quads that stands on a short side.
+Mesh standing_rectangle() {
+  Mesh mesh = quad_grid(3, 8);
   for (auto& p : mesh.points) p = {p.x(), 0.0, p.y()};
   return mesh;
 }
@@ -50,39 +50,15 @@ TEST_CASE("the result is the map itself up to a similarity, centred, with the ar
   CHECK(signed_area(placed.energy, z) == doctest::Approx(5).epsilon(1e-13));
 }
 
-TEST_CASE("a rectangle lies down with its first axis to the right and its third axis up, however it was turned") {
-  const Placed placed(upright_rectangle());
+TEST_CASE("the result stands upright, however the map was turned") {
+  const Placed placed(standing_rectangle());
   ComplexVector expected(placed.patch.positions.rows());
   for (Eigen::Index v = 0; v < expected.size(); ++v) {
-    expected[v] = Complex(placed.patch.positions(v, 0) - 4, placed.patch.positions(v, 2) - 1.5);
+    expected[v] = Complex(placed.patch.positions(v, 0) - 1.5, placed.patch.positions(v, 2) - 4);
   }
   for (const double angle : {0.0, 0.4, 1.6, 2.9, 4.4, 6.0}) {
     const ComplexVector turned = (std::polar(1e-3, angle) * expected).array() + Complex(7, -3);
     CHECK(difference(placed(turned, 24), expected) < 1e-9);
-  }
-}
-
-TEST_CASE("without a third coordinate the first one points to the right") {
-  const Placed placed(quad_grid(8, 3));
-  const ComplexVector flat = flat_map(placed.patch.positions);
-  const ComplexVector expected = flat.array() - flat.mean();
-  for (const double angle : {0.1, 3.0, 5.0})
-    CHECK(difference(placed(std::polar(1.0, angle) * flat, 24), expected) < 1e-9);
-}
-
-TEST_CASE("the sides are those of the smallest rectangle around the outer loop") {
-  const Placed placed(perforated_grid(10, 7));
-  const ComplexVector z = placed(flat_map(placed.patch.positions), 1.0);
-  const auto box = [&](double angle) {
-    const ComplexVector turned = std::polar(1.0, angle) * z;
-    return Complex(turned.real().maxCoeff() - turned.real().minCoeff(),
-                   turned.imag().maxCoeff() - turned.imag().minCoeff());
-  };
-  const Complex own = box(0);
-  CHECK(own.real() >= own.imag());
-  for (int k = 0; k < 720; ++k) {
-    const Complex other = box(k * 3.14159265358979323846 / 720);
-    CHECK(other.real() * other.imag() >= own.real() * own.imag() * (1 - 1e-9));
   }
 }
 

@@ -1,0 +1,231 @@
+#include "conformal/upright.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "geometry/bounding_rectangles.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr Complex up(0, 1);
+
+// Rectangles within 1 % of the smallest count as equally small: the sides of a square then lean by 0.3 degrees at most.
+constexpr double equal_area = 0.01;
+// A coordinate is weak beside another that grows four times as fast in the map: a roof of less than 14 degrees is seen
+// from above.
+constexpr double weak = 0.25;
+// Gradients below this fraction of the steepest possible are rounding: positions come in single precision, 6e-8, and
+// the eigenvector's error is about as large.
+constexpr double no_gradient = 1e-4;
+// In radians, about one degree: quarter turns that are equally near in a model made by hand.
+constexpr double equally_near = 0.02;
+constexpr double rounding = 1e-6;  // in radians
+// Odd moments of a shape that is its own mirror image are 0: 1e-16 on Blender's monkey, 1e-5 on a rectangle that is
+// triangulated without symmetry, but 9e-4 on a rectangle of 2 by 1 that lacks a corner of legs 0.02.
+constexpr double odd_moment = 3e-4;
+// A moment above this tells where an axis is; with odd_moment, to 0.6 degrees at least.
+constexpr double clear_harmonic = 0.03;
+constexpr double same_axis = 0.02;  // in radians
+// An outline is straight where this fraction of it runs within 3 degrees along its smallest rectangle: of a circle 7 %
+// does, of a regular octagon half; no regular outline is at the limit.
+constexpr double straight_fraction = 0.18;
+constexpr double straight_sine = 0.0523;
+// Of an outline that is not, how much larger its box may get to be exactly upright.
+constexpr double larger_box = 0.1;
+
+/// A third of the area of its triangles in the map, per vertex, the sum scaled to 1.
+Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(z.size());
+  const auto& triangles = energy.triangles();
+  for (std::size_t t = 0; t + energy.n_virtual() < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    const double area = energy.triangle_weights()[t] * std::abs(signed_area(z[a], z[b], z[c]));
+    for (const int v : {a, b, c}) mass[v] += area;
+  }
+  return mass / mass.sum();
+}
+
+/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the map moved and scaled to E[w] = 0 and
+/// E[|w|^2] = 1, each over E[|w|^(p + q)]: a mirror image has the conjugates, a turn by t multiplies by
+/// exp(i (p - q) t).
+struct Moment {
+  int harmonic = 0;  ///< p - q
+  Complex value;
+};
+
+std::vector<Moment> moments_of(const ComplexVector& w, const Eigen::VectorXd& mass) {
+  constexpr std::array<std::array<int, 2>, 8> exponents = {
+      {{2, 0}, {2, 1}, {3, 0}, {3, 1}, {4, 0}, {3, 2}, {4, 1}, {5, 0}}};
+  std::array<Complex, 8> sums{};
+  std::array<double, 6> size{};
+  for (Eigen::Index v = 0; v < w.size(); ++v) {
+    const double square = std::norm(w[v]);
+    const double length = std::sqrt(square);
+    const Complex w1 = mass[v] * w[v];
+    const Complex w2 = w1 * w[v];
+    const Complex w3 = w2 * w[v];
+    const Complex w4 = w3 * w[v];
+    const std::array<Complex, 8> terms = {w2,          w1 * square, w3, w2 * square, w4, w1 * (square * square),
+                                          w3 * square, w4 * w[v]};
+    for (std::size_t k = 0; k < terms.size(); ++k) sums[k] += terms[k];
+    double power = mass[v] * square;
+    for (std::size_t order = 2; order < size.size(); ++order, power *= length) size[order] += power;
+  }
+  std::vector<Moment> moments;
+  for (std::size_t k = 0; k < exponents.size(); ++k) {
+    const auto [p, q] = exponents[k];
+    const auto order = static_cast<std::size_t>(p) + static_cast<std::size_t>(q);
+    moments.push_back({p - q, sums[k] / size[order]});
+  }
+  return moments;
+}
+
+/// The directions of the mirror axes of a map with these moments.
+std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
+  std::vector<Complex> axes;
+  for (const Moment& clear : moments) {
+    if (std::abs(clear.value) < clear_harmonic) continue;
+    for (int k = 0; k < clear.harmonic; ++k) {
+      const Complex axis = std::polar(1.0, (std::arg(clear.value) + k * pi) / clear.harmonic);
+      const auto is_odd = [&](const Moment& m) {
+        return std::abs(std::imag(m.value * std::pow(std::conj(axis), m.harmonic))) > odd_moment;
+      };
+      const auto is_same = [&](Complex other) { return std::abs(cross(axis, other)) < same_axis; };
+      if (std::any_of(moments.begin(), moments.end(), is_odd)) continue;
+      if (std::none_of(axes.begin(), axes.end(), is_same)) axes.push_back(axis);
+    }
+  }
+  return axes;
+}
+
+/// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that fits `values`
+/// best.
+Complex gradient_of_fit(const ComplexVector& w, const Eigen::VectorXd& mass, const Eigen::VectorXd& values) {
+  const Complex along = (w.array() * (mass.array() * values.array())).sum();
+  const Complex shape = (w.array().square() * mass.array()).sum();
+  // A map that is a line has no gradient across.
+  const double spread = 1 - std::norm(shape);
+  return spread > 1e-12 ? 2.0 * (along - shape * std::conj(along)) / spread : along;
+}
+
+double area_of(const Rectangle& r) { return r.width * r.height; }
+
+/// Whether enough of the outline, a closed polygon, runs along the sides of the rectangle for an eye to see it lean.
+bool is_straight(const std::vector<Complex>& outline, const Rectangle& rectangle) {
+  double along = 0;
+  double length = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex edge = (outline[(i + 1) % outline.size()] - outline[i]) * std::conj(rectangle.direction);
+    const double off = std::min(std::abs(edge.real()), std::abs(edge.imag()));
+    length += std::abs(edge);
+    if (off <= straight_sine * std::abs(edge)) along += std::abs(edge);
+  }
+  return along >= straight_fraction * length;
+}
+
+double deviation(Complex turned) { return std::abs(std::arg(turned / up)); }
+
+/// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
+void keep_nearest(std::vector<Complex>& turns, Complex direction, double tolerance) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Complex turn : turns) nearest = std::min(nearest, deviation(turn * direction));
+  const auto is_farther = [&](Complex turn) { return deviation(turn * direction) > nearest + tolerance; };
+  turns.erase(std::remove_if(turns.begin(), turns.end(), is_farther), turns.end());
+}
+
+/// The directions of the map that are to point up, the first ones before the others.
+struct Preferences {
+  std::vector<Complex> directions;
+  bool has_height = false;  ///< the first is that in which the third coordinate grows
+};
+
+Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
+                        const Eigen::Ref<const Positions>& positions) {
+  const Eigen::RowVector3d centre = mass.transpose() * positions;
+  std::array<Complex, 3> gradient;
+  double extent = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::VectorXd values = positions.col(k).array() - centre[k];
+    gradient[static_cast<std::size_t>(k)] = gradient_of_fit(w, mass, values);
+    extent += (mass.array() * values.array().square()).sum();
+  }
+  const auto& [x, y, z] = gradient;
+  const double steepest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+  const double least = no_gradient * std::sqrt(extent);
+  Preferences result;
+  const auto add = [&](Complex direction, double limit) {
+    if (std::abs(direction) >= limit && std::abs(direction) > least) result.directions.push_back(direction);
+  };
+  // x to the right is i x up.
+  add(z, weak * steepest);
+  result.has_height = !result.directions.empty();
+  add(y, weak * steepest);
+  add(up * x, weak * steepest);
+  // Whatever gradient there is tells all four quarter turns apart, by where it goes up and where to the right.
+  for (const Complex direction : {z, y, up * x, x, up * y, up * z}) add(direction, 0);
+  return result;
+}
+
+}  // namespace
+
+Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,
+                     const Eigen::Ref<const Positions>& positions) {
+  const Eigen::VectorXd mass = masses(z, energy);
+  const Complex centre = (z.array() * mass.array()).sum();
+  ComplexVector w = z.array() - centre;
+  w /= std::sqrt((w.array().abs2() * mass.array()).sum());
+  std::vector<Complex> boundary;
+  boundary.reserve(outer_loop.size());
+  for (const int vertex : outer_loop) boundary.push_back(w[vertex]);
+  const std::vector<Complex> hull = convex_hull(boundary);
+  const std::vector<Moment> moments = moments_of(w, mass);
+  Preferences preferred = preferences(w, mass, positions);
+
+  const std::vector<Complex> axes = mirror_axes(moments);
+  std::vector<Rectangle> rectangles;
+  if (axes.empty()) {
+    rectangles = smallest_rectangles(hull, equal_area);
+    const auto straight = [&](const Rectangle& r) { return is_straight(boundary, r); };
+    if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
+      const Complex highest = preferred.directions.front();
+      const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));
+      if (area_of(exact) <= area_of(rectangles.front()) * (1 + larger_box)) rectangles = {exact};
+    }
+  } else {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Complex axis : axes) {
+      rectangles.push_back(bounding_rectangle(hull, axis));
+      smallest = std::min(smallest, area_of(rectangles.back()));
+    }
+    const auto is_larger = [&](const Rectangle& r) { return area_of(r) > smallest * (1 + equal_area); };
+    rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), is_larger), rectangles.end());
+  }
+  const bool stands_on_axis = axes.size() == 1 && !preferred.has_height;
+
+  std::vector<Complex> turns;
+  for (const Rectangle& rectangle : rectangles) {
+    const Complex lying = std::conj(rectangle.direction);
+    const bool higher = rectangle.height > rectangle.width * (1 + equal_area);
+    const bool wider = rectangle.width > rectangle.height * (1 + equal_area);
+    // Where nothing else tells them apart, higher than wide.
+    const bool may_lie = !stands_on_axis && (!preferred.directions.empty() || !wider);
+    const bool may_stand = stands_on_axis || !preferred.directions.empty() || !higher;
+    if (may_lie) turns.insert(turns.end(), {lying, -lying});
+    if (may_stand) turns.insert(turns.end(), {up * lying, -up * lying});
+  }
+  // The broader end is where the third moments point away from.
+  for (const Moment& m : moments) {
+    if (m.harmonic == 1 && std::abs(m.value) > clear_harmonic) preferred.directions.push_back(m.value);
+  }
+  for (const double tolerance : {equally_near, rounding}) {
+    for (const Complex direction : preferred.directions) keep_nearest(turns, direction, tolerance);
+  }
+  return turns.front();
+}
+
+}  // namespace spectral_conformal
