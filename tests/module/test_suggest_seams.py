@@ -124,6 +124,61 @@ def test_same_input_same_seams():
     assert np.array_equal(sc.suggest_seams(*mesh), sc.suggest_seams(*mesh))
 
 
+def box(sides, n):
+    """A closed box of n x n quads on each side: exact ties, whatever is compared."""
+    axis, points, quads = np.linspace(-1, 1, n + 1), {}, []
+    for normal in range(3):
+        for sign in (-1, 1):
+            grid = [[points.setdefault(tuple(np.roll([sign, a, b], normal)), len(points)) for b in axis] for a in axis]
+            grid = np.array(grid)
+            faces = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+            quads.append(faces if sign > 0 else faces[:, ::-1])
+    return np.array(list(points)) * sides, *meshes.polygons(np.concatenate(quads))
+
+
+def two_sheets():
+    """Two grids of spikes that have all their positions in common, one of them with a hole."""
+    vertices, quads = meshes.saddle_quads(9)
+    vertices = vertices * [1, 1, 2]
+    return np.r_[vertices, vertices], *meshes.polygons(np.r_[quads, quads[1:] + len(vertices)])
+
+
+def renumbered(mesh, seed):
+    """The same shape by other numbers of vertices and faces, each face beginning at another corner."""
+    vertices, offsets, corners = mesh
+    rng = np.random.default_rng(seed)
+    old_vertex = rng.permutation(len(vertices))
+    new_vertex = np.argsort(old_vertex)
+    faces = [corners[offsets[f] : offsets[f + 1]] for f in rng.permutation(len(offsets) - 1)]
+    faces = [np.roll(new_vertex[face], rng.integers(len(face))) for face in faces]
+    return vertices[old_vertex], *meshes.polygons(faces)
+
+
+def positions_of(vertices, edges):
+    """The edges as pairs of positions, in an order of their own."""
+    return sorted(sorted(map(tuple, vertices[edge].tolist())) for edge in edges)
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        closed_creature(),
+        box((1, 1, 1), 1),
+        box((1, 1, 1), 5),
+        box((3, 1, 0.4), 4),
+        (lambda vertices, triangles: (vertices * [1, 1, 3], *meshes.polygons(triangles)))(*meshes.bumpy_disk(400)),
+        two_sheets(),
+    ],
+    ids=["creature", "cube", "fine cube", "plank", "bumps", "two sheets"],
+)
+def test_seams_do_not_depend_on_numbers(mesh):
+    expected = [positions_of(mesh[0], cut) for cut in sc.suggest_cuts(*mesh)]
+    assert expected
+    for seed in range(4):
+        other = renumbered(mesh, seed)
+        assert [positions_of(other[0], cut) for cut in sc.suggest_cuts(*other)] == expected
+
+
 def test_progress_and_cancelling():
     seen = []
     mesh = closed_creature()

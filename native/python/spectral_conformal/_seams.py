@@ -33,7 +33,8 @@ def suggest_seams(
     unwrapped otherwise. Then the most distorted regions are joined to the seams one after the other, and each cut is
     solved before it is proposed, so that unwrapping with it shows lower distortion. A component gets no more seams once
     `scale_limit` and `qc_limit` are met or nothing helps. Where a plane x, y or z = constant mirrors a component's
-    faces onto the mesh's, its seams come in mirrored pairs or lie on the plane if the edges allow that.
+    faces onto the mesh's, its seams come in mirrored pairs or lie on the plane if the edges allow that. How vertices and
+    faces are numbered makes no difference.
 
     Args:
         vertices: (V, 3) positions, any unit.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mesh/mirror_symmetry.h"
+#include "seams/canonical_mesh.h"
 #include "seams/cutter.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
@@ -22,12 +23,14 @@ bool has_extent(const Piece& piece) {
   return extent > 0 && std::isfinite(extent);
 }
 
-/// The whole mesh: its pieces, the seams found so far, and what is left of the length that they may have.
+/// The whole mesh in canonical order: its pieces, the seams found so far, and what is left of the length that they may
+/// have.
 class SeamFinder {
  public:
-  SeamFinder(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress)
-      : options_(options), progress_(progress), length_left_(options.max_length) {
+  SeamFinder(const CanonicalMesh& canonical, const SeamSuggestionOptions& options, const Progress& progress)
+      : options_(options), progress_(progress), length_left_(options.max_length), mesh_vertices_(canonical.vertices()) {
     report(progress, 0.0, "charts");
+    const PolygonMesh mesh = canonical.view();
     const ChartDecomposition decomposition = build_charts(mesh);
     pieces_ = split_into_pieces(mesh, decomposition);
     symmetry_ = find_mirror_symmetry(mesh);
@@ -87,6 +90,8 @@ class SeamFinder {
         auto [a, b] = seams.graph().edges()[e].vertices;
         a = copy == 0 ? vertices[a] : symmetry_.vertex[vertices[a]];
         b = copy == 0 ? vertices[b] : symmetry_.vertex[vertices[b]];
+        a = mesh_vertices_[a];
+        b = mesh_vertices_[b];
         const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
         // Pieces that meet in an edge of three or more faces may both propose it.
         if (proposed_.insert(edge).second) result_.edges.push_back(edge);
@@ -100,6 +105,7 @@ class SeamFinder {
   const SeamSuggestionOptions& options_;
   const Progress& progress_;
   double length_left_;
+  const std::vector<int>& mesh_vertices_;  ///< of the canonical ones
   int steps_ = 0;
   std::vector<Piece> pieces_;
   MirrorSymmetry symmetry_;
@@ -112,7 +118,8 @@ class SeamFinder {
 }  // namespace
 
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress) {
-  return SeamFinder(mesh, options, progress).run();
+  const CanonicalMesh canonical(mesh);
+  return SeamFinder(canonical, options, progress).run();
 }
 
 }  // namespace spectral_conformal
