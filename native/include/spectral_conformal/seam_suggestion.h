@@ -14,8 +14,17 @@ struct SeamSuggestionOptions {
   double max_length =
       std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
   double scale_limit = 2;  ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
-  double qc_limit = 1.05;  ///< enough when the mean QC, weighted by area, is not above it; at least 1
-  PatchOptions map;        ///< of the maps whose distortion counts
+  double qc_limit = 1.1;   ///< enough when the mean QC, weighted by area, is not above it; at least 1
+  /// Enough when the symmetric Dirichlet energy of the maps (mean weighted by area, 4 for an isometry, see MapQuality)
+  /// is not above it; at least 4.
+  double energy_limit = 4.3;
+  /// Where the viewer stands, as a direction from the mesh; its length says how much seams keep out of sight: an edge
+  /// whose faces look at the viewer costs 1 + |front| times its length. Zero: seen from nowhere. Finite.
+  std::array<double, 3> front{0, 0, 0};
+  /// (n_vertices,) from -1 to 1, or null: above 0 prefers seams there, below 0 avoids them; 0 leaves the choice to the
+  /// distortion. An edge with the mean p of its ends costs 8^-p times as much.
+  const double* vertex_preference = nullptr;
+  PatchOptions map;  ///< of the maps whose distortion counts
 };
 
 struct SeamSuggestion {
