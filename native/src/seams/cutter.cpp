@@ -40,7 +40,7 @@ constexpr int small_piece = 3000;
 constexpr int few_vertices = 12000;
 constexpr int many_vertices = 30000;
 /// Charts of a piece that are parted although that does not lower the distortion.
-constexpr int max_losing_splits = 24;
+constexpr int max_losing_splits = 12;
 /// Cuts against one kind of distortion, of scale or of angles, are tried where it has this fraction of the whole.
 constexpr double worth_trying = 0.15;
 /// Seams that are tried to be sewn up are solved for at once in fours, of which the one that saves most for what it
@@ -80,15 +80,12 @@ void Cutter::solve(const Progress& progress) {
 
 SeamEdges Cutter::step(double longest, const Progress& progress) {
   SeamEdges accepted;
-  if (quality_.solved && !exhausted_ && !good_enough()) {
-    if (quality_.within_limit < enough_area) accepted = cut_to_all(longest, progress);
-    if (accepted.empty()) accepted = best_cut(longest, progress);
-    exhausted_ = accepted.empty() && !quality_.hopeless();
-  }
-  if (accepted.empty() && quality_.hopeless()) {
-    accepted = blind_cut(longest);
-    if (!accepted.empty()) solve(progress);
-  }
+  const bool wanted = quality_.solved && !exhausted_ && !good_enough();
+  if (wanted && quality_.within_limit < enough_area) accepted = cut_to_all(longest, progress);
+  if (wanted && accepted.empty()) accepted = best_cut(longest, progress);
+  if (accepted.empty() && quality_.hopeless()) accepted = blind_cut(longest, progress);
+  if (wanted && accepted.empty()) accepted = split_in_half(longest, progress);
+  if (wanted) exhausted_ = accepted.empty();
   if (accepted.empty()) {
     accepted = part_defects(longest, progress);
     exhausted_ = exhausted_ && accepted.empty();  // of new charts there are new cuts
@@ -224,7 +221,7 @@ std::vector<Cutter::Trial> Cutter::gaining(std::vector<Proposal> proposals, doub
 }
 
 /// Of the cuts to the most distorted regions, and around them, those that gain most for their length. First to the few
-/// worst of the kind of distortion that there is, then to more of either kind, and in the end through the middle.
+/// worst of the kind of distortion that there is, then to more of either kind.
 SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const CutCandidates candidates = this->candidates();
   const double shear = quality_.shear / quality_.distortion();
@@ -260,7 +257,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
       if (!trials.empty()) return accept_best(std::move(trials), longest, progress);
     }
   }
-  return split_in_half(longest, progress);
+  return {};
 }
 
 /// Parts the chart with most distortion where no cut gains: its parts can then be cut on their own. A few times even if
@@ -275,8 +272,9 @@ SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
                               [&](const Trial& trial) { return !trial.quality.solved || !makes_islands(trial); }),
                trials.end());
   if (trials.empty()) return {};
-  const auto best = std::min_element(
-      trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.quality.energy < b.quality.energy; });
+  // Where none gains that is the first, of the worst chart: others lose less, but cut off crumbs.
+  const auto best =
+      std::max_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return gain(a) < gain(b); });
   if (!(gain(*best) > 0) && ++losing_splits_ > max_losing_splits) return {};
   return accept(std::move(*best));
 }
@@ -378,12 +376,12 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
 }
 
 /// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.
-SeamEdges Cutter::blind_cut(double longest) {
+SeamEdges Cutter::blind_cut(double longest, const Progress& progress) {
   if (++blind_cuts_ > max_blind_cuts) return {};
   SeamEdges cut = candidates().blind_cut();
-  if (quality_.solved && seams_.length(cut) > longest) return {};
-  seams_.add(cut);
-  return cut;
+  if (cut.empty() || (quality_.solved && seams_.length(cut) > longest)) return {};
+  Trial trial = attempt(std::move(cut), {}, progress);
+  return quality_.solved && !trial.quality.solved ? SeamEdges{} : accept(std::move(trial));
 }
 
 bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {

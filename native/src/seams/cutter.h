@@ -70,7 +70,7 @@ class Cutter {
   SeamEdges part_defects(double longest, const Progress& progress);
   SeamEdges part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
                          TrialMaps& known) const;
-  SeamEdges blind_cut(double longest);
+  SeamEdges blind_cut(double longest, const Progress& progress);
   bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
   void sew(const Progress& progress);
 
