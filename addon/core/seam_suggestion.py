@@ -12,19 +12,23 @@ from . import native
 from .mesh import PolygonMesh
 from .progress import Progress, parts
 
+# Per mesh (V,) float64 from -1, where seams are avoided, to 1, where they are preferred; None for a mesh without.
+Preferences = Sequence[np.ndarray | None]
+
 
 @dataclass(frozen=True)
 class Options:
     """Options of `spectral_conformal.suggest_cuts`, by the names and values it documents.
 
-    `max_length` holds for each mesh by itself, None for no limit.
+    `max_length` holds for each mesh by itself, None for no limit. `front` is in object space.
     """
 
     scale_limit: float = 2.0
-    qc_limit: float = 1.05
+    qc_limit: float = 1.1
     max_length: float | None = None
     weights: str = "uniform"
     boundary: str = "length"
+    front: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -68,14 +72,26 @@ class Suggestion:
         return replace(self, cuts=self.cuts[start:end])
 
 
-def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> Suggestion:
+def suggest(
+    meshes: Sequence[PolygonMesh],
+    options: Options,
+    progress: Progress | None = None,
+    preferences: Preferences = (),
+) -> Suggestion:
     """Propose cuts of the selected faces of every mesh. A mesh that is refused does not stop the others.
+
+    Args:
+        meshes: the meshes.
+        options: of all of them.
+        progress: called with the fraction done; returns False to cancel.
+        preferences: per mesh where seams are wanted, None for a mesh without; empty for none at all.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
     """
-    found = [_suggest(mesh, options, part) for mesh, part in zip(meshes, parts(meshes, progress))]
+    wanted = preferences or [None] * len(meshes)
+    found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, parts(meshes, progress), wanted)]
     cuts = [
         [Cut(index, edges, _length(meshes[index], edges)) for edges in cuts] for index, (cuts, _) in enumerate(found)
     ]
@@ -83,7 +99,9 @@ def suggest(meshes: Sequence[PolygonMesh], options: Options, progress: Progress 
     return Suggestion(tuple(in_turn), tuple(error for _, error in found))
 
 
-def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None) -> tuple[list[np.ndarray], str]:
+def _suggest(
+    mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None
+) -> tuple[list[np.ndarray], str]:
     """Return the cuts of one mesh, and why it was refused."""
     try:
         cuts = native.spectral_conformal().suggest_cuts(
@@ -92,9 +110,11 @@ def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None) -> 
             mesh.corner_vertices,
             seam_edges=mesh.seam_edges,
             selected_faces=mesh.selected_faces,
+            vertex_preference=preference,
             max_length=options.max_length,
             scale_limit=options.scale_limit,
             qc_limit=options.qc_limit,
+            front=options.front,
             weights=options.weights,
             boundary=options.boundary,
             progress=progress,
@@ -129,18 +149,24 @@ class Search:
         """Remember nothing yet."""
         self._last: tuple[bytes, Suggestion] | None = None
 
-    def suggest(self, meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> Suggestion:
+    def suggest(
+        self,
+        meshes: Sequence[PolygonMesh],
+        options: Options,
+        progress: Progress | None = None,
+        preferences: Preferences = (),
+    ) -> Suggestion:
         """Propose cuts as the function `suggest` does."""
-        question = _digest(meshes, options)
+        question = _digest(meshes, options, preferences)
         last = self._last
         if last is not None and last[0] == question:
             return last[1]
-        answer = suggest(meshes, options, progress)
+        answer = suggest(meshes, options, progress, preferences)
         self._last = (question, answer)
         return answer
 
 
-def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
+def _digest(meshes: Sequence[PolygonMesh], options: Options, preferences: Preferences) -> bytes:
     """Return a digest of everything that the cuts depend on."""
     digest = hashlib.blake2b(repr(options).encode())
     for mesh in meshes:
@@ -148,4 +174,6 @@ def _digest(meshes: Sequence[PolygonMesh], options: Options) -> bytes:
         for array in arrays:
             digest.update(repr((array.shape, array.dtype.str)).encode())
             digest.update(np.ascontiguousarray(array).data)
+    for preference in preferences:
+        digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
     return digest.digest()

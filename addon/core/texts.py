@@ -122,6 +122,21 @@ ANGLE_DISTORTION_PROPERTY = {
         "one takes fewer seams on coarse meshes"
     ),
 }
+FRONT_PROPERTY = {
+    "name": "Keep Front Clear",
+    "description": (
+        "How far seams go out of the way of faces that look to the front (the object's -Y), 0 where any side will do"
+    ),
+}
+SEAM_GROUP_PROPERTY = {
+    "name": "Vertex Group",
+    "description": "Painted weights that say where seams are to go or to stay away from; none if empty",
+}
+SEAM_GROUP_USE_PROPERTY = {"name": "Group Means", "description": "What the weights of the vertex group are for"}
+SEAM_GROUP_USES = (
+    ("AVOID", "No Seams Here", "The larger the weight, the longer the way round that a seam takes"),
+    ("PREFER", "Seams Here", "The larger the weight, the rather a seam goes there"),
+)
 MAX_LENGTH_PROPERTY = {
     "name": "Maximum Length",
     "description": (

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import names
 from ..core import texts
 from ..core.progress import Progress
-from ..core.seam_suggestion import Options, Search, Suggestion
+from ..core.seam_suggestion import Options, Preferences, Search, Suggestion
 from ..core.solve import Solution, solve_all
 from ..core.summary import summarize
 from ..live import following
@@ -42,7 +42,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     )
     angle_distortion: FloatProperty(
         **texts.ANGLE_DISTORTION_PROPERTY,
-        default=1.05,
+        default=1.1,
         min=1.001,
         soft_max=2.0,
         max=1e3,
@@ -55,6 +55,22 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         min=0.0,
         subtype="DISTANCE",
     )
+    keep_front: FloatProperty(
+        **texts.FRONT_PROPERTY,
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    seam_group: StringProperty(
+        **texts.SEAM_GROUP_PROPERTY,
+        default="",
+    )
+    seam_group_use: EnumProperty(
+        **texts.SEAM_GROUP_USE_PROPERTY,
+        items=texts.SEAM_GROUP_USES,
+        default="AVOID",
+    )
     cuts: IntProperty(
         **texts.CUTS_PROPERTY,
         default=0,
@@ -66,12 +82,17 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         default=True,
     )
 
-    def draw(self, _context: bpy.types.Context) -> None:
+    def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in ("size_variation", "angle_distortion", "max_length", "cuts", "unwrap"):
+        for name in ("size_variation", "angle_distortion", "max_length", "keep_front"):
+            layout.prop(self, name)
+        layout.prop_search(self, "seam_group", context.edit_object, "vertex_groups")
+        if self.seam_group:
+            layout.prop(self, "seam_group_use")
+        for name in ("cuts", "unwrap"):
             layout.prop(self, name)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
@@ -81,7 +102,10 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             self.report({"WARNING"}, texts.NO_VISIBLE_FACES)
             return {"CANCELLED"}
         options = self._options(target)
-        found = (yield lambda report_progress: _find(target, options, report_progress)).result
+        preferences = ()
+        if self.seam_group:
+            preferences = seams.read_preferences(target, self.seam_group, self.seam_group_use == "PREFER")
+        found = (yield lambda report_progress: _find(target, options, preferences, report_progress)).result
         if not found.suggestion.cuts:
             return self._report_nothing(target, found)
         total = len(found.suggestion.cuts)
@@ -141,8 +165,15 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     def _options(self, target: Target) -> Options:
         options = target.settings.options
+        # At 1 a face that looks to the front counts as seven times as long.
+        front = (0.0, -6.0 * self.keep_front, 0.0) if self.keep_front else None
         return Options(
-            self.size_variation, self.angle_distortion, self.max_length or None, options.weights, options.boundary
+            self.size_variation,
+            self.angle_distortion,
+            self.max_length or None,
+            options.weights,
+            options.boundary,
+            front,
         )
 
     def _report_nothing(self, target: Target, found: "_Found") -> set[str]:
@@ -168,9 +199,9 @@ class _Found:
     uncut: Sequence[Solution] = ()
 
 
-def _find(target: Target, options: Options, report_progress: Progress) -> _Found:
+def _find(target: Target, options: Options, preferences: Preferences, report_progress: Progress) -> _Found:
     """Search for cuts; any thread may call it."""
-    suggestion = _search.suggest(target.polygons, options, report_progress)
+    suggestion = _search.suggest(target.polygons, options, report_progress, preferences)
     if suggestion.cuts:
         return _Found(suggestion)
     return _Found(suggestion, solve_all(target.polygons, target.settings.options, report_progress))

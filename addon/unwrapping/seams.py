@@ -53,6 +53,24 @@ def read(context: bpy.types.Context, settings: Settings) -> Target | None:
     return None
 
 
+def read_preferences(target: Target, group: str, preferred: bool) -> list[np.ndarray | None]:
+    """Return where seams are wanted: per mesh the weights of a vertex group, (V,), below 0 where they are avoided.
+
+    None for a mesh without the group.
+    """
+    return [_preference(edit_mesh, group, 1.0 if preferred else -1.0) for edit_mesh in target.edit_meshes]
+
+
+def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | None:
+    found = edit_mesh.edit_object.vertex_groups.get(group)
+    bm = bmesh.from_edit_mesh(edit_mesh.mesh)
+    layer = bm.verts.layers.deform.active
+    if found is None or layer is None:
+        return None
+    weights = [vertex[layer].get(found.index, 0.0) for vertex in bm.verts]
+    return sign * np.clip(np.array(weights, dtype=np.float64), 0.0, 1.0)
+
+
 def read_again(context: bpy.types.Context, target: Target) -> Target | None:
     """Read the same once more; None if anything in it has changed or gone since."""
     settings = _unsubdivided(target.settings)

@@ -18,10 +18,12 @@ namespace {
 /// Returns the edges and where each cut begins in them.
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
-                  const py::object& given_options, const py::object& progress) {
+                  std::optional<Array<double>> vertex_preference, const py::object& given_options,
+                  const py::object& progress) {
   const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
   const PolygonMesh mesh = arrays.view();
-  const SeamSuggestionOptions options = seam_options_of(given_options);
+  SeamSuggestionOptions options = seam_options_of(given_options);
+  if (vertex_preference) options.vertex_preference = vertex_preference->data();
   const Progress callback = progress_of(progress);
   SeamSuggestion suggestion;
   {

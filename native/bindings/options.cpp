@@ -1,7 +1,9 @@
 #include "bindings/options.h"
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -103,6 +105,9 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   result.max_length = max_length.is_none() ? std::numeric_limits<double>::infinity() : max_length.cast<double>();
   result.scale_limit = options.attr("scale_limit").cast<double>();
   result.qc_limit = options.attr("qc_limit").cast<double>();
+  result.energy_limit = options.attr("energy_limit").cast<double>();
+  const py::object front = options.attr("front");
+  if (!front.is_none()) result.front = front.cast<std::array<double, 3>>();
   result.map.weights = named(options, "weights", weights);
   result.map.boundary = named(options, "boundary", boundaries);
   result.map.backend = named(options, "factorization", backends);

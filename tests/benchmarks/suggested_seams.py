@@ -1,67 +1,140 @@
-"""What suggested seams cost and bring, beside the island borders of Blender's Smart UV Project on the same mesh.
+"""What suggested seams cost and bring, beside xatlas and Blender's Smart UV Project on the same mesh.
 
-    build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj ...]
+    build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...]
 
-Runs in the environment's `bpy`. Suzanne in four resolutions, and, where the meshes beside the project exist, Spot, a
-hand and others, which are closed: without seams nothing of them can be unwrapped.
+Runs in the environment's `bpy`; xatlas is left out where it is not installed (pip install xatlas). Without arguments:
+Suzanne in three resolutions, boxes, a creature, and, where the meshes beside the project exist, those that are closed.
+Every line is one map of one mesh; the last ones are the means of each method over all meshes.
 """
 
 from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable, Iterator
+from dataclasses import astuple
 from pathlib import Path
 
 import bpy
 import numpy as np
 import spectral_conformal
 
+from tests.benchmarks.map_measures import Measures, measure
 from tests.blender.inside import seam_measures
 from tests.module import meshes
+from tests.module.test_suggest_seams import box, closed_creature
+
+try:
+    import xatlas
+except ImportError:
+    xatlas = None
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
-CLOSED = ("spot_closed", "spot_quads_closed", "hand_oded_closed", "fish_quads_closed", "sword_quaddom_closed")
+Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def load(path: Path) -> bpy.types.Object:
+def solid_of(name: str, mesh: Arrays) -> bpy.types.Object:
+    vertices, offsets, corners = mesh
+    data = bpy.data.meshes.new(name)
+    data.from_pydata(vertices.tolist(), [], [face.tolist() for face in np.split(corners, offsets[1:-1])])
+    solid = bpy.data.objects.new(name, data)
+    bpy.context.collection.objects.link(solid)
+    return solid
+
+
+def loaded(path: Path) -> Arrays:
     vertices, faces = meshes.read_obj(path)
-    mesh = bpy.data.meshes.new(path.stem)
-    mesh.from_pydata(vertices.tolist(), [], faces)
-    loaded = bpy.data.objects.new(path.stem, mesh)
-    bpy.context.collection.objects.link(loaded)
-    return loaded
+    return vertices, *meshes.polygons(faces)
 
 
-def report(name: str, solid: bpy.types.Object) -> None:
-    mesh = seam_measures.arrays(solid)
+def spectral(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
+    """Suggested seams, unwrapped; islands that fail are points."""
     start = time.perf_counter()
     seams = spectral_conformal.suggest_seams(*mesh)
     seconds = time.perf_counter() - start
-    before = seam_measures.measure(spectral_conformal, mesh, np.zeros((0, 2), int))
-    after = seam_measures.measure(spectral_conformal, mesh, seams)
-    none = "none" if before.unsolved else f"{before.mean_qc:.4f}, {100 * before.within:.1f}"
-    ratio = seam_measures.length(mesh[0], seams) / seam_measures.smart_project_border(solid)
-    print(
-        f"| {name} | {len(mesh[0])} | {none} | {after.mean_qc:.4f} | {100 * after.within:.1f} | {ratio:.2f} "
-        f"| {after.islands} | {after.unsolved} | {seconds:.1f} |",
-        flush=True,
-    )
+    result = spectral_conformal.unwrap(*mesh, seam_edges=seams)
+    span = 2.0 * max(np.ptp(result.uv, axis=0).max(), 1e-12)
+    apart = result.uv + np.c_[np.repeat(result.chart_of_face, np.diff(mesh[1])), np.zeros(len(result.uv))] * span
+    return mesh, apart, seconds
+
+
+def by_xatlas(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
+    """Triangulated: xatlas takes nothing else."""
+    vertices, offsets, corners = mesh
+    fans = [corners[[a, a + k, a + k + 1]] for a, b in zip(offsets[:-1], offsets[1:]) for k in range(1, b - a - 1)]
+    start = time.perf_counter()
+    _, indices, uv = xatlas.parametrize(vertices.astype(np.float32), np.array(fans, np.uint32))
+    seconds = time.perf_counter() - start
+    # Its UVs are fractions of an atlas that need not be square.
+    atlas = xatlas.Atlas()
+    atlas.add_mesh(vertices.astype(np.float32), np.array(fans, np.uint32))
+    atlas.generate()
+    uv = uv * [atlas.width, atlas.height]
+    return (vertices, *meshes.polygons(fans)), uv[indices.ravel()].astype(float), seconds
+
+
+def smart_project(mesh: Arrays) -> tuple[Arrays, np.ndarray, float]:
+    """Blender's Smart UV Project with its default settings."""
+    solid = solid_of("solid", mesh)
+    start = time.perf_counter()
+    seam_measures.smart_project_border(solid)
+    seconds = time.perf_counter() - start
+    uv = np.empty(2 * len(mesh[2]), np.float32)
+    solid.data.uv_layers.active.uv.foreach_get("vector", uv)
+    bpy.data.objects.remove(solid)
+    return mesh, uv.reshape(-1, 2).astype(float), seconds
+
+
+METHODS: dict[str, Callable[[Arrays], tuple[Arrays, np.ndarray, float]]] = {
+    "spectral": spectral,
+    **({"xatlas": by_xatlas} if xatlas else {}),
+    "Smart UV": smart_project,
+}
+
+
+def cases(arguments: list[str]) -> Iterator[tuple[str, Arrays]]:
+    for argument in map(Path, arguments):
+        for path in sorted(argument.rglob("*.obj")) if argument.is_dir() else [argument]:
+            yield path.stem, loaded(path)
+    if arguments:
+        return
+    for levels in range(3):
+        yield f"Suzanne, {levels} subdivisions", seam_measures.arrays(seam_measures.monkey(levels))
+    yield "cube", box((1, 1, 1), 1)
+    yield "fine cube", box((1, 1, 1), 8)
+    yield "plank", box((3, 1, 0.3), 6)
+    yield "creature", closed_creature(16)
+    for path in sorted(SHARED.glob("*closed*.obj")):
+        yield path.stem, loaded(path)
 
 
 def main() -> None:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    print(f"Blender {bpy.app.version_string}. The share of the area is that within a factor 2 of the median scale.\n")
     print(
-        "| mesh | vertices | without: mean QC, area % | mean QC | area % | seams / Smart UV borders | islands", end=" "
+        f"Blender {bpy.app.version_string}. Length of the seams over the root of the area; energy: symmetric Dirichlet."
     )
-    print("| unsolved | seconds |\n|---|---|---|---|---|---|---|---|---|")
-    paths = [Path(name) for name in sys.argv[1:]]
-    if not paths:
-        for levels in range(4):
-            report(f"Suzanne, {levels} subdivisions", seam_measures.monkey(levels))
-        paths = [path for name in CLOSED if (path := SHARED / f"{name}.obj").exists()]
-    for path in paths:
-        report(path.stem, load(path))
+    print(
+        "\n| mesh | vertices | method | islands | length | energy | flipped | overlapping | seconds |\n"
+        + 9 * "|---"
+        + "|"
+    )
+    totals: dict[str, list[tuple[Measures, float]]] = {name: [] for name in METHODS}
+    for name, mesh in cases(sys.argv[1:]):
+        for method, unwrapped in METHODS.items():
+            (vertices, offsets, corners), uv, seconds = unwrapped(mesh)
+            found = measure(vertices, offsets, corners, uv)
+            totals[method].append((found, seconds))
+            print(
+                f"| {name} | {len(vertices)} | {method} | {found.islands} | {found.length:.2f} | {found.energy:.3f} "
+                f"| {found.flipped} | {found.overlapping} | {seconds:.2f} |",
+                flush=True,
+            )
+    for method, results in totals.items():
+        islands, length, energy, flipped, overlapping = np.mean([astuple(found) for found, _ in results], axis=0)
+        print(
+            f"| mean | | {method} | {islands:.1f} | {length:.2f} | {energy:.3f} | {flipped:.1f} | {overlapping:.1f} "
+            f"| {np.mean([seconds for _, seconds in results]):.2f} |"
+        )
 
 
 if __name__ == "__main__":

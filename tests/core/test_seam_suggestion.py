@@ -70,7 +70,7 @@ def test_refused_mesh_does_not_stop_the_others(module):
 
 def test_options_and_seams_reach_the_module(module):
     module.cuts = [[]]
-    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex"))
+    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex", (0.0, -2.0, 0.0)))
     (options,) = module.asked
     assert options.pop("seam_edges").tolist() == [[2, 3]]
     assert options.pop("selected_faces").tolist() == [True]
@@ -80,7 +80,16 @@ def test_options_and_seams_reach_the_module(module):
         "max_length": 7.0,
         "weights": "inverse_area",
         "boundary": "vertex",
+        "front": (0.0, -2.0, 0.0),
+        "vertex_preference": None,
     }
+
+
+def test_every_mesh_gets_its_own_preference(module):
+    module.cuts = [[], []]
+    wanted = np.array([1.0, 0.0, 0.5, 0.0])
+    seam_suggestion.suggest([square(), square()], Options(), preferences=[None, wanted])
+    assert [options["vertex_preference"] for options in module.asked] == [None, wanted]
 
 
 def test_progress_is_that_of_all_meshes(module):
@@ -131,7 +140,9 @@ def _without_seams():
         ([_deselected()], Options()),
         ([_without_seams()], Options()),
         ([square(), square()], Options()),
-        ([square()], Options(qc_limit=1.1)),
+        ([square()], Options(qc_limit=1.2)),
+        ([square()], Options(front=(0.0, -1.0, 0.0))),
+        ([square()], Options(), None, [np.ones(4)]),
         ([square()], Options(max_length=1.0)),
     ],
 )

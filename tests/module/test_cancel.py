@@ -78,10 +78,20 @@ class Stop:
 def stopped(function, arguments, at, error):
     """Stop a call at its report number `at`; check that it has ended there and left its arguments alone."""
     before, stop = copy.deepcopy(arguments), Stop(at, error)
-    with pytest.raises(sc.Cancelled if error is None else type(error)) as raised:
-        function(**arguments, progress=stop)
-    assert error is None or raised.value is error
-    assert stop.calls == at + 1
+    if function is sc.suggest_seams:
+        # Threads share its solves, of which only those of the caller's report: sometimes there are fewer.
+        try:
+            function(**arguments, progress=stop)
+        except BaseException as raised:  # noqa: BLE001 - whatever it is, it is checked
+            assert isinstance(raised, sc.Cancelled) if error is None else raised is error
+            assert stop.calls == at + 1
+        else:
+            assert stop.calls <= at
+    else:
+        with pytest.raises(sc.Cancelled if error is None else type(error)) as raised:
+            function(**arguments, progress=stop)
+        assert error is None or raised.value is error
+        assert stop.calls == at + 1
     for name, value in before.items():
         if isinstance(value, np.ndarray):
             np.testing.assert_array_equal(arguments[name], value)

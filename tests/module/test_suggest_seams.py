@@ -64,7 +64,7 @@ def test_closed_creature_is_unwrapped_within_the_limits():
     assert (seams[:, 0] < seams[:, 1]).all()
     assert len(np.unique(seams, axis=0)) == len(seams)
     mean_qc, within = quality(mesh, seams)
-    assert mean_qc <= 1.05
+    assert mean_qc <= 1.1
     assert within >= 0.95
 
 
@@ -78,10 +78,11 @@ def test_symmetric_mesh_has_symmetric_seams():
 
 def test_limit_of_the_length_counts_after_what_topology_needs():
     mesh = closed_creature()
-    needed = sc.suggest_seams(*mesh, max_length=0)
-    whole = sc.suggest_seams(*mesh)
+    tight = {"scale_limit": 1.3, "qc_limit": 1.02}  # so that there is more than one pair of cuts
+    needed = sc.suggest_seams(*mesh, **tight, max_length=0)
+    whole = sc.suggest_seams(*mesh, **tight)
     half = (length(mesh[0], needed) + length(mesh[0], whole)) / 2
-    limited = sc.suggest_seams(*mesh, max_length=half)
+    limited = sc.suggest_seams(*mesh, **tight, max_length=half)
     assert len(needed) > 0
     assert (whole[: len(needed)] == needed).all()
     assert length(mesh[0], limited) <= half
@@ -113,6 +114,49 @@ def test_only_selected_faces_are_cut():
     assert set(seams.ravel().tolist()) <= allowed
 
 
+def test_seams_keep_out_of_sight_and_follow_painted_weights():
+    mesh = box((1, 1, 1), 6)
+    sphere = mesh[0] / np.linalg.norm(mesh[0], axis=1, keepdims=True)
+    mesh = (sphere, *mesh[1:])
+
+    def centre(**options):
+        seams = sc.suggest_seams(*mesh, **options)
+        middle = sphere[seams].mean(1)
+        lengths = np.linalg.norm(sphere[seams[:, 0]] - sphere[seams[:, 1]], axis=1)
+        return np.average(middle, axis=0, weights=lengths)
+
+    assert centre(front=(0, -6, 0))[1] > 0.1
+    assert centre(front=(0, 6, 0))[1] < -0.1
+    wanted = np.sign(sphere[:, 2])
+    assert centre(vertex_preference=wanted)[2] > 0.1
+    assert centre(vertex_preference=-wanted)[2] < -0.1
+
+
+def strip_round_corners():
+    """A flat strip in a spiral of right angles, bent to a cone so that its map covers itself."""
+    turns = np.linspace(0, 3.6 * np.pi, 120)
+    inner, outer = (np.c_[r * np.cos(turns), r * np.sin(turns), 0.05 * turns] for r in (1.0, 1.6))
+    quads = [[i, i + 1, i + 121, i + 120] for i in range(119)]
+    return np.r_[inner, outer], *meshes.polygons(quads)
+
+
+def test_no_island_covers_itself_or_is_flipped():
+    mesh = strip_round_corners()
+    assert sc.unwrap(*mesh).charts[0].overlapping > 0
+    for case in (mesh, closed_creature(), box((3, 1, 0.4), 4)):
+        charts = sc.unwrap(*case, seam_edges=sc.suggest_seams(*case)).charts
+        assert [(chart.status, chart.overlapping, chart.flipped) for chart in charts] == [("solved", 0, 0)] * len(
+            charts
+        )
+
+
+@pytest.mark.parametrize("n", [1, 4])
+def test_a_cube_is_one_net(n):
+    mesh = box((1, 1, 1), n)
+    charts = sc.unwrap(*mesh, seam_edges=sc.suggest_seams(*mesh)).charts
+    assert [chart.overlapping for chart in charts] == [0]
+
+
 def test_flat_mesh_needs_none():
     vertices, triangles = meshes.random_disk(300)
     seams = sc.suggest_seams(vertices, *meshes.polygons(triangles))
@@ -122,6 +166,61 @@ def test_flat_mesh_needs_none():
 def test_same_input_same_seams():
     mesh = closed_creature()
     assert np.array_equal(sc.suggest_seams(*mesh), sc.suggest_seams(*mesh))
+
+
+def box(sides, n):
+    """A closed box of n x n quads on each side: exact ties, whatever is compared."""
+    axis, points, quads = np.linspace(-1, 1, n + 1), {}, []
+    for normal in range(3):
+        for sign in (-1, 1):
+            grid = [[points.setdefault(tuple(np.roll([sign, a, b], normal)), len(points)) for b in axis] for a in axis]
+            grid = np.array(grid)
+            faces = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+            quads.append(faces if sign > 0 else faces[:, ::-1])
+    return np.array(list(points)) * sides, *meshes.polygons(np.concatenate(quads))
+
+
+def two_sheets():
+    """Two grids of spikes that have all their positions in common, one of them with a hole."""
+    vertices, quads = meshes.saddle_quads(9)
+    vertices = vertices * [1, 1, 2]
+    return np.r_[vertices, vertices], *meshes.polygons(np.r_[quads, quads[1:] + len(vertices)])
+
+
+def renumbered(mesh, seed):
+    """The same shape by other numbers of vertices and faces, each face beginning at another corner."""
+    vertices, offsets, corners = mesh
+    rng = np.random.default_rng(seed)
+    old_vertex = rng.permutation(len(vertices))
+    new_vertex = np.argsort(old_vertex)
+    faces = [corners[offsets[f] : offsets[f + 1]] for f in rng.permutation(len(offsets) - 1)]
+    faces = [np.roll(new_vertex[face], rng.integers(len(face))) for face in faces]
+    return vertices[old_vertex], *meshes.polygons(faces)
+
+
+def positions_of(vertices, edges):
+    """The edges as pairs of positions, in an order of their own."""
+    return sorted(sorted(map(tuple, vertices[edge].tolist())) for edge in edges)
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        closed_creature(),
+        box((1, 1, 1), 1),
+        box((1, 1, 1), 5),
+        box((3, 1, 0.4), 4),
+        (lambda vertices, triangles: (vertices * [1, 1, 3], *meshes.polygons(triangles)))(*meshes.bumpy_disk(400)),
+        two_sheets(),
+    ],
+    ids=["creature", "cube", "fine cube", "plank", "bumps", "two sheets"],
+)
+def test_seams_do_not_depend_on_numbers(mesh):
+    expected = [positions_of(mesh[0], cut) for cut in sc.suggest_cuts(*mesh)]
+    assert expected
+    for seed in range(4):
+        other = renumbered(mesh, seed)
+        assert [positions_of(other[0], cut) for cut in sc.suggest_cuts(*other)] == expected
 
 
 def test_progress_and_cancelling():
@@ -141,6 +240,9 @@ def test_progress_and_cancelling():
         ({"max_length": float("nan")}, "max_length"),
         ({"scale_limit": 0.5}, "scale_limit must be a number of at least 1"),
         ({"qc_limit": "low"}, "qc_limit"),
+        ({"energy_limit": 3.9}, "energy_limit must be a number of at least 4"),
+        ({"front": (0, 1)}, "front must be three finite numbers"),
+        ({"vertex_preference": [2.0]}, "vertex_preference must be"),
         ({"weights": "heavy"}, "weights must be one of"),
         ({"factorization": "lu"}, "factorization must be one of"),
         ({"progress": 3}, "progress must be callable"),
@@ -166,7 +268,7 @@ if SHARED.exists():
         vertices, faces = meshes.read_obj(SHARED / f"{name}.obj")
         mesh = (vertices, *meshes.polygons(faces))
         mean_qc, within = quality(mesh, sc.suggest_seams(*mesh))
-        assert mean_qc <= 1.05
+        assert mean_qc <= 1.1
         assert within >= 0.95
 
 

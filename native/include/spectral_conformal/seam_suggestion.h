@@ -14,8 +14,17 @@ struct SeamSuggestionOptions {
   double max_length =
       std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
   double scale_limit = 2;  ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
-  double qc_limit = 1.05;  ///< enough when the mean QC, weighted by area, is not above it; at least 1
-  PatchOptions map;        ///< of the maps whose distortion counts
+  double qc_limit = 1.1;   ///< enough when the mean QC, weighted by area, is not above it; at least 1
+  /// Enough when the symmetric Dirichlet energy of the maps (mean weighted by area, 4 for an isometry, see MapQuality)
+  /// is not above it; at least 4.
+  double energy_limit = 4.3;
+  /// Where the viewer stands, as a direction from the mesh; its length says how much seams keep out of sight: an edge
+  /// whose faces look at the viewer costs 1 + |front| times its length. Zero: seen from nowhere. Finite.
+  std::array<double, 3> front{0, 0, 0};
+  /// (n_vertices,) from -1 to 1, or null: above 0 prefers seams there, below 0 avoids them; 0 leaves the choice to the
+  /// distortion. An edge with the mean p of its ends costs 8^-p times as much.
+  const double* vertex_preference = nullptr;
+  PatchOptions map;  ///< of the maps whose distortion counts
 };
 
 struct SeamSuggestion {
@@ -30,7 +39,8 @@ struct SeamSuggestion {
 /// the highest QC, are joined to the cuts by cheapest paths (Sheffer and Hart 2002, "Seamster"). Each cut is solved and
 /// kept only if the distortion falls; of several the one is taken that lowers it most for its length. Charts whose
 /// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Charts
-/// that cannot be solved even so get no seams. Throws InvalidMesh for arrays that do not describe a mesh, and
+/// that cannot be solved even so get no seams. The numbering of vertices and faces makes no difference (see
+/// canonical_mesh.h). Throws InvalidMesh for arrays that do not describe a mesh, and
 /// Cancelled.
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
 

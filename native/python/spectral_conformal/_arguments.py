@@ -78,6 +78,23 @@ def checked_at_least(value: float, least: float, name: str) -> float:
         raise ValueError(f"{name} is too large for a floating-point number; take math.inf for no limit.") from error
 
 
+def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, float]:
+    array = checked_array(value, name)
+    if array.shape != (3,) or array.dtype.kind not in "iuf" or not np.isfinite(array).all():
+        raise ValueError(f"{name} must be three finite numbers, not {value!r}.")
+    x, y, z = array.tolist()
+    return float(x), float(y), float(z)
+
+
+def checked_preference(values: npt.ArrayLike | None, n_vertices: int) -> npt.NDArray[np.float64] | None:
+    if values is None:
+        return None
+    array = checked_array(values, "vertex_preference")
+    if array.shape != (n_vertices,) or array.dtype.kind not in "iuf" or not (np.abs(array) <= 1).all():
+        raise ValueError(f"vertex_preference must be {n_vertices} numbers from -1 to 1, one per vertex.")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
 def checked_progress(progress: Progress | None) -> Progress | None:
     if progress is not None and not callable(progress):
         raise ValueError(f"progress must be callable or None, not {type(progress).__name__}.")

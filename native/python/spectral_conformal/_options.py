@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
@@ -17,6 +18,7 @@ Weights = Literal["uniform", "inverse_area"]
 Boundary = Literal["length", "vertex"]
 Factorization = Literal["auto", "cholmod", "eigen"]
 AUTOMATIC = "automatic"
+Vector = tuple[float, float, float]
 
 _CHOICES = {
     "method": get_args(Method),
@@ -121,7 +123,13 @@ class SeamOptions:
             topology needs counts, but is proposed even beyond the limit.
         scale_limit: at least 1: a component is good enough when 95 % of its area has a linear scale (root of UV area
             over 3D area) within this factor of the median, and
-        qc_limit: at least 1: when its mean quasi-conformal distortion is not above this.
+        qc_limit: at least 1: when its mean quasi-conformal distortion is not above this, and
+        energy_limit: at least 4: when its symmetric Dirichlet energy is not above this: the mean, weighted by area, of
+            s^2 + t^2 + 1 / s^2 + 1 / t^2, s and t being the singular values of the map of a face at the median scale.
+            4 means nothing is stretched. Large ones count as the square of their logarithm. None takes what goes with
+            the other limits, 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2): 4.32 at their defaults.
+        front: (3,) the direction from the mesh to its viewer, or None. Its length says how much seams keep out of the
+            viewer's sight: an edge whose faces look at the viewer counts as 1 + length times as long.
         weights: of the maps, see `Options`.
         boundary: of the maps, see `Options`.
         factorization: see `Options`.
@@ -129,7 +137,9 @@ class SeamOptions:
 
     max_length: float | None = None
     scale_limit: float = 2.0
-    qc_limit: float = 1.05
+    qc_limit: float = 1.1
+    energy_limit: float | None = None
+    front: Vector | None = None
     weights: Weights = "uniform"
     boundary: Boundary = "length"
     factorization: Factorization = "auto"
@@ -145,6 +155,17 @@ class SeamOptions:
             _set(self, "max_length", _arguments.checked_at_least(self.max_length, 0.0, "max_length"))
         for name in ("scale_limit", "qc_limit"):
             _set(self, name, _arguments.checked_at_least(getattr(self, name), 1.0, name))
+        if self.energy_limit is not None:
+            _set(self, "energy_limit", _arguments.checked_at_least(self.energy_limit, 4.0, "energy_limit"))
+        if self.front is not None:
+            _set(self, "front", _arguments.checked_direction(self.front, "front"))
+
+    def with_energy_limit(self) -> SeamOptions:
+        """Return the same with the `energy_limit` that goes with the other limits, where it is None."""
+        if self.energy_limit is not None:
+            return self
+        shear = 2.0 * (self.qc_limit + 1.0 / self.qc_limit - 2.0)
+        return replace(self, energy_limit=4.0 + 0.3 * math.log2(self.scale_limit) ** 2 + shear)
 
 
 def _check_choices(options: Options | SeamOptions) -> None:
@@ -195,6 +216,8 @@ class SeamOptionChanges(TypedDict, total=False):
     max_length: float | None
     scale_limit: float
     qc_limit: float
+    energy_limit: float | None
+    front: Vector | None
     weights: Weights
     boundary: Boundary
     factorization: Factorization

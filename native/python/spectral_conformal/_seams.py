@@ -24,6 +24,7 @@ def suggest_seams(
     options: SeamOptions | None = None,
     seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
+    vertex_preference: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> npt.NDArray[np.int32]:
@@ -31,9 +32,12 @@ def suggest_seams(
 
     Topology comes first: handles are cut open and closed surfaces slit, whatever that takes, because they could not be
     unwrapped otherwise. Then the most distorted regions are joined to the seams one after the other, and each cut is
-    solved before it is proposed, so that unwrapping with it shows lower distortion. A component gets no more seams once
-    `scale_limit` and `qc_limit` are met or nothing helps. Where a plane x, y or z = constant mirrors a component's
-    faces onto the mesh's, its seams come in mirrored pairs or lie on the plane if the edges allow that.
+    solved before it is proposed, so that unwrapping with it shows lower distortion. A component gets no more of these
+    once `scale_limit`, `qc_limit` and `energy_limit` are met or nothing helps. Charts that cover themselves in the map,
+    or have flipped faces, are then parted until none does, unless `max_length` forbids that, and seams that the maps
+    can do without are taken back. Where a plane x, y or z = constant mirrors a component's faces onto the mesh's, its
+    seams come in mirrored pairs or lie on the plane if the edges allow that. How vertices and faces are numbered makes
+    no difference.
 
     Args:
         vertices: (V, 3) positions, any unit.
@@ -42,6 +46,8 @@ def suggest_seams(
         options: when to stop, and how maps are made; its fields may be given one by one as keywords, which go first.
         seam_edges: (S, 2) seams that stay; the proposed ones complete them.
         selected_faces: (faces,) bool, all faces when left out; only edges between two of them are proposed.
+        vertex_preference: (V,) from -1 to 1: above 0 prefers seams at these vertices, below 0 avoids them, 0 leaves the
+            choice to the distortion. Where the mean of an edge's ends is p, it counts as 8^-p times as long.
         progress: as in `parameterize`.
 
     Returns:
@@ -61,6 +67,7 @@ def suggest_seams(
         options=changed(options, SeamOptions(), changes),
         seam_edges=seam_edges,
         selected_faces=selected_faces,
+        vertex_preference=vertex_preference,
         progress=progress,
     )
     return np.concatenate([np.zeros((0, 2), np.int32), *cuts])
@@ -75,6 +82,7 @@ def suggest_cuts(
     options: SeamOptions | None = None,
     seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
+    vertex_preference: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> list[npt.NDArray[np.int32]]:
@@ -84,5 +92,8 @@ def suggest_cuts(
     """
     used = changed(options, SeamOptions(), changes)
     polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
-    edges, offsets = _native.suggest_seams(*polygons, used, _arguments.checked_progress(progress))
+    preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
+    edges, offsets = _native.suggest_seams(
+        *polygons, preference, used.with_energy_limit(), _arguments.checked_progress(progress)
+    )
     return np.split(edges, offsets[1:-1]) if len(edges) else []

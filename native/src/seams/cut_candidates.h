@@ -31,16 +31,23 @@ class CutCandidates {
   SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
   /// Makes an island of the surroundings of a region, up to where the scale is the median.
   SeamEdges cut_around(const Region& region) const;
-  /// Cuts that may part the sheets of a chart's map that lie on each other; `overlapping` as overlapping_faces returns
-  /// them.
-  std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& overlapping) const;
-  /// Cuts through the middle of the chart with most distortion.
+  /// Per chart with vertices inside that its angles fold sharply, as the corners of a box are, the cut that joins all
+  /// of them to the seams: what is flat between them is a net then.
+  std::vector<SeamEdges> cuts_to_cones() const;
+  /// Cuts that may part the sheets of a chart's map that lie on each other, or open it where it is flipped; `defective`
+  /// as defective_faces returns them.
+  std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& defective) const;
+  /// Cuts that part a chart of several faces in any case: its halves, the largest part of the defective faces from the
+  /// rest, and one of them.
+  std::vector<SeamEdges> cuts_apart(int chart, const std::vector<int>& defective) const;
+  /// Cuts through the middle of the charts with most distortion.
   std::vector<SeamEdges> halves() const;
-  /// From the vertex of an unsolved chart that is farthest from all cuts to the nearest of them.
+  /// From the vertex of an unsolved or hopeless chart that is farthest from all cuts to the nearest of them.
   SeamEdges blind_cut() const;
 
  private:
   SeparableFaces separable(int chart) const;
+  std::vector<int> faces_of_piece(int chart, const std::vector<int>& faces) const;
 
   const PieceSeams& seams_;
   const TrialMaps& charts_;

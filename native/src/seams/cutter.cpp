@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <set>
 #include <utility>
 
-#include "quality/overlap.h"
+#include "seams/parallel_trials.h"
 
 namespace spectral_conformal {
 namespace {
@@ -16,12 +18,12 @@ constexpr double enough_area = 0.95;
 constexpr double together = 0.2;
 /// A cut must lower the distortion by at least this fraction; less is not seen in a texture.
 constexpr double min_gain = 0.002;
-/// Overlaps of less than this fraction of the area are left to the user: each cut against them costs several solves.
-constexpr double negligible_overlap = 0.005;
-/// A cut against overlaps must remove at least this fraction of them, so that five suffice, and may raise the
-/// distortion by this factor, about as much as one of the last cuts gains.
-constexpr double min_overlap_gain = 0.2;
-constexpr double distortion_for_overlap = 1.05;
+/// A mean QC that is beyond its limit by 0.05 counts like a scale that deviates by a fifth.
+constexpr double qc_weight = 5;
+/// Of several cuts that part a chart's defects those are preferred that remove at least this fraction of them and raise
+/// the distortion by no more than this factor.
+constexpr double min_removed = 0.5;
+constexpr double distortion_for_parting = 1.05;
 /// What a cut gains counts less by this factor where it makes an island: artists prefer few.
 constexpr double island_penalty = 0.4;
 /// A cut is priced at its length and this fraction of the root of the area, what any cut costs: without it the gain for
@@ -31,86 +33,116 @@ constexpr double base_price = 0.25;
 /// costs a solve and gains little.
 constexpr double min_length = 0.05;
 /// Cuts with this fraction of the best one's gain are made together with it; a trial of all of them confirms it.
-constexpr double nearly_as_good = 0.4;
-/// Of pieces up to this number of vertices every region is tried before giving up, of larger ones a few groups of them.
-/// None and twice as many vertices both gave 4 % longer seams on 12 meshes.
+constexpr double nearly_as_good = 0.25;
+/// Only of larger pieces are short cuts left out.
 constexpr int small_piece = 3000;
-constexpr std::size_t all_groups = 50;  // of six regions each, as trial_vertices allows: a bound
-constexpr std::size_t few_groups = 4;   // trials of as many vertices as trial_vertices each
-/// Vertices that a round of trials solves for, which is 2 to 6 trials.
-constexpr int trial_vertices = 40000;
+/// Vertices that a round of trials solves for, for 2 to 4 regions, and all rounds before giving up, for 8 to 24.
+constexpr int few_vertices = 12000;
+constexpr int many_vertices = 30000;
+/// Charts of a piece that are parted although that does not lower the distortion.
+constexpr int max_losing_splits = 12;
+/// Cuts against one kind of distortion, of scale or of angles, are tried where it has this fraction of the whole.
+constexpr double worth_trying = 0.15;
+/// Seams that are tried to be sewn up are solved for at once in fours, of which the one that saves most for what it
+/// costs is sewn up, and altogether until this number of vertices was solved for: the time of the search before.
+constexpr std::size_t sewn_at_once = 4;
+constexpr std::int64_t sewing_vertices = 80000;
+/// The least cost of sewing, as a fraction of the distortion that is allowed: what costs less is free.
+constexpr double least_loss = 0.02;
 /// A piece whose map fails is given up after this number of cuts.
 constexpr int max_blind_cuts = 30;
 
-/// The faces of each chart whose images cover others, as indices into the chart's faces, and their area.
-struct Overlaps {
-  std::vector<std::vector<int>> faces;
-  double area = 0;
+/// The area of some faces, each of which counts with a little of the whole, so that slivers count.
+double extent_of(const TrialMap& mapped, const std::vector<int>& faces, double whole) {
+  double extent = 0;
+  for (const int face : faces) extent += mapped.area[static_cast<std::size_t>(face)] + 1e-9 * whole;
+  return extent;
+}
 
-  explicit Overlaps(const TrialMaps& charts) {
-    for (const auto& mapped : charts) {
-      faces.push_back(mapped->solved ? overlapping_faces(mapped->chart, mapped->z) : std::vector<int>{});
-      for (const int face : faces.back()) area += mapped->area[face];
-    }
+bool contains(const TrialMaps& charts, const std::shared_ptr<const TrialMap>& chart) {
+  return std::find(charts.begin(), charts.end(), chart) != charts.end();
+}
+
+void add_new(const SeamEdges& more, SeamEdges& all) {
+  for (const int edge : more) {
+    if (std::find(all.begin(), all.end(), edge) == all.end()) all.push_back(edge);
   }
-};
+}
 
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options) : seams_(std::move(seams)), options_(options) {}
 
 void Cutter::solve(const Progress& progress) {
-  charts_ = map_charts({}, progress);
+  charts_ = map_charts(seams_.with({}), {}, progress);
   quality_ = map_quality(charts_, options_.scale_limit);
 }
 
 SeamEdges Cutter::step(double longest, const Progress& progress) {
   SeamEdges accepted;
-  if (!quality_.solved) {
-    accepted = blind_cut();
-    if (!accepted.empty()) solve(progress);
-  } else {
-    if (quality_.within_limit < enough_area) accepted = cut_to_all(longest, progress);
-    if (accepted.empty()) accepted = cut_between_overlaps(longest, progress);
-    if (accepted.empty() && !good_enough()) accepted = best_cut(longest, progress);
+  const bool wanted = quality_.solved && !exhausted_ && !good_enough();
+  if (wanted && quality_.within_limit < enough_area) accepted = cut_to_all(longest, progress);
+  if (wanted && accepted.empty()) accepted = best_cut(longest, progress);
+  if (accepted.empty() && quality_.hopeless()) accepted = blind_cut(longest, progress);
+  if (wanted && accepted.empty()) accepted = split_in_half(longest, progress);
+  if (wanted) exhausted_ = accepted.empty();
+  if (accepted.empty()) {
+    accepted = part_defects(longest, progress);
+    exhausted_ = exhausted_ && accepted.empty();  // of new charts there are new cuts
   }
+  if (accepted.empty()) sew(progress);
   finished_ = accepted.empty();
   return accepted;
 }
 
 bool Cutter::good_enough() const {
-  return quality_.within_limit >= enough_area && quality_.mean_qc <= options_.qc_limit;
+  return quality_.within_limit >= enough_area && quality_.mean_qc <= options_.qc_limit &&
+         quality_.energy <= options_.energy_limit;
 }
 
-TrialMaps Cutter::map_charts(const SeamEdges& more, const Progress& progress) const {
+/// Charts that stay as they are, or are among the known ones, are not solved again.
+TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const TrialMaps& known,
+                             const Progress& progress) const {
   PolygonMesh mesh = seams_.piece().view();
-  const std::vector<std::array<int, 2>> seams = seams_.with(more);
   mesh.seam_edges = seams.data();
   mesh.n_seam_edges = static_cast<int>(seams.size());
   ChartDecomposition decomposition = build_charts(mesh);
   TrialMaps result;
   for (Chart& chart : decomposition.charts) {
-    // Every cut makes copies of vertices or loops: a chart with as many of both is the same.
-    const auto known = std::find_if(charts_.begin(), charts_.end(), [&](const auto& old) {
+    // Every cut makes copies of vertices or loops: a chart with as many of both, by the same triangles, is the same.
+    const auto is_same = [&](const auto& old) {
       return old->chart.faces == chart.faces && old->chart.vertices == chart.vertices &&
-             old->chart.boundary_loops.size() == chart.boundary_loops.size();
-    });
-    if (known != charts_.end()) {
-      result.push_back(*known);
-    } else {
-      result.push_back(
-          std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, progress)));
+             old->chart.boundary_loops.size() == chart.boundary_loops.size() && old->chart.triangles == chart.triangles;
+    };
+    std::shared_ptr<const TrialMap> same;
+    for (const TrialMaps* maps : {&charts_, &known}) {
+      const auto found = same ? maps->end() : std::find_if(maps->begin(), maps->end(), is_same);
+      if (found != maps->end()) same = *found;
     }
+    if (!same) same = std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, progress));
+    result.push_back(std::move(same));
   }
   return result;
 }
 
-Cutter::Trial Cutter::attempt(SeamEdges cut, const Progress& progress) const {
+Cutter::Trial Cutter::attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const {
   Trial trial;
-  trial.charts = map_charts(cut, progress);
+  trial.charts = map_charts(seams_.with(cut), known, progress);
   trial.quality = map_quality(trial.charts, options_.scale_limit);
   trial.cut = std::move(cut);
   return trial;
+}
+
+/// In parallel; in the order of the proposals.
+std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) const {
+  std::vector<Trial> trials(proposals.size());
+  run_in_parallel(
+      static_cast<int>(proposals.size()),
+      [&](int i, const Progress& going_on) {
+        trials[static_cast<std::size_t>(i)] = attempt(proposals[static_cast<std::size_t>(i)].cut, {}, going_on);
+      },
+      progress);
+  return trials;
 }
 
 bool Cutter::is_small() const { return seams_.graph().n_vertices() <= small_piece; }
@@ -128,6 +160,18 @@ SeamEdges Cutter::accept(Trial&& trial) {
   return std::move(trial.cut);
 }
 
+/// What is to be lowered: the distortion, and the mean QC where it is beyond its limit.
+double Cutter::excess(const MapQuality& quality) const {
+  return quality.distortion() + qc_weight * std::max(0.0, quality.mean_qc - options_.qc_limit);
+}
+
+double Cutter::gain(const Trial& trial) const {
+  if (!trial.quality.solved) return 0;
+  const double less = excess(quality_) - excess(trial.quality);
+  if (less < min_gain * excess(quality_)) return 0;
+  return (makes_islands(trial) ? island_penalty : 1) * less / price(trial);
+}
+
 /// To all the regions that matter at once: one solve instead of many.
 SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
   const CutCandidates candidates = this->candidates();
@@ -137,105 +181,264 @@ SeamEdges Cutter::cut_to_all(double longest, const Progress& progress) {
   SeamEdges all;
   for (const auto& region : where) {
     if (region.volume < together * where.front().volume) break;
+    report(progress, 0, "seams");
     const SeamEdges cut = candidates.cut_to(region, later);
     later.add(cut);
     all.insert(all.end(), cut.begin(), cut.end());
   }
   if (all.empty() || seams_.length(all) > longest) return {};
-  Trial trial = attempt(std::move(all), progress);
+  Trial trial = attempt(std::move(all), {}, progress);
   return gain(trial) > 0 && !makes_islands(trial) ? accept(std::move(trial)) : SeamEdges{};
 }
 
-double Cutter::gain(const Trial& trial) const {
-  if (!trial.quality.solved) return 0;
-  const double less = quality_.distortion() - trial.quality.distortion();
-  if (less < min_gain * quality_.distortion()) return 0;
-  return (makes_islands(trial) ? island_penalty : 1) * less / price(trial);
+bool Cutter::is_tried(const Proposal& proposal) const {
+  return proposal.chart >= 0 && std::any_of(futile_.begin(), futile_.end(), [&](const Futile& futile) {
+           return futile.first == charts_[static_cast<std::size_t>(proposal.chart)] && futile.second == proposal.cut;
+         });
 }
 
-/// Of the cuts to the most distorted regions, and around them, the one that gains most for its length.
+/// Solves with each of the cuts; those that lower the distortion.
+std::vector<Cutter::Trial> Cutter::gaining(std::vector<Proposal> proposals, double longest, const Progress& progress) {
+  const double least = is_small() ? 0 : min_length * std::sqrt(quality_.area);
+  std::vector<Proposal> worthy;
+  for (Proposal& proposal : proposals) {
+    const double length = seams_.length(proposal.cut);
+    if (proposal.cut.empty() || length > longest || length < least || is_tried(proposal)) continue;
+    if (std::any_of(worthy.begin(), worthy.end(), [&](const auto& other) { return other.cut == proposal.cut; }))
+      continue;
+    worthy.push_back(std::move(proposal));
+  }
+  std::vector<Trial> trials = attempt_all(worthy, progress);
+  std::vector<Trial> result;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (gain(trials[i]) > 0 && (worthy[i].may_part || !makes_islands(trials[i]))) {
+      result.push_back(std::move(trials[i]));
+    } else if (worthy[i].chart >= 0) {
+      futile_.emplace_back(charts_[static_cast<std::size_t>(worthy[i].chart)], std::move(worthy[i].cut));
+    }
+  }
+  return result;
+}
+
+/// Of the cuts to the most distorted regions, and around them, those that gain most for their length. First to the few
+/// worst of the kind of distortion that there is, then to more of either kind.
 SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const CutCandidates candidates = this->candidates();
-  std::vector<std::vector<CutCandidates::Region>> wanted;
-  if (quality_.within_limit < enough_area) wanted.push_back(candidates.regions(CutCandidates::Kind::scale));
-  if (quality_.mean_qc > options_.qc_limit) wanted.push_back(candidates.regions(CutCandidates::Kind::angle));
-  // Every trial solves a chart, so large pieces get fewer; the less distorted regions only if the first do not help.
+  const double shear = quality_.shear / quality_.distortion();
+  const std::array<std::vector<CutCandidates::Region>, 2> regions{candidates.regions(CutCandidates::Kind::scale),
+                                                                  candidates.regions(CutCandidates::Kind::angle)};
+  const std::array<bool, 2> matters{shear<1 - worth_trying, shear> worth_trying};
+  // Every trial solves a chart, so large pieces get fewer.
   const int n_vertices = seams_.graph().n_vertices();
-  const auto most = static_cast<std::size_t>(std::clamp(trial_vertices / std::max(1, n_vertices), 2, 6));
-  const std::size_t groups = is_small() ? all_groups : few_groups;
-  for (std::size_t group = 0; group < groups; ++group) {
-    std::vector<Trial> trials;
-    for (const auto& list : wanted) {
-      for (std::size_t i = group * most; i < std::min((group + 1) * most, list.size()); ++i) {
-        try_cut(candidates.cut_to(list[i], seams_), false, longest, progress, trials);
+  const auto few = static_cast<std::size_t>(std::clamp(few_vertices / std::max(1, n_vertices), 2, 4));
+  const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, n_vertices), 2 * 4, 24));
+  std::array<std::size_t, 2> first{0, 0};
+  for (const bool all : {false, true}) {
+    for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
+      std::vector<Proposal> proposals;
+      if (!std::exchange(cones_tried_, true)) {
+        for (SeamEdges& cut : candidates.cuts_to_cones()) proposals.push_back({std::move(cut), false, -1});
       }
-      if (group < list.size()) try_cut(candidates.cut_around(list[group]), true, longest, progress, trials);
+      for (std::size_t kind = 0; kind < 2; ++kind) {
+        if (!all && !matters[kind]) continue;
+        const auto& list = regions[kind];
+        const std::size_t last = std::min(first[kind] + few, list.size());
+        for (std::size_t i = first[kind]; i < last; ++i) {
+          report(progress, 0, "seams");
+          proposals.push_back({candidates.cut_to(list[i], seams_), false, list[i].chart});
+        }
+        if (first[kind] < last) {
+          const auto& worst = list[first[kind]];
+          proposals.push_back({candidates.cut_around(worst), true, worst.chart});
+        }
+        first[kind] = last;
+      }
+      std::vector<Trial> trials = gaining(std::move(proposals), longest, progress);
+      if (!trials.empty()) return accept_best(std::move(trials), longest, progress);
     }
-    if (!trials.empty()) return accept_best(std::move(trials), longest, progress);
   }
-  std::vector<Trial> trials;
-  for (SeamEdges& cut : candidates.halves()) try_cut(std::move(cut), true, longest, progress, trials);
-  return trials.empty() ? SeamEdges{} : accept_best(std::move(trials), longest, progress);
+  return {};
 }
 
-/// Solves with a cut, and adds it to the trials if that lowers the distortion.
-void Cutter::try_cut(SeamEdges cut, bool islands_allowed, double longest, const Progress& progress,
-                     std::vector<Trial>& trials) const {
-  const double least = is_small() ? 0 : min_length * std::sqrt(quality_.area);
-  if (cut.empty() || seams_.length(cut) > longest || seams_.length(cut) < least) return;
-  Trial trial = attempt(std::move(cut), progress);
-  if (gain(trial) > 0 && (islands_allowed || !makes_islands(trial))) trials.push_back(std::move(trial));
-}
-
-/// The best of several trials; of a large piece all that are nearly as good together, which saves solves.
-SeamEdges Cutter::accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress) {
+/// Parts the chart with most distortion where no cut gains: its parts can then be cut on their own. A few times even if
+/// that raises the distortion at first, as it may on coarse meshes.
+SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
+  std::vector<Proposal> proposals;
+  for (SeamEdges& cut : candidates().halves()) {
+    if (!cut.empty() && seams_.length(cut) <= longest) proposals.push_back({std::move(cut), true, -1});
+  }
+  std::vector<Trial> trials = attempt_all(proposals, progress);
+  trials.erase(std::remove_if(trials.begin(), trials.end(),
+                              [&](const Trial& trial) { return !trial.quality.solved || !makes_islands(trial); }),
+               trials.end());
+  if (trials.empty()) return {};
+  // Where none gains that is the first, of the worst chart: others lose less, but cut off crumbs.
   const auto best =
       std::max_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return gain(a) < gain(b); });
-  if (is_small() || makes_islands(*best)) return accept(std::move(*best));
-  SeamEdges all;
-  for (const Trial& trial : trials) {
-    if (makes_islands(trial) || gain(trial) < nearly_as_good * gain(*best)) continue;
-    for (const int edge : trial.cut) {
-      if (std::find(all.begin(), all.end(), edge) == all.end()) all.push_back(edge);
-    }
-  }
-  if (all.size() > best->cut.size() && seams_.length(all) <= longest) {
-    Trial trial = attempt(std::move(all), progress);
-    if (!makes_islands(trial) && gain(trial) > nearly_as_good * gain(*best)) return accept(std::move(trial));
-  }
+  if (!(gain(*best) > 0) && ++losing_splits_ > max_losing_splits) return {};
   return accept(std::move(*best));
 }
 
-SeamEdges Cutter::cut_between_overlaps(double longest, const Progress& progress) {
-  const Overlaps before(charts_);
-  if (before.area < negligible_overlap * quality_.area) return {};
-  const CutCandidates candidates = this->candidates();
-  Trial best;
-  double best_gain = 0;
-  for (std::size_t i = 0; i < charts_.size(); ++i) {
-    const int chart = static_cast<int>(i);
-    if (before.faces[i].empty() || !candidates.is_first_of_mirrored(chart)) continue;
-    for (SeamEdges& cut : candidates.cuts_between(chart, before.faces[i])) {
-      if (cut.empty() || seams_.length(cut) > longest) continue;
-      Trial trial = attempt(std::move(cut), progress);
-      const double highest = distortion_for_overlap * quality_.distortion();
-      if (!trial.quality.solved || trial.quality.distortion() > highest) continue;
-      const double removed = before.area - Overlaps(trial.charts).area;
-      const double gain = removed / price(trial);
-      if (removed < min_overlap_gain * before.area || gain <= best_gain) continue;
-      best_gain = gain;
-      best = std::move(trial);
-    }
+/// The best of several trials, and all that are nearly as good together, which saves solves, but no more than needed.
+SeamEdges Cutter::accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress) {
+  std::stable_sort(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return gain(a) > gain(b); });
+  Trial& best = trials.front();
+  if (makes_islands(best)) return accept(std::move(best));
+  const double excess = quality_.energy - options_.energy_limit;
+  double gained = 0;
+  SeamEdges all;
+  TrialMaps known;
+  for (const Trial& trial : trials) {
+    if (makes_islands(trial) || gain(trial) < nearly_as_good * gain(best)) continue;
+    if (excess > 0 && gained >= excess) break;
+    gained += quality_.energy - trial.quality.energy;
+    add_new(trial.cut, all);
+    known.insert(known.end(), trial.charts.begin(), trial.charts.end());
   }
-  return best_gain > 0 ? accept(std::move(best)) : SeamEdges{};
+  if (all.size() > best.cut.size() && seams_.length(all) <= longest) {
+    Trial trial = attempt(std::move(all), known, progress);
+    if (!makes_islands(trial) && gain(trial) > nearly_as_good * gain(best)) return accept(std::move(trial));
+  }
+  return accept(std::move(best));
 }
 
-/// Where there is no map to tell what to cut.
-SeamEdges Cutter::blind_cut() {
+/// Parts every chart that covers itself or has flipped faces; each in its own way.
+SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
+  const CutCandidates candidates = this->candidates();
+  std::vector<std::vector<int>> defects(charts_.size());
+  run_in_parallel(
+      static_cast<int>(charts_.size()),
+      [&](int i, const Progress&) {
+        const auto chart = static_cast<std::size_t>(i);
+        if (!contains(sound_, charts_[chart])) defects[chart] = defective_faces(*charts_[chart]);
+      },
+      progress);
+  sound_.clear();
+  SeamEdges all;
+  TrialMaps known;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (defects[i].empty()) {
+      sound_.push_back(charts_[i]);
+    } else if (candidates.is_first_of_mirrored(chart)) {
+      add_new(part_defects(chart, defects[i], longest - seams_.length(all), progress, known), all);
+    }
+  }
+  if (all.empty()) return {};
+  return accept(attempt(std::move(all), known, progress));
+}
+
+/// The cut that parts the defects of one chart: with the least distortion and length, or in any case. `known` gets the
+/// maps that it leads to. Empty where it would be too long.
+SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
+                               TrialMaps& known) const {
+  const CutCandidates candidates = this->candidates();
+  const double before = extent_of(*charts_[static_cast<std::size_t>(chart)], faces, quality_.area);
+  for (const bool at_any_price : {false, true}) {
+    std::vector<SeamEdges> cuts =
+        at_any_price ? candidates.cuts_apart(chart, faces) : candidates.cuts_between(chart, faces);
+    std::vector<Proposal> proposals;
+    for (SeamEdges& cut : cuts) {
+      if (!cut.empty() && seams_.length(cut) <= longest) proposals.push_back({std::move(cut), true, chart});
+    }
+    std::vector<Trial> trials(proposals.size());
+    std::vector<double> left(proposals.size(), 0);
+    run_in_parallel(
+        static_cast<int>(proposals.size()),
+        [&](int i, const Progress& going_on) {
+          const auto k = static_cast<std::size_t>(i);
+          trials[k] = attempt(proposals[k].cut, {}, going_on);
+          for (const auto& mapped : trials[k].charts) {
+            if (contains(charts_, mapped)) continue;
+            left[k] += mapped->solved ? extent_of(*mapped, defective_faces(*mapped), quality_.area) : before;
+          }
+        },
+        progress);
+    const double highest = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
+    std::size_t best = trials.size();
+    double best_score = 0;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const double removed = (before - left[i]) / before;
+      const bool is_fine = removed >= min_removed && trials[i].quality.distortion() <= highest;
+      if (!at_any_price && !is_fine) continue;
+      // What parts the chart always counts: a single face is neither flipped nor covers itself.
+      const double score =
+          (is_fine ? 1 : 1e-3) * std::max(removed, makes_islands(trials[i]) ? 1e-3 : 0.0) / price(trials[i]);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = i;
+    }
+    if (best == trials.size()) continue;
+    known.insert(known.end(), trials[best].charts.begin(), trials[best].charts.end());
+    return trials[best].cut;
+  }
+  return {};
+}
+
+/// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.
+SeamEdges Cutter::blind_cut(double longest, const Progress& progress) {
   if (++blind_cuts_ > max_blind_cuts) return {};
   SeamEdges cut = candidates().blind_cut();
-  seams_.add(cut);
-  return cut;
+  if (cut.empty() || (quality_.solved && seams_.length(cut) > longest)) return {};
+  Trial trial = attempt(std::move(cut), {}, progress);
+  return quality_.solved && !trial.quality.solved ? SeamEdges{} : accept(std::move(trial));
+}
+
+bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {
+  if (!quality.solved || quality.energy > std::max(options_.energy_limit, quality_.energy) ||
+      quality.mean_qc > std::max(options_.qc_limit, quality_.mean_qc) ||
+      quality.within_limit < std::min(enough_area, quality_.within_limit)) {
+    return false;
+  }
+  return std::all_of(charts.begin(), charts.end(),
+                     [&](const auto& mapped) { return contains(charts_, mapped) || defective_faces(*mapped).empty(); });
+}
+
+/// Longest first, as long as the maps stay good enough.
+void Cutter::sew(const Progress& progress) {
+  if (!quality_.solved) return;
+  std::set<SeamEdges> kept;
+  std::int64_t solved_vertices = 0;
+  while (solved_vertices < sewing_vertices) {
+    std::vector<Trial> trials;
+    for (SeamEdges& chain : seams_.chains()) {
+      if (kept.count(chain) > 0 || trials.size() == sewn_at_once) continue;
+      trials.emplace_back();
+      trials.back().cut = std::move(chain);
+    }
+    if (trials.empty()) return;
+    std::vector<char> sewable(trials.size(), 0);
+    run_in_parallel(
+        static_cast<int>(trials.size()),
+        [&](int i, const Progress& going_on) {
+          Trial& trial = trials[static_cast<std::size_t>(i)];
+          trial.charts = map_charts(seams_.without(trial.cut), {}, going_on);
+          trial.quality = map_quality(trial.charts, options_.scale_limit);
+          sewable[static_cast<std::size_t>(i)] = is_sewable(trial.charts, trial.quality) ? 1 : 0;
+        },
+        progress);
+    std::size_t best = trials.size();
+    double best_score = 0;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      kept.insert(trials[i].cut);
+      for (const auto& mapped : trials[i].charts) {
+        if (!contains(charts_, mapped)) solved_vertices += mapped->chart.n_vertices();
+      }
+      if (sewable[i] == 0) continue;
+      const double lost = std::max(trials[i].quality.energy - quality_.energy, 0.0);
+      const double score = seams_.length(trials[i].cut) / (lost + least_loss * (options_.energy_limit - 4));
+      if (score <= best_score) continue;
+      best_score = score;
+      best = i;
+    }
+    if (best == trials.size()) continue;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (sewable[i] != 0) kept.erase(trials[i].cut);
+    }
+    seams_.remove(trials[best].cut);
+    charts_ = std::move(trials[best].charts);
+    quality_ = trials[best].quality;
+  }
 }
 
 }  // namespace spectral_conformal

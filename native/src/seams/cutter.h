@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "seams/cut_candidates.h"
@@ -11,7 +14,9 @@
 namespace spectral_conformal {
 
 /// The greedy search for the cuts of one piece: what CutCandidates proposes is solved, and taken if the maps gain
-/// enough for the length of the cut. Each step makes the cuts whose gain for their length is highest.
+/// enough for the length of the cut. Each step makes the cuts whose gain for their length is highest. When the maps are
+/// good enough, or no cut gains any more, charts that cover themselves or have flipped faces are parted, until none
+/// does. In the end seams that the maps can do without are sewn up again.
 class Cutter {
  public:
   /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
@@ -19,8 +24,8 @@ class Cutter {
 
   /// Solves the piece with the seams that it has. Throws Cancelled.
   void solve(const Progress& progress);
-  /// The next cut that lowers the distortion, or overlaps, and is not longer than `longest`; it is added to seams().
-  /// Empty, and finished() from then on, where there is none or the map is good enough. Throws Cancelled.
+  /// The next cuts, not longer than `longest` together; they are added to seams(). Empty, and finished() from then on,
+  /// where there are none; what was sewn up is then no longer in seams(). Throws Cancelled.
   SeamEdges step(double longest, const Progress& progress);
 
   bool finished() const { return finished_; }
@@ -28,37 +33,58 @@ class Cutter {
   const MapQuality& quality() const { return quality_; }
 
  private:
+  /// A cut that is to be tried.
+  struct Proposal {
+    SeamEdges cut;
+    bool may_part = false;  ///< whether it may make islands
+    int chart = -1;         ///< that it is in, -1 for several
+  };
   struct Trial {
     SeamEdges cut;
     TrialMaps charts;
     MapQuality quality;
   };
+  /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
+  using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
   bool good_enough() const;
   bool is_small() const;
-  TrialMaps map_charts(const SeamEdges& more, const Progress& progress) const;
+  TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const TrialMaps& known,
+                       const Progress& progress) const;
   CutCandidates candidates() const { return {seams_, charts_, quality_}; }
 
-  Trial attempt(SeamEdges cut, const Progress& progress) const;
+  Trial attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const;
+  std::vector<Trial> attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) const;
   bool makes_islands(const Trial& trial) const;
   double price(const Trial& trial) const;
+  double excess(const MapQuality& quality) const;
   double gain(const Trial& trial) const;
-  void try_cut(SeamEdges cut, bool islands_allowed, double longest, const Progress& progress,
-               std::vector<Trial>& trials) const;
+  bool is_tried(const Proposal& proposal) const;
+  std::vector<Trial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress);
   SeamEdges accept(Trial&& trial);
 
   SeamEdges cut_to_all(double longest, const Progress& progress);
-  SeamEdges cut_between_overlaps(double longest, const Progress& progress);
   SeamEdges best_cut(double longest, const Progress& progress);
-  SeamEdges blind_cut();
+  SeamEdges split_in_half(double longest, const Progress& progress);
+  SeamEdges part_defects(double longest, const Progress& progress);
+  SeamEdges part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
+                         TrialMaps& known) const;
+  SeamEdges blind_cut(double longest, const Progress& progress);
+  bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
+  void sew(const Progress& progress);
 
   PieceSeams seams_;
   const SeamSuggestionOptions& options_;
   TrialMaps charts_;
   MapQuality quality_;
+  std::vector<Futile> futile_;
+  TrialMaps sound_;  ///< those of charts_ that are known to be without defects
   bool finished_ = false;
+  bool exhausted_ = false;  ///< no cut gains any more
+  bool cones_tried_ = false;
   int blind_cuts_ = 0;
+  int losing_splits_ = 0;
 };
 
 }  // namespace spectral_conformal

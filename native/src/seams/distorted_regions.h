@@ -20,4 +20,8 @@ std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialM
 /// Vertices, not on the outer loop, whose faces have more QC in excess of 1 than those of their neighbours.
 std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped);
 
+/// Vertices inside the chart, and not on seams, around which the angles of the faces are far from a full turn; the
+/// volume is the difference, in radians.
+std::vector<DistortedRegion> sharp_cones(const PolygonMesh& mesh, const TrialMap& mapped);
+
 }  // namespace spectral_conformal

@@ -32,6 +32,10 @@ PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const 
   }
 }
 
+void PieceSeams::scale_costs(const std::vector<double>& factors) {
+  for (int e = 0; e < n_edges(); ++e) graph_.scale_cost(e, factors[static_cast<std::size_t>(e)]);
+}
+
 double PieceSeams::length(const SeamEdges& edges) const {
   double sum = 0;
   for (const int edge : edges) sum += graph_.edges()[edge].length;
@@ -51,6 +55,56 @@ std::vector<std::array<int, 2>> PieceSeams::with(const SeamEdges& more) const {
     for (const int edge : *edges) seams.push_back(graph_.edges()[edge].vertices);
   }
   return seams;
+}
+
+void PieceSeams::remove(const SeamEdges& edges) {
+  const std::set<int> gone(edges.begin(), edges.end());
+  for (const int edge : edges) graph_.uncut(edge);
+  edges_.erase(std::remove_if(edges_.begin(), edges_.end(), [&](int edge) { return gone.count(edge) > 0; }),
+               edges_.end());
+}
+
+std::vector<std::array<int, 2>> PieceSeams::without(const SeamEdges& some) const {
+  const std::set<int> gone(some.begin(), some.end());
+  std::vector<std::array<int, 2>> seams = piece_->seams;
+  for (const int edge : edges_) {
+    if (gone.count(edge) == 0) seams.push_back(graph_.edges()[edge].vertices);
+  }
+  return seams;
+}
+
+std::vector<SeamEdges> PieceSeams::chains() const {
+  std::vector<int> degree(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (const auto& edge : graph_.edges()) {
+    for (const int v : edge.vertices) degree[static_cast<std::size_t>(v)] += edge.cut ? 1 : 0;
+  }
+  std::set<int> left(edges_.begin(), edges_.end());
+  std::vector<std::pair<double, SeamEdges>> found;
+  while (!left.empty()) {
+    SeamEdges chain{*left.begin()};
+    left.erase(left.begin());
+    for (std::size_t head = 0; head < chain.size(); ++head) {
+      for (const int v : graph_.edges()[chain[head]].vertices) {
+        if (degree[static_cast<std::size_t>(v)] != 2) continue;
+        for (const auto& arc : graph_.adjacency().arcs(v)) {
+          if (left.erase(arc.edge) > 0) chain.push_back(arc.edge);
+        }
+      }
+    }
+    const std::size_t n = chain.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const int image = mirror_edge(chain[i]);
+      if (image >= 0 && left.erase(image) > 0) chain.push_back(image);
+    }
+    std::sort(chain.begin(), chain.end());
+    const double total = length(chain);
+    found.emplace_back(total, std::move(chain));
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<SeamEdges> result;
+  result.reserve(found.size());
+  for (auto& chain : found) result.push_back(std::move(chain.second));
+  return result;
 }
 
 int PieceSeams::mirrored_chart(int chart, const std::vector<int>& chart_of_face) const {
@@ -153,6 +207,21 @@ SeamEdges PieceSeams::symmetric_outer_loop() const {
   }));
 }
 
+bool PieceSeams::in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const {
+  const auto& faces = graph_.edges()[edge].faces;
+  return std::any_of(faces.begin(), faces.end(), [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
+}
+
+std::vector<double> PieceSeams::distances_to_cuts(int chart, const std::vector<int>& chart_of_face) const {
+  std::vector<int> sources;
+  for (int e = 0; e < n_edges(); ++e) {
+    const auto& edge = graph_.edges()[e];
+    if (edge.cut && in_chart(e, chart, chart_of_face))
+      sources.insert(sources.end(), edge.vertices.begin(), edge.vertices.end());
+  }
+  return graph_.distances(sources, [&](int edge) { return in_chart(edge, chart, chart_of_face); });
+}
+
 SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const {
   const bool halved = self_mirrored(chart, chart_of_face);
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
@@ -170,10 +239,8 @@ SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const std::vec
   }
   const bool own_loop_halved = halved && on_loop && own_loop[mirror_.vertex[vertex]] != 0;
   const auto allowed = [&](int e, int from) {
+    if (!in_chart(e, chart, chart_of_face)) return false;
     const auto& edge = graph_.edges()[e];
-    const bool inside = std::any_of(edge.faces.begin(), edge.faces.end(),
-                                    [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
-    if (!inside) return false;
     if (!halved || edge.cut) return true;
     const int to = edge.vertices[0] == from ? edge.vertices[1] : edge.vertices[0];
     // A path that leaves the mirror plane, or its own loop beside it, would enclose an island with its image.
@@ -211,6 +278,16 @@ SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<i
                                 const std::vector<int>& sinks, int chart, const std::vector<int>& chart_of_face) const {
   std::vector<char> side = separating_side(faces, sources, sinks, min_island);
   if (self_mirrored(chart, chart_of_face)) clear_of_image(faces.area, side);
+  return between_sides(faces, side);
+}
+
+SeamEdges PieceSeams::border(const SeparableFaces& faces, const std::vector<int>& some) const {
+  std::vector<char> side(faces.member.size(), 0);
+  for (const int face : some) side[static_cast<std::size_t>(face)] = 1;
+  return between_sides(faces, side);
+}
+
+SeamEdges PieceSeams::between_sides(const SeparableFaces& faces, const std::vector<char>& side) const {
   SeamEdges cut;
   for (int e = 0; e < n_edges(); ++e) {
     const auto& edge = graph_.edges()[e];

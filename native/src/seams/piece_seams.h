@@ -26,9 +26,17 @@ class PieceSeams {
   /// The new seams so far.
   const SeamEdges& edges() const { return edges_; }
   double length(const SeamEdges& edges) const;
+  /// Multiplies the costs of the edges, not their lengths; factors per edge.
+  void scale_costs(const std::vector<double>& factors);
   void add(const SeamEdges& edges);
+  /// Takes new seams away again.
+  void remove(const SeamEdges& edges);
   /// The vertices of all seams of the piece, old, new and `more`, for a PolygonMesh of it.
   std::vector<std::array<int, 2>> with(const SeamEdges& more) const;
+  /// The same without some of the new ones.
+  std::vector<std::array<int, 2>> without(const SeamEdges& some) const;
+  /// The new seams from one crossing or end of seams to the next, each with its image, longest first.
+  std::vector<SeamEdges> chains() const;
 
   /// Whether the charts, given per face of the piece, are mapped so that `chart` is its own mirror image.
   bool self_mirrored(int chart, const std::vector<int>& chart_of_face) const;
@@ -42,6 +50,10 @@ class PieceSeams {
   std::vector<SeamEdges> open();
   /// The cheapest cut within a chart from a vertex to the nearest cut, or, from the loop of a hole, to another one.
   SeamEdges cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const;
+  /// Cost of the cheapest path within a chart from every vertex to a cut; infinite where there is none.
+  std::vector<double> distances_to_cuts(int chart, const std::vector<int>& chart_of_face) const;
+  /// The edges between some faces of a chart and its others, and their images.
+  SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
   /// All edges of the chart on the mirror plane that are not cut.
   SeamEdges cut_along_axis(const SeparableFaces& faces) const;
   /// See separating_side.
@@ -49,6 +61,8 @@ class PieceSeams {
                       int chart, const std::vector<int>& chart_of_face) const;
 
  private:
+  SeamEdges between_sides(const SeparableFaces& faces, const std::vector<char>& side) const;
+  bool in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const;
   int n_edges() const { return static_cast<int>(graph_.edges().size()); }
   bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }
   bool along_axis(int edge) const;

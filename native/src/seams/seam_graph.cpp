@@ -79,8 +79,12 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
     while (end < sides.size() && sides[end].vertices == sides[i].vertices) ++end;
     const auto [a, b] = sides[i].vertices;
     const double length = (positions_.row(a) - positions_.row(b)).norm();
-    edges_.push_back(
-        {sides[i].vertices, {sides[i].face, end > i + 1 ? sides[i + 1].face : -1}, length, length, end != i + 2});
+    edges_.push_back({sides[i].vertices,
+                      {sides[i].face, end > i + 1 ? sides[i + 1].face : -1},
+                      length,
+                      length,
+                      end != i + 2,
+                      Eigen::Vector3d::Zero()});
     i = end;
   }
 }
@@ -94,6 +98,7 @@ void SeamGraph::price_edges(const PolygonMesh& mesh) {
     if (edge.cut) continue;
     const FaceShape& left = shapes[edge.faces[0]];
     const FaceShape& right = shapes[edge.faces[1]];
+    edge.normal = left.normal + right.normal;
     const double fold = std::min(1 - left.normal.dot(right.normal), 1.0);
     const Eigen::Vector3d middle = 0.5 * (positions_.row(edge.vertices[0]) + positions_.row(edge.vertices[1]));
     const bool concave = left.normal.dot(right.centre - middle) > 0;

@@ -19,6 +19,7 @@ class SeamGraph {
     double length;
     double cost;  ///< the length, lowered along sharp edges, most along concave ones, where seams are seen least
     bool cut;     ///< seam, or not between exactly two faces
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< sum of the unit normals of the two faces; 0 where it is cut
   };
 
   /// Takes the selected faces and the seams of `mesh`. Coordinates must be finite.
@@ -31,6 +32,8 @@ class SeamGraph {
   /// The edge between two vertices, or -1.
   int find_edge(int a, int b) const;
   void cut(int edge) { edges_[edge].cut = true; }
+  /// Precondition: it lies between exactly two faces.
+  void uncut(int edge) { edges_[edge].cut = false; }
   void scale_cost(int edge, double factor) { edges_[edge].cost *= factor; }
 
   /// Cost of the cheapest path from every vertex to a source along `allowed` edges, cut ones being free; infinite where

@@ -4,17 +4,21 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "mesh/mirror_symmetry.h"
+#include "seams/canonical_mesh.h"
 #include "seams/cutter.h"
+#include "seams/parallel_trials.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
+#include "seams/seam_preferences.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// Far above what any mesh took (at most 112 cuts on those of the tests): a bound, not a limit.
-constexpr int max_steps = 300;
+/// Of one piece; far above what any took (at most 112 on the meshes of the tests): a bound, not a limit.
+constexpr int max_steps = 1000;
 
 bool has_extent(const Piece& piece) {
   if (!piece.positions.allFinite()) return false;
@@ -22,12 +26,14 @@ bool has_extent(const Piece& piece) {
   return extent > 0 && std::isfinite(extent);
 }
 
-/// The whole mesh: its pieces, the seams found so far, and what is left of the length that they may have.
+/// The whole mesh in canonical order: its pieces, the seams found so far, and what is left of the length that they may
+/// have.
 class SeamFinder {
  public:
-  SeamFinder(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress)
-      : options_(options), progress_(progress), length_left_(options.max_length) {
+  SeamFinder(const CanonicalMesh& canonical, const SeamSuggestionOptions& options, const Progress& progress)
+      : options_(options), progress_(progress), length_left_(options.max_length), mesh_vertices_(canonical.vertices()) {
     report(progress, 0.0, "charts");
+    const PolygonMesh mesh = canonical.view();
     const ChartDecomposition decomposition = build_charts(mesh);
     pieces_ = split_into_pieces(mesh, decomposition);
     symmetry_ = find_mirror_symmetry(mesh);
@@ -37,17 +43,21 @@ class SeamFinder {
 
   SeamSuggestion run() {
     for (std::size_t i = 0; i < pieces_.size(); ++i) open(i);
-    for (auto& cutter : cutters_) {
-      if (cutter) cutter->solve(quiet());
-    }
-    for (steps_ = 1; steps_ <= max_steps; ++steps_) {
-      const int next = most_urgent();
-      if (next < 0) break;
+    run_in_parallel(
+        static_cast<int>(cutters_.size()),
+        [&](int i, const Progress& going_on) {
+          if (cutters_[static_cast<std::size_t>(i)]) cutters_[static_cast<std::size_t>(i)]->solve(going_on);
+        },
+        quiet());
+    std::vector<int> steps(cutters_.size(), 0);
+    for (int next = most_urgent(steps); next >= 0; next = most_urgent(steps)) {
       const auto i = static_cast<std::size_t>(next);
+      ++steps_;
+      ++steps[i];
       add(i, cutters_[i]->seams(), cutters_[i]->step(length_left_ / copies(i), quiet()));
     }
     report(progress_, 1.0, "done");
-    return std::move(result_);
+    return result();
   }
 
  private:
@@ -57,6 +67,10 @@ class SeamFinder {
     if (!has_extent(pieces_[i]) || (image >= 0 && image < static_cast<int>(i))) return;
     report(progress_, 0.02, "seams");
     PieceSeams seams(pieces_[i], static_cast<int>(i), mirrors_[i], symmetry_);
+    std::vector<int> given_vertices;
+    given_vertices.reserve(pieces_[i].vertices.size());
+    for (const int v : pieces_[i].vertices) given_vertices.push_back(mesh_vertices_[static_cast<std::size_t>(v)]);
+    seams.scale_costs(cost_factors(options_, seams.graph(), given_vertices));
     for (const SeamEdges& cut : seams.open()) add(i, seams, cut);
     cutters_[i] = std::make_unique<Cutter>(std::move(seams), options_);
   }
@@ -67,52 +81,67 @@ class SeamFinder {
   int copies(std::size_t piece) const {
     return mirrors_[piece].image >= 0 && mirrors_[piece].image != static_cast<int>(piece) ? 2 : 1;
   }
-  int most_urgent() const {
+  int most_urgent(const std::vector<int>& steps) const {
     const auto urgency = [&](int i) {
       const MapQuality& quality = cutters_[i]->quality();
       return quality.solved ? quality.distortion() * quality.area : quality.distortion();
     };
     int best = -1;
     for (int i = 0; i < static_cast<int>(cutters_.size()); ++i) {
-      if (!cutters_[i] || cutters_[i]->finished()) continue;
+      if (!cutters_[i] || cutters_[i]->finished() || steps[static_cast<std::size_t>(i)] >= max_steps) continue;
       if (best < 0 || urgency(i) > urgency(best)) best = i;
     }
     return best;
   }
-  void add(std::size_t i, const PieceSeams& seams, const SeamEdges& cut) {
+  void add(std::size_t i, const PieceSeams& seams, SeamEdges cut) {
     if (cut.empty()) return;
-    const std::vector<int>& vertices = pieces_[i].vertices;
-    for (int copy = 0; copy < copies(i); ++copy) {
-      for (const int e : cut) {
-        auto [a, b] = seams.graph().edges()[e].vertices;
-        a = copy == 0 ? vertices[a] : symmetry_.vertex[vertices[a]];
-        b = copy == 0 ? vertices[b] : symmetry_.vertex[vertices[b]];
-        const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
-        // Pieces that meet in an edge of three or more faces may both propose it.
-        if (proposed_.insert(edge).second) result_.edges.push_back(edge);
-      }
-    }
-    const int end = static_cast<int>(result_.edges.size());
-    if (end > result_.cut_offsets.back()) result_.cut_offsets.push_back(end);
     length_left_ -= copies(i) * seams.length(cut);
+    cuts_.emplace_back(i, std::move(cut));
+  }
+  /// The cuts in the order in which they were found, without what was sewn up since.
+  SeamSuggestion result() const {
+    SeamSuggestion result;
+    std::set<std::array<int, 2>> proposed;
+    std::vector<std::set<int>> left(pieces_.size());
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (cutters_[i]) left[i].insert(cutters_[i]->seams().edges().begin(), cutters_[i]->seams().edges().end());
+    }
+    for (const auto& [i, cut] : cuts_) {
+      const std::vector<int>& vertices = pieces_[i].vertices;
+      for (int copy = 0; copy < copies(i); ++copy) {
+        for (const int e : cut) {
+          if (left[i].count(e) == 0) continue;
+          auto [a, b] = cutters_[i]->seams().graph().edges()[e].vertices;
+          a = mesh_vertices_[copy == 0 ? vertices[a] : symmetry_.vertex[vertices[a]]];
+          b = mesh_vertices_[copy == 0 ? vertices[b] : symmetry_.vertex[vertices[b]]];
+          const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+          // Pieces that meet in an edge of three or more faces may both propose it.
+          if (proposed.insert(edge).second) result.edges.push_back(edge);
+        }
+      }
+      const int end = static_cast<int>(result.edges.size());
+      if (end > result.cut_offsets.back()) result.cut_offsets.push_back(end);
+    }
+    return result;
   }
 
   const SeamSuggestionOptions& options_;
   const Progress& progress_;
   double length_left_;
+  const std::vector<int>& mesh_vertices_;  ///< of the canonical ones
   int steps_ = 0;
   std::vector<Piece> pieces_;
   MirrorSymmetry symmetry_;
   std::vector<PieceMirror> mirrors_;
   std::vector<std::unique_ptr<Cutter>> cutters_;
-  std::set<std::array<int, 2>> proposed_;
-  SeamSuggestion result_;
+  std::vector<std::pair<std::size_t, SeamEdges>> cuts_;  ///< with their pieces
 };
 
 }  // namespace
 
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress) {
-  return SeamFinder(mesh, options, progress).run();
+  const CanonicalMesh canonical(mesh);
+  return SeamFinder(canonical, options, progress).run();
 }
 
 }  // namespace spectral_conformal

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
+#include "quality/overlap.h"
 #include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
@@ -26,13 +28,24 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
     mapped.area[face] += distortion.area[t];
     image[face] += distortion.image_area[t];
     mapped.qc[face] += distortion.area[t] * std::min(distortion.qc[t], max_qc);
+    if (distortion.flipped[static_cast<std::size_t>(t)]) mapped.flipped.push_back(face);
   }
+  std::sort(mapped.flipped.begin(), mapped.flipped.end());
+  mapped.flipped.erase(std::unique(mapped.flipped.begin(), mapped.flipped.end()), mapped.flipped.end());
   for (std::size_t face = 0; face < chart.faces.size(); ++face) {
     const double area = mapped.area[face];
     const double scale = area > 0 ? 0.5 * std::log2(std::abs(image[face]) / area) : 0;
     mapped.log2_scale.push_back(std::clamp(scale, -max_log2_scale, max_log2_scale));
     mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
   }
+}
+
+/// 2 cosh t, and beyond t = ln 4 the parabola that continues it smoothly.
+double bounded_cosh(double t) {
+  constexpr double from = 1.386294361119890618834464242916;
+  const double beyond = std::abs(t) - from;
+  if (beyond <= 0) return 2 * std::cosh(t);
+  return std::cosh(from) * (2 + beyond * beyond) + 2 * std::sinh(from) * beyond;
 }
 
 double weighted_median(std::vector<std::pair<double, double>>& value_and_weight, double total) {
@@ -66,10 +79,16 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   return result;
 }
 
-double MapQuality::distortion() const {
-  if (!solved) return std::numeric_limits<double>::infinity();
-  return scale_variance + 5 * (mean_qc - 1);  // 0.5^2 = 5 x 0.05
+std::vector<int> defective_faces(const TrialMap& mapped) {
+  if (!mapped.solved) return {};
+  const std::vector<int> overlapping = overlapping_faces(mapped.chart, mapped.z);
+  std::vector<int> result;
+  std::set_union(overlapping.begin(), overlapping.end(), mapped.flipped.begin(), mapped.flipped.end(),
+                 std::back_inserter(result));
+  return result;
 }
+
+double MapQuality::distortion() const { return solved ? energy - 4 : std::numeric_limits<double>::infinity(); }
 
 MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;
@@ -87,10 +106,17 @@ MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   result.mean_qc = qc / result.area;
   result.median_log2_scale = weighted_median(scales, result.area);
   result.within_limit = 0;
-  for (const auto& [scale, area] : scales) {
-    const double offset = scale - result.median_log2_scale;
-    result.scale_variance += area / result.area * offset * offset;
-    if (std::abs(offset) <= std::log2(scale_limit)) result.within_limit += area / result.area;
+  result.energy = 0;
+  for (const auto& mapped : charts) {
+    for (std::size_t f = 0; f < mapped->area.size(); ++f) {
+      const double weight = mapped->area[f] / result.area;
+      const double offset = mapped->log2_scale[f] - result.median_log2_scale;
+      // (s1^2 + s2^2) (1 + 1 / (s1 s2)^2), by the ratio and the product of the singular values.
+      const double shear = bounded_cosh(std::log(mapped->qc[f]));
+      result.energy += weight * shear * bounded_cosh(2 * std::log(2.0) * offset);
+      result.shear += weight * 2 * (shear - 2);
+      if (std::abs(offset) <= std::log2(scale_limit)) result.within_limit += weight;
+    }
   }
   return result;
 }

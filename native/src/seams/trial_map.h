@@ -17,10 +17,15 @@ struct TrialMap {
   std::vector<double> area;        ///< per face of the chart, in 3D
   std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
   std::vector<double> qc;          ///< per face, weighted by area, each triangle's at most 1000
+  std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
 };
 
 /// Solves a chart of `mesh`. Where it cannot be solved, `solved` is false. Throws Cancelled.
 TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress);
+
+/// The faces that no texture can do without a cut: flipped, or covering part of another one. Indices into the chart's
+/// faces, ascending; none where the chart is not solved.
+std::vector<int> defective_faces(const TrialMap& mapped);
 
 /// Maps of the charts of a mesh, shared by the trials in which a chart stays as it is.
 using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;
@@ -30,13 +35,17 @@ struct MapQuality {
   bool solved = true;            ///< all charts are
   double median_log2_scale = 0;  ///< weighted by area
   double within_limit = 1;       ///< fraction of the area whose scale is within a factor of the median
-  double scale_variance = 0;     ///< mean of (log2_scale - median)^2, weighted by area
   double mean_qc = 1;            ///< weighted by area
+  /// Symmetric Dirichlet energy s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of the faces' singular values at the median scale,
+  /// mean weighted by area: 4 for an isometry. It grows with the square of the logarithm beyond a scale of 2 or a QC of
+  /// 4, so that neither a sliver nor the end of a long limb, whose energy is astronomical, outweighs all else.
+  double energy = 4;
+  double shear = 0;  ///< the part of energy - 4 that the angles have in it: what would be left at one scale
   double area = 0;
 
-  /// One number for both kinds of distortion, 0 for an isometry: the variance of the scale and the excess of the mean
-  /// QC, weighted so that either counts alike where an artist would begin to mind (a deviation of 0.5, a QC of 1.05).
-  /// Infinite where a chart is not solved.
+  /// Whether the maps are so far from an isometry that they tell nothing about where to cut.
+  bool hopeless() const { return !solved || energy > 50; }
+  /// The energy above that of an isometry; infinite where a chart is not solved.
   double distortion() const;
 };
 

@@ -135,6 +135,33 @@ TEST_CASE("parts are cut apart symmetrically") {
   CHECK(piece.symmetric(seams));
 }
 
+TEST_CASE("new seams fall into chains between crossings, longest first, which can be taken away again") {
+  Mesh grid = quad_grid(8, 4);
+  for (Eigen::Vector3d& p : grid.points) p.z() = 0.1 * p.x() * p.x() * p.y();  // without symmetry
+  const OnePiece flat(grid);
+  PieceSeams seams = flat.seams();
+  const auto edge = [&](int a, int b) { return seams.graph().find_edge(a, b); };
+  // From the left border along the row of vertices 18 to 22, with a branch down from 20.
+  const SeamEdges row{edge(18, 19), edge(19, 20), edge(20, 21), edge(21, 22)};
+  const SeamEdges branch{edge(20, 29)};
+  seams.add(row);
+  seams.add(branch);
+  const std::vector<SeamEdges> chains = seams.chains();
+  REQUIRE(chains.size() == 3);
+  std::size_t n_edges = 0;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    n_edges += chains[i].size();
+    if (i > 0) CHECK(seams.length(chains[i]) <= seams.length(chains[i - 1]));
+  }
+  CHECK(n_edges == 5);
+  CHECK(seams.without(branch).size() == 4);
+  seams.remove(branch);
+  CHECK(seams.edges() == row);
+  CHECK_FALSE(seams.graph().edges()[branch.front()].cut);
+  REQUIRE(seams.chains().size() == 1);
+  CHECK(seams.chains().front().size() == 4);
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

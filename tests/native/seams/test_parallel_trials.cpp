@@ -1,0 +1,65 @@
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "seams/parallel_trials.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal::test {
+
+TEST_SUITE_BEGIN("parallel_trials");
+
+TEST_CASE("every call is made once") {
+  for (const int n : {0, 1, 2, 3, 50}) {
+    std::vector<int> calls(static_cast<std::size_t>(n), 0);
+    run_in_parallel(n, [&](int i, const Progress&) { ++calls[static_cast<std::size_t>(i)]; }, {});
+    CHECK(calls == std::vector<int>(static_cast<std::size_t>(n), 1));
+  }
+}
+
+TEST_CASE("the progress function is called in the caller's thread, and stops all") {
+  const std::thread::id own = std::this_thread::get_id();
+  int asked = 0;
+  bool elsewhere = false;
+  const Progress progress = [&](double, const char*) {
+    elsewhere = elsewhere || std::this_thread::get_id() != own;
+    return ++asked < 5;
+  };
+  const auto endless = [](int, const Progress& going_on) {
+    while (true) {
+      report(going_on, 0, "work");
+      std::this_thread::yield();
+    }
+  };
+  CHECK_THROWS_AS(run_in_parallel(8, endless, progress), Cancelled);
+  CHECK(asked == 5);
+  CHECK_FALSE(elsewhere);
+}
+
+TEST_CASE("the caller is heard while its thread waits for others") {
+  int asked = 0;
+  const Progress progress = [&](double, const char*) { return ++asked < 3; };
+  const auto work = [](int i, const Progress& going_on) {
+    while (i > 0) {
+      report(going_on, 0, "work");
+      std::this_thread::yield();
+    }
+  };
+  CHECK_THROWS_AS(run_in_parallel(2, work, progress), Cancelled);
+}
+
+TEST_CASE("of several failures the first is thrown") {
+  const auto work = [](int i, const Progress&) {
+    if (i > 0) throw std::runtime_error(std::to_string(i));
+  };
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    CHECK_THROWS_WITH_AS(run_in_parallel(6, work, {}), "1", std::runtime_error);
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
