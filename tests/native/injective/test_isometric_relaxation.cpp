@@ -154,10 +154,15 @@ TEST_CASE("run to the end, the derivative vanishes in every direction") {
             symmetric_dirichlet_energy(patch, z - step * direction)) /
            (2 * step);
   };
+  // The steepest of five: a direction can be nearly at a right angle to the gradient at the start.
+  double before = 0;
+  double after = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const ComplexVector direction = random_map(start.size(), seed);
-    CHECK(std::abs(slope(map.z, direction)) < 1e-4 * std::abs(slope(start, direction)));
+    before = std::max(before, std::abs(slope(start, direction)));
+    after = std::max(after, std::abs(slope(map.z, direction)));
   }
+  CHECK(after < 1e-4 * before);
 }
 
 TEST_CASE("a developable patch comes back to its isometry from a conformal start") {
