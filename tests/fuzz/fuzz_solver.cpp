@@ -17,11 +17,15 @@ UnwrapOptions options_from(Bytes& bytes, const FuzzedMesh& mesh) {
   options.patch.fill_holes = (bits & 8) != 0;
   if ((bits & 16) != 0) options.patch.area_blend = bytes.byte() / 255.0;
   options.patch.fold_free = bytes.flag();
+  options.patch.polish = bytes.flag();
   constexpr Method methods[] = {Method::spectral, Method::spectral, Method::spectral, Method::spectral,
                                 Method::spectral, Method::lscm,     Method::fiedler,  Method::area};
   options.solve.method = methods[bits >> 5];
   const bool spectral = options.solve.method == Method::spectral;
-  if (spectral && bytes.flag()) options.solve.hole_rigidity = bytes.byte() / 32.0;
+  if (spectral && bytes.flag()) {
+    options.solve.hole_rigidity = bytes.byte() / 32.0;
+    if (bytes.flag()) options.solve.hole_rigidity.reset();  // automatic
+  }
   if (spectral && bytes.flag()) options.solve.soft_pins = bytes.byte() / 8.0;
   for (int k = bytes.below(4); spectral && k > 0; --k) {
     const int from = bytes.below(mesh.n_vertices());
@@ -66,7 +70,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     int reports = bytes.byte();
     const Progress listen = [&reports](double, const char*) { return --reports > 0; };
     try {
-      check(unwrapper.solve(options.extenders, 2 * options.solve.hole_rigidity, options.solve.tolerance, listen));
+      const double rigidity = 2 * options.solve.hole_rigidity.value_or(1);
+      check(unwrapper.solve(options.extenders, rigidity, options.solve.tolerance, listen));
     } catch (const Cancelled&) {
       require(reports <= 0);
     }

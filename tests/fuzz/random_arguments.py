@@ -122,10 +122,11 @@ PARAMETERS = {
     "corner_uv": corner_uv,
     "soft_pins": power_of_ten(-4, 4),
     "extenders": extenders,
-    "hole_rigidity": power_of_ten(-4, 4),
+    "hole_rigidity": lambda rng, mesh: "automatic" if rng.random() < 0.3 else power_of_ten(-4, 4)(rng, mesh),
     "fill_holes": flag,
     "fold_free": flag,
     "fallbacks": flag,
+    "polish": flag,
     "metric": plane_metric,
     "area_blend": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),
     "tolerance": power_of_ten(-14, -3),
@@ -133,6 +134,9 @@ PARAMETERS = {
     "max_length": power_of_ten(-2, 2),
     "scale_limit": lambda rng, mesh: 1 + float(10 ** rng.uniform(-2, 1)),
     "qc_limit": lambda rng, mesh: 1 + float(10 ** rng.uniform(-3, 0)),
+    "energy_limit": lambda rng, mesh: 4 + float(10 ** rng.uniform(-3, 1)),
+    "front": lambda rng, mesh: tuple(rng.normal(size=3) * 10 ** rng.uniform(-2, 2)),
+    "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
 POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}
 

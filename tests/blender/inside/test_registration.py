@@ -79,8 +79,11 @@ def test_suggest_seams_is_described():
     properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
     assert {prop.identifier: prop.default for prop in properties} == {
         "size_variation": 2.0,
-        "angle_distortion": pytest.approx(1.05),
+        "angle_distortion": pytest.approx(1.1),
         "max_length": 0.0,
+        "keep_front": 0.5,
+        "seam_group": "",
+        "seam_group_use": "AVOID",
         "cuts": 0,
         "unwrap": True,
     }

@@ -93,6 +93,52 @@ def test_more_seams_where_less_distortion_is_allowed():
     assert lengths[0] < lengths[1] < lengths[2]
 
 
+def painted_share(use):
+    """Return how much of the length of the seams lies where x > 0, all of which is painted."""
+    ball = primitive(bpy.ops.mesh.primitive_uv_sphere_add)
+    group = ball.vertex_groups.new(name="Seams")
+    painted = [vertex.index for vertex in ball.data.vertices if vertex.co.x > 0.05]
+    group.add(painted, 1.0, "REPLACE")
+    scenes.edit(ball)
+    assert bpy.ops.uv.spectral_suggest_seams(seam_group="Seams", seam_group_use=use, keep_front=0.0) == {"FINISHED"}
+    edges = [edge for edge in scenes.edit_mesh(ball).edges if edge.seam]
+    inside = sum(edge.calc_length() for edge in edges if all(vertex.co.x > 0.05 for vertex in edge.verts))
+    return inside / sum(edge.calc_length() for edge in edges)
+
+
+def test_seams_go_where_a_vertex_group_says():
+    assert painted_share("AVOID") < 0.2
+    assert painted_share("PREFER") > 0.8
+
+
+def test_a_group_that_an_object_lacks_changes_nothing():
+    found = []
+    for properties in ({}, {"seam_group": "Missing", "seam_group_use": "PREFER"}):
+        head = suzanne()
+        scenes.edit(head)
+        assert bpy.ops.uv.spectral_suggest_seams(**properties) == {"FINISHED"}
+        found.append(seams(head))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(head)
+    assert found[0] == found[1]
+
+
+def test_the_front_is_kept_clear():
+    """Of the seams of a head, which looks to -Y, less lies on faces that look there."""
+    shares = []
+    for keep_front in (0.0, 1.0):
+        head = suzanne()
+        scenes.edit(head)
+        assert bpy.ops.uv.spectral_suggest_seams(keep_front=keep_front) == {"FINISHED"}
+        edges = [edge for edge in scenes.edit_mesh(head).edges if edge.seam and edge.link_faces]
+        front = [max(0.0, -np.mean([face.normal.y for face in edge.link_faces])) for edge in edges]
+        lengths = [edge.calc_length() for edge in edges]
+        shares.append(np.dot(front, lengths))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(head)
+    assert shares[1] < shares[0]
+
+
 def test_length_is_limited():
     head = suzanne()
     scenes.edit(head)
@@ -359,7 +405,8 @@ def test_live_unwrap_goes_on_when_blender_has_forgotten_what_ended(monkeypatch):
 
 
 def invoked(monkeypatch, is_waiting=True):
-    defaults = {"size_variation": 2.0, "angle_distortion": 1.05, "max_length": 0.0, "cuts": 0, "unwrap": True}
+    defaults = {"size_variation": 2.0, "angle_distortion": 1.1, "max_length": 0.0, "cuts": 0, "unwrap": True}
+    defaults |= {"keep_front": 0.5, "seam_group": "", "seam_group_use": "AVOID"}
     operator = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
     return jobs.Invoked(monkeypatch, operator, is_waiting, **defaults)
 

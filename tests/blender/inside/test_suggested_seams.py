@@ -22,7 +22,7 @@ def test_suzanne_is_hardly_distorted_by_fewer_seams_than_smart_project_makes(nat
     seams = native.suggest_seams(*mesh)
     measured = seam_measures.measure(native, mesh, seams)
     assert measured.unsolved == 0
-    assert measured.mean_qc <= 1.05
+    assert measured.mean_qc <= 1.1  # the default limit; sizes count as well
     assert measured.within >= 0.95
     assert seam_measures.length(mesh[0], seams) <= 1.5 * seam_measures.smart_project_border(suzanne)
 
