@@ -115,7 +115,10 @@ def check_parameterization(result, known):
     assert np.isfinite(result.uv).all()
     assert np.isfinite(result.eigenvalue)
     # A map that was unfolded is no eigenvector.
-    assert 0 <= result.residual < 1e-3 or result.unfolded or result.is_embedding
+    # A map that was polished, unfolded, moved apart or replaced is no eigenvector.
+    is_changed = result.polish_steps or result.is_embedding or np.isfinite(result.mean_qc_before)
+    assert result.residual >= 0
+    assert result.residual < 1e-3 or result.unfolded or is_changed
     assert isinstance(result.message, str)
     if result.method == "spectral":
         assert abs(result.turning_number) == 1
