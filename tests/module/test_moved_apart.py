@@ -36,6 +36,21 @@ def test_parts_come_apart_at_some_cost(mesh):
     assert (chart.overlapping, chart.flipped) == (0, 0)
 
 
+@pytest.mark.parametrize(
+    ("mesh", "fallback"),
+    [(meshes.rough_grid(8, 2.0, 8, 0.1), "unfolded"), (meshes.rough_grid(10, 2.0, 6, 0.2), "tutte_embedding")],
+)
+def test_what_stands_in_for_a_refused_map_says_so_still(mesh, fallback):
+    refused = sc.parameterize(*mesh)
+    apart = sc.parameterize(*mesh, fold_free=True)
+    assert "moved apart" in apart.message
+    assert not sc.distortion(*mesh, apart.uv).overlapping.any()
+    assert refused.fallback == apart.fallback == fallback
+    assert apart.is_embedding == (fallback == "tutte_embedding")
+    assert apart.unfolded == refused.unfolded > 0
+    assert apart.mean_qc_before == refused.mean_qc_before
+
+
 def test_what_does_not_come_apart_stays_and_is_told():
     mesh = triangulated(*SPIRAL)
     plain = sc.parameterize(*mesh)

@@ -258,9 +258,10 @@ void Solver::State::take_unfolded(UnfoldedMap&& unfolded, const std::string& fai
     result.eigenvalue = unfolded.eigenvalue;
     result.eigenvalue_of = EigenvalueOf::map;
     result.residual = unfolded.residual;
-    result.unfolded = map.is_embedding ? map.flipped_before : map.flipped_before - map.flipped;
-    result.is_embedding = map.is_embedding;
-    result.mean_qc_before = unfolded.mean_qc_before;
+    // What stands in for a map that was refused may have been unfolded before, and is then moved apart.
+    if (std::isnan(result.mean_qc_before) && !result.is_embedding) result.mean_qc_before = unfolded.mean_qc_before;
+    result.unfolded += map.is_embedding ? map.flipped_before : map.flipped_before - map.flipped;
+    result.is_embedding = result.is_embedding || map.is_embedding;
     // The quotient is that of the patch's own energy and form.
     result.weights = options.weights;
     result.boundary = options.boundary;
