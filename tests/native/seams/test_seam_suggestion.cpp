@@ -199,7 +199,15 @@ TEST_CASE("progress rises, ends at 1 and can cancel at any call") {
   CHECK(fractions.back() == 1);
   for (const std::size_t last : {std::size_t{1}, fractions.size() / 2, fractions.size()}) {
     std::size_t calls = 0;
-    CHECK_THROWS_AS(suggest_seams(mesh.view(), {}, [&](double, const char*) { return ++calls < last; }), Cancelled);
+    bool cancelled = false;
+    try {
+      suggest_seams(mesh.view(), {}, [&](double, const char*) { return ++calls < last; });
+    } catch (const Cancelled&) {
+      cancelled = true;
+    }
+    // Threads share the solves, of which only those of the caller's report: sometimes there are fewer.
+    CHECK(cancelled == (calls == last));
+    if (last == 1) CHECK(cancelled);
   }
 }
 
