@@ -7,6 +7,7 @@
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -25,15 +26,16 @@
 
 namespace {
 
-long countdown = 0;         // the allocation that fails; 0: none
-long counted = 0;           // allocations since the last reset
-long alive = 0;             // allocated and not yet freed
-std::size_t requested = 0;  // bytes since the last reset
+// Of all threads.
+std::atomic<long> countdown{0};         // the allocation that fails; 0 or less: none
+std::atomic<long> counted{0};           // allocations since the last reset
+std::atomic<long> alive{0};             // allocated and not yet freed
+std::atomic<std::size_t> requested{0};  // bytes since the last reset
 
 bool fails(std::size_t size) {
   ++counted;
   requested += size;
-  return countdown > 0 && --countdown == 0;
+  return countdown > 0 && countdown-- == 1;
 }
 
 void* count(void* memory) {
@@ -247,7 +249,7 @@ TEST_CASE("handles are cut open without building the charts anew for every loop 
   const auto bytes = [](const std::function<void()>& task) {
     requested = 0;
     task();
-    return requested;
+    return requested.load();
   };
   std::size_t n_cuts = 0;
   const std::size_t charts = bytes([&] { build_charts(mesh.view()); });

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -64,6 +65,8 @@ class Helpers {
       for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
     } catch (const std::system_error&) {
       // The system gives no more threads; those that there are take all calls.
+    } catch (const std::bad_alloc&) {
+      // Neither is there memory for one.
     }
   }
   ~Helpers() {
