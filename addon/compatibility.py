@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that differs between the Blender versions that this add-on runs in (3.4 and later)."""
 
+import functools
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -148,6 +149,104 @@ def selected_corners(bm: BMesh, layer: BMLayerItem, use_sync: bool) -> np.ndarra
     if use_sync and not (_UV_SELECTION_ON_MESH and bm.uv_select_sync_valid):
         return np.fromiter((loop.vert.select for face in bm.faces for loop in face.loops), dtype=bool)
     return selected_uv_corners(bm, layer)
+
+
+def positions(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the positions of the vertices of `mesh`, which is not in edit mode, (V, 3) float32."""
+    values = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    attribute = _attribute(mesh, "position", "FLOAT_VECTOR", len(mesh.vertices))
+    _read(attribute, "vector", mesh.vertices, "co", values)
+    return values.reshape(-1, 3)
+
+
+def edge_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the vertices of the edges of `mesh`, which is not in edit mode, (E, 2) int32."""
+    values = np.empty(2 * len(mesh.edges), dtype=np.int32)
+    _read(_attribute(mesh, ".edge_verts", "INT32_2D", len(mesh.edges)), "value", mesh.edges, "vertices", values)
+    return values.reshape(-1, 2)
+
+
+def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the vertex of every corner of `mesh`, which is not in edit mode, (C,) int32."""
+    values = np.empty(len(mesh.loops), dtype=np.int32)
+    _read(_attribute(mesh, ".corner_vert", "INT", len(mesh.loops)), "value", mesh.loops, "vertex_index", values)
+    return values
+
+
+def face_offsets(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the first corner of every face of `mesh`, not in edit mode, and at last the number of corners, int32."""
+    offsets = np.empty(len(mesh.polygons) + 1, dtype=np.int32)
+    mesh.polygons.foreach_get("loop_start", offsets[:-1])
+    offsets[-1] = len(mesh.loops)
+    return offsets
+
+
+def corner_uv(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the active UV map of `mesh`, which is not in edit mode and has one, (C, 2) float32."""
+    values = np.empty(2 * len(mesh.loops), dtype=np.float32)
+    uv_map = mesh.uv_layers.active
+    # From 3.5 on the map is an attribute.
+    _read(getattr(uv_map, "uv", None), "vector", uv_map.data, "uv", values)
+    return values.reshape(-1, 2)
+
+
+def flags(mesh: bpy.types.Mesh, elements: str, name: str) -> np.ndarray:
+    """Return the flag `name`, "select", "hide" or "use_seam", of all `elements` of `mesh`, which is not in edit mode.
+
+    `elements` is the name of the mesh's collection of them.
+    """
+    collection = getattr(mesh, elements)
+    values = np.zeros(len(collection), dtype=bool)
+    stored = _attribute_of_flag(elements, name)
+    if not stored or stored in mesh.attributes:
+        attribute = _attribute(mesh, stored, "BOOLEAN", len(collection)) if stored else None
+        _read(attribute, "value", collection, name, values)
+    return values
+
+
+@functools.cache
+def _attribute_of_flag(elements: str, name: str) -> str:
+    """Return the attribute in which this Blender keeps a flag, which is missing where the flag is set nowhere.
+
+    Empty where it keeps it otherwise. The names differ between versions, so that this one is asked.
+    """
+    probe = bpy.data.meshes.new(name)
+    try:
+        probe.from_pydata([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [], [(0, 1, 2)])
+        element = getattr(probe, elements)[0]
+        set_flags = []
+        for value in (False, True):
+            setattr(element, name, value)
+            set_flags.append({a.name for a in probe.attributes if a.data_type == "BOOLEAN" and a.data[0].value})
+        added = set_flags[1] - set_flags[0]
+        return added.pop() if len(added) == 1 else ""
+    finally:
+        bpy.data.meshes.remove(probe, do_unlink=False, do_ui_user=False)
+
+
+def _attribute(mesh: bpy.types.Mesh, name: str, data_type: str, count: int) -> bpy.types.bpy_prop_collection | None:
+    """Return the values of an attribute of `mesh`; None where it has none of this kind, or another number of values."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.data_type != data_type or len(attribute.data) != count:
+        return None
+    return attribute.data
+
+
+def _read(
+    attribute: bpy.types.bpy_prop_collection | None,
+    value: str,
+    elements: bpy.types.bpy_prop_collection,
+    name: str,
+    values: np.ndarray,
+) -> None:
+    """Fill `values` from an attribute, or where there is none from a property of the elements.
+
+    The one copies memory; the other asks element by element, which takes up to five hundred times as long.
+    """
+    if attribute is None:
+        elements.foreach_get(name, values)
+    else:
+        attribute.foreach_get(value, values)
 
 
 def pinned_corners(mesh: bpy.types.Mesh) -> np.ndarray:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the compiled module `spectral_conformal`; the only place that imports it."""
 
+from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
@@ -25,6 +26,12 @@ def spectral_conformal() -> ModuleType:
         NativeModuleError: it is not installed, or made for another platform or Python.
     """
     try:
-        return import_module(_BUNDLED if find_spec(_BUNDLED) else _TOP_LEVEL)
+        return import_module(_name())
     except ImportError as error:
         raise NativeModuleError(texts.no_module(error)) from error
+
+
+@cache
+def _name() -> str:
+    """Return the name by which the module is to be imported; looking for it reaches the disk, once."""
+    return _BUNDLED if find_spec(_BUNDLED) else _TOP_LEVEL

@@ -26,10 +26,9 @@ def face_boxes(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarr
 
     Faces without finite UVs have none.
     """
-    starts = mesh.face_offsets[:-1]
     if not faces.any():
         return np.empty((0, 2, 2))
-    boxes = np.stack([np.minimum.reduceat(uv, starts), np.maximum.reduceat(uv, starts)], axis=1)[faces]
+    boxes = np.stack(mesh.face_bounds(uv), axis=1)[faces]
     return boxes[np.isfinite(boxes).all(axis=(1, 2))]
 
 

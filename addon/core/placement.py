@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .joined import numbered_together
 from .mesh import PolygonMesh, next_corner
 from .solve import Solution
 
@@ -39,6 +40,10 @@ class _Charts:
         """Return the lower and upper corners of the charts' bounding boxes, (K, 2) each."""
         points = uv[self.corners]
         return np.minimum.reduceat(points, self.starts), np.maximum.reduceat(points, self.starts)
+
+    def spread(self, values: np.ndarray) -> np.ndarray:
+        """Return the `values` (K, ...) of the charts for every entry of `corners`; for one chart a row for all."""
+        return values[self.rank] if len(self.starts) > 1 else values
 
     def centred(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return `points` (len(corners), 2) as complex numbers about the charts' means, and the means, (K,)."""
@@ -69,7 +74,7 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> n
     if may_turn:
         size = high - low
         quarters = np.where(size[:, 1] > size[:, 0] * _EQUAL, 3, 0)
-        result[charts.corners] = _turned(result[charts.corners], quarters[charts.rank])
+        result[charts.corners] = _turned(result[charts.corners], charts.spread(quarters))
         low, high = charts.bounds(result)
     # Any magnitude is possible; dividing first keeps squares and sums in range.
     unit = (high - low).max()
@@ -78,7 +83,8 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> n
     gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
     position, side = _shelves(size + gap)
     offset = (position + gap / 2.0) / side
-    result[charts.corners] = (result[charts.corners] - low[charts.rank]) / (unit * side) + offset[charts.rank]
+    moved = (result[charts.corners] - charts.spread(low)) / (unit * side)
+    result[charts.corners] = moved + charts.spread(offset)
     return result
 
 
@@ -225,11 +231,16 @@ def _turned(points: np.ndarray, quarters: np.ndarray) -> np.ndarray:
 
 
 def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
-    """Return the solution's map, (C, 2) float64, with charts that have one pin scaled about it to their former area."""
+    """Return the solution's map, (C, 2), with charts that have one pin scaled about it to their former area.
+
+    Without such charts it is the solution's own array.
+    """
     single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
+    if not single.any():
+        return solution.uv
     chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
     if (chart < 0).all():
-        return np.array(solution.uv, dtype=np.float64)
+        return solution.uv
     return to_former_area(solution.uv, mesh.isotropic_uv(), chart, mesh.usable_pins(), mesh.face_offsets)
 
 
@@ -257,21 +268,14 @@ def place(
     solver turned it: upright. With `may_turn` those that are higher than wide lie.
     """
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
-    chart_counts = [len(solution.charts) for solution in solutions]
-    first_chart = np.concatenate([[0], np.cumsum(chart_counts)])
     uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
-    chart = np.concatenate(
-        [
-            np.where(solution.solved_corners, solution.chart_of_corner + first, -1)
-            for solution, first in zip(solutions, first_chart)
-        ]
-    )
-    former = np.concatenate(
-        [np.zeros((count, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, count in zip(meshes, corner_counts)]
-    )
-    chart = np.where(np.concatenate([solution.pinned_corners for solution in solutions]), -1, chart)
+    chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
+    chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
     without_bounds = 0
     if keep_in_place:
+        former = np.concatenate(
+            [np.zeros((n, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, n in zip(meshes, corner_counts)]
+        )
         uv, kept = into_former_bounds(uv, former, chart)
         without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
         chart = np.where(kept, -1, chart)

@@ -11,13 +11,14 @@ from .mesh import PolygonMesh
 Progress = Callable[[float, str], "bool | None"]
 
 
-def parts(meshes: Sequence[PolygonMesh], progress: Progress | None) -> list[Progress | None]:
-    """Return the progress function of each mesh, all together making `progress`; None for each where that is None."""
-    if progress is None:
-        return [None] * len(meshes)
-    sizes = np.array([max(1, np.count_nonzero(mesh.selected_faces)) for mesh in meshes], dtype=np.float64)
-    ends = np.cumsum(sizes) / sizes.sum()
-    return [_part(progress, end - size, size) for end, size in zip(ends.tolist(), (sizes / sizes.sum()).tolist())]
+def parts(groups: Sequence[Sequence[PolygonMesh]], progress: Progress | None) -> list[Progress | None]:
+    """Return the progress function of each group of meshes, all together making `progress`; None where that is None."""
+    if progress is None or len(groups) == 1:
+        return [progress] * len(groups)
+    faces = [sum(max(1, np.count_nonzero(mesh.selected_faces)) for mesh in group) for group in groups]
+    sizes = np.array(faces, dtype=np.float64) / sum(faces)
+    ends = np.cumsum(sizes)
+    return [_part(progress, end - size, size) for end, size in zip(ends.tolist(), sizes.tolist())]
 
 
 def _part(progress: Progress, start: float, length: float) -> Progress:

@@ -91,7 +91,8 @@ def suggest(
         spectral_conformal.Cancelled: `progress` returned False.
     """
     wanted = preferences or [None] * len(meshes)
-    found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, parts(meshes, progress), wanted)]
+    each = parts([[mesh] for mesh in meshes], progress)
+    found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, each, wanted)]
     cuts = [
         [Cut(index, edges, _length(meshes[index], edges)) for edges in cuts] for index, (cuts, _) in enumerate(found)
     ]

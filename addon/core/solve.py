@@ -8,9 +8,14 @@ from typing import Any
 import numpy as np
 
 from . import native
+from .joined import joined, numbered_together
+from .joined import parts as joined_parts
 from .mesh import PolygonMesh
 from .options import Options
 from .progress import Progress, parts
+
+# Small meshes are joined up to this many corners, a million quads: more would gain nothing and take memory.
+_MAX_JOINED_CORNERS = 4_000_000
 
 
 @dataclass(frozen=True)
@@ -43,36 +48,46 @@ class Solution:
         """(C,) bool, the corners that get new coordinates."""
         return self.chart_of_corner >= 0
 
-    def too_small_faces(self, mesh: PolygonMesh) -> int:
-        """Return how many solved faces shrink so far in their chart that Blender's single precision merges them.
-
-        A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not
-        count.
-        """
-        starts = mesh.face_offsets[:-1]
-        solved = np.flatnonzero(self.solved_corners[starts])
-        if not len(solved):
-            return 0
-        chart = self.chart_of_corner[starts[solved]]
-        image = _part_of_chart(self.uv, starts, solved, chart)
-        original = _part_of_chart(mesh.vertices[mesh.corner_vertices], starts, solved, chart)
-        return int(np.count_nonzero((image < 2.0**-21) & (image < original / 16)))
-
     @property
     def pinned_corners(self) -> np.ndarray:
         """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
         pinned = np.array([chart.n_pins > 0 for chart in self.charts] + [False])
-        return pinned[self.chart_of_corner]
+        return pinned[self.chart_of_corner] if pinned.any() else np.zeros(len(self.chart_of_corner), dtype=bool)
 
 
-def _part_of_chart(positions: np.ndarray, starts: np.ndarray, faces: np.ndarray, chart: np.ndarray) -> np.ndarray:
-    """Return the extent of `faces` as parts of their chart's; `positions` (C, n) of the corners, `starts` (F,)."""
-    low, high = (extreme.reduceat(positions, starts)[faces] for extreme in (np.minimum, np.maximum))
-    chart_low = np.full((chart.max() + 1, positions.shape[1]), np.inf)
-    chart_high = -chart_low
-    np.minimum.at(chart_low, chart, low)
-    np.maximum.at(chart_high, chart, high)
-    return (high - low).max(axis=1) / (chart_high - chart_low).max(axis=1)[chart]
+def too_small_faces(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> int:
+    """Return how many solved faces shrink so far in their chart that Blender's single precision merges them.
+
+    A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not count.
+    """
+    if not meshes:
+        return 0
+    whole = joined(meshes) if len(meshes) > 1 else meshes[0]
+    uv = np.concatenate([solution.uv for solution in solutions])
+    chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
+    chart = chart[whole.face_offsets[:-1]]
+    image = _part_of_chart(uv, whole, chart)
+    small = image < 2.0**-21
+    if not small.any():
+        return 0
+    original = _part_of_chart(whole.vertices[whole.corner_vertices], whole, chart)
+    return int(np.count_nonzero(small & (image < original / 16)))
+
+
+def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray) -> np.ndarray:
+    """Return the extent of the faces of charts as parts of their chart's; `positions` (C, n) of the corners.
+
+    `chart` (F,) is -1 for faces of none; the result has the length of the others, in the order of their charts.
+    """
+    low, high = mesh.face_bounds(positions)
+    if len(chart) and chart[0] >= 0 and (chart == chart[0]).all():
+        return (high - low).max(axis=1) / (high.max(axis=0) - low.min(axis=0)).max()
+    order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
+    low, high, chart = low[order], high[order], chart[order]
+    starts = np.flatnonzero(np.diff(chart, prepend=-1))
+    size = np.maximum.reduceat(high, starts) - np.minimum.reduceat(low, starts) if len(starts) else low
+    rank = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(chart)))
+    return (high - low).max(axis=1) / size.max(axis=1)[rank]
 
 
 def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None) -> Solution:
@@ -85,20 +100,26 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
     """
-    module = native.spectral_conformal()
     try:
-        result = module.unwrap(
-            mesh.vertices,
-            mesh.face_offsets,
-            mesh.corner_vertices,
-            **soft_constraints(mesh, options),
-            **arguments(mesh, options),
-            progress=progress,
-        )
+        return _solution(mesh, _unwrap(mesh, options, progress))
     except ValueError as error:
         corners = len(mesh.corner_vertices)
         refused = np.where(mesh.selected_faces, 0, -1)
         return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), refused, str(error))
+
+
+def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None) -> Any:  # noqa: ANN401 - of the module
+    return native.spectral_conformal().unwrap(
+        mesh.vertices,
+        mesh.face_offsets,
+        mesh.corner_vertices,
+        **soft_constraints(mesh, options),
+        **arguments(mesh, options),
+        progress=progress,
+    )
+
+
+def _solution(mesh: PolygonMesh, result: Any) -> Solution:  # noqa: ANN401 - of the module, or a part of it
     chart_of_corner = result.chart_of_face[mesh.face_of_corner()]
     failed = np.array([chart.status != "solved" for chart in result.charts] + [False])
     return Solution(
@@ -112,7 +133,6 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
 
 def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the keyword arguments that `spectral_conformal.unwrap` and `Unwrapper` share."""
-    stretched = mesh.stretch_direction is not None and options.stretch != 1.0
     return {
         "seam_edges": mesh.seam_edges,
         "selected_faces": mesh.selected_faces,
@@ -123,7 +143,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
         "area_blend": options.area_blend,
         "fold_free": options.fold_free,
         "polish": options.polish,
-        "metric": _stretched_space(mesh, options.stretch) if stretched else None,
+        "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
         **_pins(mesh, options),
     }
 
@@ -147,6 +167,10 @@ def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
     return int(np.count_nonzero(unused & unwrapped[ends].any(axis=1)))
 
 
+def _is_stretched(mesh: PolygonMesh, options: Options) -> bool:
+    return mesh.stretch_direction is not None and options.stretch != 1.0
+
+
 def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
     """Return the metric of the mesh as it would be, stretched in space along its direction, (F, 3, 3) float64.
 
@@ -166,4 +190,40 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
 
 def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
     """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
-    return [solve(mesh, options, part) for mesh, part in zip(meshes, parts(meshes, progress))]
+    groups = _groups(meshes, options)
+    solved = [_solve_group(group, options, part) for group, part in zip(groups, parts(groups, progress))]
+    return [solution for solutions in solved for solution in solutions]
+
+
+def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[PolygonMesh]]:
+    """Return the meshes in their order, those together that can be joined."""
+    groups: list[list[PolygonMesh]] = []
+    room = -1
+    for mesh in meshes:
+        is_alone = _is_to_be_alone(mesh, options)
+        if is_alone or len(mesh.corner_vertices) > room:
+            groups.append([])
+            room = -1 if is_alone else _MAX_JOINED_CORNERS
+        groups[-1].append(mesh)
+        room -= len(mesh.corner_vertices)
+    return groups
+
+
+def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
+    """Return whether a mesh has what must not reach others: constraints, or a vertex that is named by number."""
+    is_constrained = bool(mesh.extenders) or mesh.usable_pins().any() or _is_stretched(mesh, options)
+    return is_constrained or not np.isfinite(mesh.vertices).all()
+
+
+def _solve_group(group: Sequence[PolygonMesh], options: Options, progress: Progress | None) -> list[Solution]:
+    """Return the solution of every mesh of a `group` that can be joined."""
+    if len(group) > 1:
+        try:
+            result = _unwrap(joined(group), options, progress)
+        except ValueError:
+            # One of them is refused, which the others must not suffer from.
+            pass
+        else:
+            return [_solution(mesh, part) for mesh, part in zip(group, joined_parts(group, result))]
+    each = [progress] if len(group) == 1 else parts([[mesh] for mesh in group], progress)
+    return [solve(mesh, options, part) for mesh, part in zip(group, each)]

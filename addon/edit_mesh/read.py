@@ -55,14 +55,19 @@ def read_mesh(
         bm.to_mesh(copy)
         polygons = _read_arrays(copy, all_visible)
         layer = bm.loops.layers.uv.active
+        pinned = None
         if layer is not None and len(polygons.selected_faces):
-            polygons = replace(polygons, pinned_corners=compatibility.pinned_corners(copy))
+            pinned = compatibility.pinned_corners(copy)
             if by_uv_selection:
-                _restrict_to_selected_uvs(polygons, compatibility.selected_uv_corners(bm, layer))
+                _restrict_to_selected_uvs(polygons, pinned, compatibility.selected_uv_corners(bm, layer))
         forces, broken, without_strength = storage.resolve(bm, mesh)
-        polygons = replace(polygons, extenders=tuple(forces), stretch_direction=_active_edge(bm))
-        if correct_aspect:
-            polygons = replace(polygons, aspect=image_aspect.aspect(edit_object, bm))
+        polygons = replace(
+            polygons,
+            pinned_corners=pinned,
+            aspect=image_aspect.aspect(edit_object, bm) if correct_aspect else 1.0,
+            extenders=tuple(forces),
+            stretch_direction=_active_edge(bm),
+        )
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
     finally:
         # Nothing refers to it, so that nothing needs to be searched for references, nor redrawn.
@@ -80,10 +85,10 @@ def _active_edge(bm: BMesh) -> np.ndarray | None:
     return direction / length if np.isfinite(length) and length > 0.0 else None
 
 
-def _restrict_to_selected_uvs(polygons: PolygonMesh, selected_corners: np.ndarray) -> None:
-    """Leave only faces with a selected UV to unwrap, and pin the UVs that are not selected."""
+def _restrict_to_selected_uvs(polygons: PolygonMesh, pinned: np.ndarray, selected_corners: np.ndarray) -> None:
+    """Leave only faces with a selected UV to unwrap, and add the UVs that are not selected to the `pinned` ones."""
     polygons.selected_faces[:] &= np.logical_or.reduceat(selected_corners, polygons.face_offsets[:-1])
-    polygons.pinned_corners[:] |= ~selected_corners
+    pinned |= ~selected_corners
 
 
 def _subdivide(copy: bpy.types.Mesh, edit_object: bpy.types.Object, polygons: PolygonMesh) -> Subdivision | None:
@@ -96,21 +101,15 @@ def _subdivide(copy: bpy.types.Mesh, edit_object: bpy.types.Object, polygons: Po
 
 
 def _read_arrays(mesh: bpy.types.Mesh, all_visible: bool = False) -> PolygonMesh:
-    def attribute(elements: bpy.types.bpy_prop_collection, name: str, dtype: type, columns: int = 1) -> np.ndarray:
-        values = np.empty(len(elements) * columns, dtype=dtype)
-        elements.foreach_get(name, values)
-        return values.reshape(-1, columns) if columns > 1 else values
-
-    uv_map = mesh.uv_layers.active
-    edges = attribute(mesh.edges, "vertices", np.int32, 2)
+    edges = compatibility.edge_vertices(mesh)
+    hidden = compatibility.flags(mesh, "polygons", "hide")
     return PolygonMesh(
-        vertices=attribute(mesh.vertices, "co", np.float32, 3).astype(np.float64),
-        face_offsets=np.append(attribute(mesh.polygons, "loop_start", np.int32), np.int32(len(mesh.loops))),
-        corner_vertices=attribute(mesh.loops, "vertex_index", np.int32),
-        seam_edges=edges[attribute(mesh.edges, "use_seam", bool)],
-        selected_faces=(all_visible | attribute(mesh.polygons, "select", bool))
-        & ~attribute(mesh.polygons, "hide", bool),
-        uv=None if uv_map is None else attribute(uv_map.data, "uv", np.float32, 2).astype(np.float64),
+        vertices=compatibility.positions(mesh).astype(np.float64),
+        face_offsets=compatibility.face_offsets(mesh),
+        corner_vertices=compatibility.corner_vertices(mesh),
+        seam_edges=edges[compatibility.flags(mesh, "edges", "use_seam")],
+        selected_faces=~hidden if all_visible else compatibility.flags(mesh, "polygons", "select") & ~hidden,
+        uv=None if mesh.uv_layers.active is None else compatibility.corner_uv(mesh).astype(np.float64),
     )
 
 

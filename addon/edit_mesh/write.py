@@ -27,11 +27,19 @@ def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: Iterable[tuple[
         loop[layer].uv = point
 
 
-def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray) -> None:
-    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, into the active UV map; touch nothing else."""
+def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: bool = True) -> None:
+    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, into the active UV map; touch nothing else.
+
+    Without `update`, that Blender is told of it is left to the caller.
+    """
     bm, layer = active_uv_layer(edit_mesh.mesh)
-    affected = np.logical_and.reduceat(corners, edit_mesh.polygons.face_offsets[:-1])
-    faces = bm.faces if affected.all() else compress(bm.faces, affected.tolist())
-    u, v = uv[corners].T
-    write_loops(layer, (loop for face in faces for loop in face.loops), zip(u.tolist(), v.tolist()))
-    bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
+    affected = corners[edit_mesh.polygons.face_offsets[:-1]]
+    is_whole = bool(affected.all())
+    u, v = (uv if is_whole else uv[corners]).T
+    # Tuples made one by one: lists of two numbers each, all at once, would set the garbage collector to work.
+    points = zip(u.tolist(), v.tolist())
+    for face in bm.faces if is_whole else compress(bm.faces, affected.tolist()):
+        for loop in face.loops:
+            loop[layer].uv = next(points)
+    if update:
+        bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)

@@ -94,9 +94,11 @@ def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     Looks at all vertices. Where several carry the identifier, as duplicated geometry does, the first one counts. An
     extender both ends of which are one vertex, as only a damaged file has it, counts as having lost the second.
     """
-    layer = _layer(bm, mesh)
     wanted = _ids_of_list(mesh)
-    vertex_ids = _ids_of_vertices(bm, layer) if layer is not None and wanted else np.empty(0, dtype=np.int32)
+    if not wanted:
+        return []
+    layer = _layer(bm, mesh)
+    vertex_ids = _ids_of_vertices(bm, layer) if layer is not None else np.empty(0, dtype=np.int32)
     found = core.first_with(vertex_ids, wanted)
     return [(first, second if second != first else -1) for first, second in zip(found[::2], found[1::2])]
 

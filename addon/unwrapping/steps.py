@@ -12,7 +12,7 @@ from ..core import obstacles, texts
 from ..core.options import Margin, Settings
 from ..core.placement import place
 from ..core.progress import Progress
-from ..core.solve import Solution, solve_all
+from ..core.solve import Solution, solve_all, too_small_faces
 from ..core.summary import Summary, summarize
 from ..edit_mesh import packing, selection
 from ..edit_mesh.read import EditMesh, read_mesh, read_uv
@@ -103,17 +103,13 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
     """Return what extenders and stretching could not do."""
     warnings = [
         texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
-        texts.too_small(sum(map(_too_small_faces, edit_meshes, solutions))),
+        texts.too_small(too_small_faces([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)),
         texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
         texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
         warnings.append(texts.NO_ACTIVE_EDGE)
     return tuple(filter(None, warnings))
-
-
-def _too_small_faces(edit_mesh: EditMesh, solution: Solution) -> int:
-    return solution.too_small_faces(edit_mesh.polygons)
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:
@@ -176,23 +172,26 @@ def read_again(
     return now if same else None
 
 
-@dataclass(frozen=True)
 class _Solved:
-    """A mesh with solved charts, and their UVs, (C, 2), meaningful at the solved corners."""
+    """A mesh with solved charts.
 
-    edit_mesh: EditMesh
-    uv: np.ndarray
-    solution: Solution
+    Attributes:
+        edit_mesh: the mesh.
+        uv: (C, 2), meaningful at the solved corners.
+        corners: (C,) bool, the corners of the solved charts.
+        movable_corners: (C,) bool, those of the solved charts without pins.
+        movable_faces: (F,) bool, the faces of these.
+    """
 
-    @property
-    def movable_corners(self) -> np.ndarray:
-        """(C,) bool, the corners of the solved charts without pins."""
-        return self.solution.solved_corners & ~self.solution.pinned_corners
-
-    @property
-    def movable_faces(self) -> np.ndarray:
-        """(F,) bool, the faces of the solved charts without pins."""
-        return np.logical_and.reduceat(self.movable_corners, self.edit_mesh.polygons.face_offsets[:-1])
+    def __init__(self, edit_mesh: EditMesh, uv: np.ndarray, solution: Solution) -> None:
+        """Take a mesh and what was solved of it."""
+        self.edit_mesh = edit_mesh
+        self.uv = uv
+        self.corners = solution.solved_corners
+        self.movable_corners = self.corners & ~solution.pinned_corners
+        # Charts are made of whole faces.
+        self.movable_faces = self.movable_corners[edit_mesh.polygons.face_offsets[:-1]]
+        self.is_movable = bool(self.movable_faces.any())
 
 
 def _write(
@@ -205,7 +204,9 @@ def _write(
     added = [item.edit_mesh.mesh for item in solved if ensure_uv_map(item.edit_mesh.mesh)]
     try:
         for item in solved:
-            write_uv(item.edit_mesh, item.uv, item.solution.solved_corners)
+            # Blender evaluates every mesh that it is told of before it packs, and again afterwards.
+            is_packed = margin is not None and item.is_movable
+            write_uv(item.edit_mesh, item.uv, item.corners, update=not is_packed)
         return margin is not None and _pack(context, solved, staying, margin)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
@@ -213,13 +214,13 @@ def _write(
             if item.edit_mesh.mesh in added:
                 item.edit_mesh.mesh.uv_layers.remove(item.edit_mesh.mesh.uv_layers.active)
             else:
-                write_uv(item.edit_mesh, item.edit_mesh.polygons.uv, item.solution.solved_corners)
+                write_uv(item.edit_mesh, item.edit_mesh.polygons.uv, item.corners)
         raise
 
 
 def _pack(context: bpy.types.Context, solved: Sequence[_Solved], staying: Sequence[np.ndarray], margin: Margin) -> bool:
     """Pack the charts without pins, off the faces that stay; return whether they had to leave the tile for that."""
-    movable = [item for item in solved if item.movable_corners.any()]
+    movable = [item for item in solved if item.is_movable]
     if not movable:
         return False
     packing.pack(context, [item.edit_mesh for item in movable], [item.movable_faces for item in movable], margin)

@@ -15,6 +15,7 @@ STANDARD = {
     "contextlib",
     "dataclasses",
     "enum",
+    "functools",
     "hashlib",
     "itertools",
     "json",

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 import spectral_conformal
 from spectral_unwrap.core import native
+from spectral_unwrap.core import solve as solving
 from spectral_unwrap.core.mesh import PolygonMesh
 from spectral_unwrap.core.options import Options
 from spectral_unwrap.core.placement import place
-from spectral_unwrap.core.solve import solve
+from spectral_unwrap.core.solve import solve, solve_all, too_small_faces
 
 CUBE_VERTICES = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
 CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
@@ -121,6 +122,9 @@ def broken_bundle(tmp_path, monkeypatch):
     (tmp_path / "spectral_conformal.py").write_text("import _compiled_for_another_platform")
     package = sys.modules["spectral_unwrap"]
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+    native._name.cache_clear()
+    yield
+    native._name.cache_clear()
 
 
 def test_missing_module_says_what_to_install(monkeypatch):
@@ -154,9 +158,102 @@ def test_faces_that_single_precision_merges_are_those_that_shrink():
     solution = solve(mesh, Options())
     assert solution.charts[0].status == "solved"
     # As small in 3D, they lose nothing.
-    assert solution.too_small_faces(mesh) == 0
+    assert too_small_faces([mesh], [solution]) == 0
     even = polygon_mesh([(k // 2, k % 2, 0.0) for k in range(62)], faces)
-    assert solve(even, Options()).too_small_faces(even) == 0
+    assert too_small_faces([even], [solve(even, Options())]) == 0
     small = np.count_nonzero(0.5 ** np.arange(30) < 2.0**-21 * np.ptp(solution.uv, axis=0).max())
-    assert abs(solution.too_small_faces(even) - small) <= 2
+    assert abs(too_small_faces([even], [solution]) - small) <= 2
     assert small > 5
+    # The other mesh of a batch has none, and its faces do not count by this one's chart.
+    cube = separated_cube()
+    batch = [cube, even, cube], [solve(cube, Options()), solution, solve(cube, Options())]
+    assert too_small_faces(*batch) == too_small_faces([even], [solution])
+
+
+def curved_patch(seed, **options):
+    """A patch of 5 x 4 vertices, unlike that of another seed."""
+    rng = np.random.default_rng(seed)
+    vertices = [(x, y, rng.random()) for y in range(4) for x in range(5)]
+    faces = [(5 * r + c, 5 * r + c + 1, 5 * r + c + 6, 5 * r + c + 5) for r in range(3) for c in range(4)]
+    return polygon_mesh(vertices, faces, **options)
+
+
+def degenerate(mesh, faces):
+    """The mesh with some of its faces collapsed to an edge, which no chart can have."""
+    corners = mesh.corner_vertices.reshape(-1, 4).copy()
+    corners[faces, 2:] = corners[faces, :2]
+    return replace(mesh, corner_vertices=corners.ravel())
+
+
+def batch():
+    """Meshes of every kind that a batch can have, between them such as must stay alone."""
+    uv = np.random.default_rng(5).random((48, 2))
+    pins = np.arange(48) < 2
+    not_finite = curved_patch(6)
+    not_finite.vertices[3] = np.nan
+    return [
+        *(curved_patch(0), separated_cube(), polygon_mesh(CUBE_VERTICES, CUBE_FACES)),
+        degenerate(curved_patch(1), [0]),
+        curved_patch(2, selected=[k % 3 > 0 for k in range(12)]),
+        replace(curved_patch(3, uv=uv), pinned_corners=pins, aspect=2.0),
+        curved_patch(4, uv=uv),
+        degenerate(separated_cube(), [2, 3]),
+        replace(curved_patch(5), extenders=((0, 19, 5.0), (0, 1, 0.5))),
+        *(curved_patch(12), not_finite, curved_patch(7), curved_patch(8, seams=[(6, 7), (7, 8)])),
+        replace(curved_patch(9), stretch_direction=np.array([1.0, 0.0, 0.0])),
+        *(curved_patch(10), degenerate(curved_patch(11), [4, 5])),
+    ]
+
+
+def assert_same(together, alone):
+    np.testing.assert_array_equal(together.uv, alone.uv)
+    np.testing.assert_array_equal(together.chart_of_corner, alone.chart_of_corner)
+    np.testing.assert_array_equal(together.failed_islands, alone.failed_islands)
+    assert (together.error, together.unused_extenders) == (alone.error, alone.unused_extenders)
+    assert len(together.charts) == len(alone.charts)
+    for chart, other in zip(together.charts, alone.charts):
+        for name, value in vars(other).items():
+            np.testing.assert_array_equal(getattr(chart, name), value, err_msg=name)
+
+
+@pytest.mark.parametrize("options", [Options(), Options(soft_pins=10.0, polish=False), Options(stretch=2.0)])
+def test_meshes_of_a_batch_are_solved_as_if_alone(options):
+    meshes = batch()
+    for solution, mesh in zip(solve_all(meshes, options), meshes):
+        assert_same(solution, solve(mesh, options))
+
+
+def test_a_batch_calls_the_solver_once_but_for_meshes_with_constraints(monkeypatch):
+    calls = []
+    unwrap = spectral_conformal.unwrap
+
+    def spy(vertices, *arguments, **options):
+        calls.append(len(vertices))
+        return unwrap(vertices, *arguments, **options)
+
+    monkeypatch.setattr(spectral_conformal, "unwrap", spy)
+    solve_all([curved_patch(k) for k in range(30)], Options())
+    assert calls == [600]
+    calls.clear()
+    solve_all(batch(), Options())
+    # What stands between two meshes with constraints, or with a vertex that is no place, goes together.
+    assert calls == [20 + 8 + 8 + 20 + 20, 20, 20 + 8, 20, 20, 20, 20 + 20 + 20 + 20 + 20]
+
+
+def test_a_refused_mesh_leaves_the_others_of_its_batch():
+    refused = polygon_mesh(CUBE_VERTICES[:7], CUBE_FACES)
+    first, second, third = solve_all([separated_cube(), refused, curved_patch(0)], Options())
+    assert "vertex 7" in second.error
+    assert_same(first, solve(separated_cube(), Options()))
+    assert_same(third, solve(curved_patch(0), Options()))
+
+
+def test_the_solver_gets_no_more_at_once_than_the_limit(monkeypatch):
+    monkeypatch.setattr(solving, "_MAX_JOINED_CORNERS", 100)
+    meshes = [curved_patch(k) for k in range(5)]
+    reported = []
+    solutions = solve_all(meshes, Options(), lambda fraction, _phase: reported.append(fraction))
+    for solution, mesh in zip(solutions, meshes):
+        assert_same(solution, solve(mesh, Options()))
+    assert min(reported) == reported[0] == 0.0
+    assert max(reported) == reported[-1] == pytest.approx(1.0)

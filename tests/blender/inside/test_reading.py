@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reading a mesh costs nothing that grows with the file."""
+"""Reading a mesh gives what is there, and costs nothing that grows with the file."""
 
 import importlib
 from types import SimpleNamespace
 
 import bpy
+import numpy as np
 import pytest
 
 from tests.blender.inside import scenes
 
+compatibility = importlib.import_module("spectral_unwrap.compatibility")
 read = importlib.import_module("spectral_unwrap.edit_mesh.read")
 
 
@@ -33,3 +35,45 @@ def test_the_temporary_mesh_goes_without_a_search_of_the_file(use_subsurf, monke
     # By default Blender looks through the whole file for references, and redraws all windows.
     assert [options["do_unlink"] for options in removals] == [False]
     assert {mesh.name for mesh in meshes} == before
+
+
+def element_by_element(mesh, elements, name, dtype):
+    return np.array([getattr(element, name) for element in getattr(mesh, elements)], dtype=dtype)
+
+
+@pytest.mark.parametrize("is_marked", [False, True])
+def test_arrays_are_those_that_the_elements_tell(is_marked):
+    mesh = scenes.grid(3, 2).data
+    for face in mesh.polygons:
+        face.select = is_marked and face.index != 2
+    for index in (1, 5):
+        mesh.edges[index].use_seam = is_marked
+    mesh.polygons[4].hide = is_marked
+    for elements, name in (("edges", "use_seam"), ("polygons", "select"), ("polygons", "hide")):
+        flags = compatibility.flags(mesh, elements, name)
+        assert flags.any() == is_marked
+        np.testing.assert_array_equal(flags, element_by_element(mesh, elements, name, bool))
+    np.testing.assert_array_equal(
+        compatibility.positions(mesh), element_by_element(mesh, "vertices", "co", np.float32), strict=True
+    )
+    np.testing.assert_array_equal(
+        compatibility.edge_vertices(mesh), element_by_element(mesh, "edges", "vertices", np.int32), strict=True
+    )
+    np.testing.assert_array_equal(
+        compatibility.corner_vertices(mesh), element_by_element(mesh, "loops", "vertex_index", np.int32), strict=True
+    )
+    uv = [point.uv for point in mesh.uv_layers.active.data]
+    np.testing.assert_array_equal(compatibility.corner_uv(mesh), np.array(uv, dtype=np.float32), strict=True)
+    assert compatibility.face_offsets(mesh).tolist() == [*range(0, 25, 4)]
+
+
+@pytest.mark.parametrize("name", ["position", ".edge_verts", ".corner_vert", ".hide_poly", "uv_seam", ".uv_seam"])
+def test_an_attribute_of_the_users_is_not_taken_for_one_of_blenders(name):
+    mesh = scenes.grid(3, 2).data
+    # Where the name is taken it is Blender's own.
+    if name not in mesh.attributes:
+        mesh.attributes.new(name, "FLOAT", "CORNER")
+    assert not compatibility.flags(mesh, "edges", "use_seam").any()
+    assert not compatibility.flags(mesh, "polygons", "hide").any()
+    assert compatibility.positions(mesh)[-1].tolist() == [3.0, 2.0, 0.0]
+    assert compatibility.edge_vertices(mesh).max() == compatibility.corner_vertices(mesh).max() == 11

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several meshes as one, so that the solver is called once for all: a call costs as much as a small mesh does."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .mesh import PolygonMesh
+
+
+@dataclass(frozen=True)
+class Part:
+    """What `spectral_conformal.unwrap` returns, as far as it is about one of the meshes."""
+
+    uv: np.ndarray
+    solved_corners: np.ndarray
+    chart_of_face: np.ndarray
+    charts: Sequence[Any]
+    unused_extenders: np.ndarray
+
+
+def joined(meshes: Sequence[PolygonMesh]) -> PolygonMesh:
+    """Return the meshes as one, without what is not about their shape: maps, pins, extenders and stretching.
+
+    Raises:
+        ValueError: one of them names a vertex that it does not have, but another would.
+    """
+    first_vertices = _starts(len(mesh.vertices) for mesh in meshes)
+    first_corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
+    return PolygonMesh(
+        vertices=np.concatenate([mesh.vertices for mesh in meshes]),
+        face_offsets=np.concatenate(
+            [first_corners[:1], *(mesh.face_offsets[1:] + first for mesh, first in zip(meshes, first_corners))]
+        ),
+        corner_vertices=_renumbered([mesh.corner_vertices for mesh in meshes], first_vertices),
+        seam_edges=_renumbered([mesh.seam_edges for mesh in meshes], first_vertices),
+        selected_faces=np.concatenate([mesh.selected_faces for mesh in meshes]),
+    )
+
+
+def _renumbered(vertices: Sequence[np.ndarray], starts: np.ndarray) -> np.ndarray:
+    """Return the vertices of all meshes by their numbers among all vertices, of which those of a mesh have a start."""
+    number = np.concatenate(vertices)
+    counts = [len(part) for part in vertices]
+    first = np.repeat(starts[:-1], counts).reshape(-1, *[1] * (number.ndim - 1))
+    end = np.repeat(np.diff(starts), counts).reshape(first.shape)
+    if (number < 0).any() or (number >= end).any():
+        raise ValueError
+    return number + first
+
+
+def parts(meshes: Sequence[PolygonMesh], result: Any) -> Iterator[Part]:  # noqa: ANN401 - of the native module
+    """Yield what a `result` for the joined meshes, which is used up, says about each of them."""
+    corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
+    faces = _starts(len(mesh.selected_faces) for mesh in meshes)
+    # Charts are numbered by their first face. The last may be of all faces that can be in no chart, of any mesh.
+    *charts, last = result.charts or [None]
+    owners = np.searchsorted(faces, [chart.faces[0] for chart in charts], side="right") - 1
+    first_charts = np.searchsorted(owners, np.arange(len(meshes) + 1))
+    owners_of_last = np.searchsorted(faces, [] if last is None else last.faces, side="right") - 1
+    for k in range(len(meshes)):
+        own = charts[first_charts[k] : first_charts[k + 1]]
+        if (owners_of_last == k).any():
+            own.append(replace(last, faces=last.faces[owners_of_last == k]))
+        for chart in own:
+            chart.faces[:] -= faces[k]
+        number = result.chart_of_face[faces[k] : faces[k + 1]]
+        of_own = np.where(number == len(charts), len(own) - 1, number - first_charts[k])
+        yield Part(
+            result.uv[corners[k] : corners[k + 1]],
+            result.solved_corners[corners[k] : corners[k + 1]],
+            np.where(number < 0, -1, of_own),
+            own,
+            result.unused_extenders,
+        )
+
+
+def numbered_together(charts: Sequence[np.ndarray], counts: Sequence[int]) -> np.ndarray:
+    """Return the chart of every corner of several meshes, given that in each, -1 for none, and how many it has."""
+    if len(charts) == 1:
+        return charts[0].copy()
+    chart = np.concatenate(charts)
+    first = np.repeat(_starts(counts)[:-1], [len(part) for part in charts])
+    return np.where(chart < 0, -1, chart + first)
+
+
+def _starts(counts: Iterable[int]) -> np.ndarray:
+    """Return where each of several parts begins that follow one another, and where the last ends, int32."""
+    return np.cumsum([0, *counts], dtype=np.int32)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many objects at once: each is solved as if alone, and Blender evaluates each once."""
+
+from collections import Counter
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+
+@pytest.fixture
+def updates():
+    """Count how often each mesh was updated, by name, from now on."""
+    counted = Counter()
+
+    def count(_scene, depsgraph):
+        blocks = [update.id.original for update in depsgraph.updates if update.is_updated_geometry]
+        counted.update({block.name for block in blocks if isinstance(block, bpy.types.Mesh)})
+
+    bpy.context.view_layer.update()
+    bpy.app.handlers.depsgraph_update_post.append(count)
+    yield counted
+    bpy.app.handlers.depsgraph_update_post.remove(count)
+
+
+@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+@pytest.mark.parametrize("uv_map", [True, False])
+def test_blender_is_told_of_every_mesh_once(updates, placement, uv_map):
+    edited = [scenes.bumpy_grid(3 + k, 3, name=f"Grid {k}", uv_map=uv_map) for k in range(4)]
+    scenes.edit(*edited)
+    if uv_map:
+        # Pinned as a whole, it is written but not packed.
+        scenes.pin(edited[1], np.arange(8))
+    bpy.context.view_layer.update()
+    updates.clear()
+    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert set(updates) == {item.data.name for item in edited}
+    if uv_map:
+        # The packer tells of those once more that it has not packed.
+        assert [updates[edited[k].data.name] for k in (0, 2, 3)] == [1, 1, 1]
+
+
+def test_objects_are_unwrapped_together_as_one_by_one():
+    shapes = (lambda: scenes.bumpy_grid(5, 4), scenes.cylinder, lambda: scenes.cube(all_seams=True))
+    together = [make() for make in shapes for _ in range(3)]
+    scenes.edit(*together)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    maps = [scenes.read_uv(item) for item in together]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for item, uv in zip(together, maps):
+        scenes.edit(item)
+        assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+        alone = scenes.read_uv(item)
+        # Packed elsewhere and to another scale, the islands are the same.
+        charts = np.arange(len(uv)).reshape(6, 4) if len(uv) == 24 else [np.arange(len(uv))]
+        for corners in charts:
+            np.testing.assert_allclose(
+                scenes.normalized(uv[corners][:40]), scenes.normalized(alone[corners][:40]), atol=1e-5
+            )
+        bpy.ops.object.mode_set(mode="OBJECT")
