@@ -13,7 +13,7 @@ import numpy as np
 from tests.interface import driving as drive
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
-SIZE = 600  # faces along a side: 361201 vertices
+SIZE = 1000  # faces along a side: 1002001 vertices
 
 
 def open_landscape():

@@ -66,8 +66,8 @@ TEST_CASE("solvers of two threads give what they give alone") {
   }
 }
 
-TEST_CASE("a factorisation that takes two BLAS threads and small solves at once") {
-  // From 40,000 vertices on CHOLMOD gets two threads, which only one factorisation may have at a time.
+TEST_CASE("a factorisation that is shared by threads and small solves at once") {
+  // Large enough for SupernodalFactor to begin more threads.
   const Mesh large = bumpy_grid(205, 200);
   const Mesh small = perforated_grid(20, 20);
   const auto map = [&](const Mesh& mesh) {
@@ -92,6 +92,20 @@ TEST_CASE("unwraps of one mesh in two threads") {
   const auto expected = unwrap(mesh.view(), options, {}).uv;
   const auto solve = [&] { CHECK(unwrap(mesh.view(), options, {}).uv == expected); };
   at_once({solve, solve});
+}
+
+TEST_CASE("islands that threads share get the maps that they get alone") {
+  const Mesh island = quad_grid(13, 12);
+  Mesh many = island;
+  for (int k = 1; k < 15; ++k) many.append(island);  // enough faces for ChartLoop to begin more threads
+  const auto alone = unwrap(island.view(), {}, {}).uv;
+  const UnwrapOptions options;
+  Unwrapper unwrapper(many.view(), options);
+  for (const auto& uv : {unwrap(many.view(), {}, {}).uv,
+                         unwrapper.solve({}, options.solve.hole_rigidity, options.solve.tolerance, {}).uv}) {
+    REQUIRE(uv.rows() == 15 * alone.rows());
+    for (Eigen::Index k = 0; k < 15; ++k) CHECK(uv.middleRows(k * alone.rows(), alone.rows()) == alone);
+  }
 }
 
 TEST_CASE("seams of two meshes in two threads") {

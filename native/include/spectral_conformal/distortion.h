@@ -27,6 +27,8 @@ struct Distortion {
   double log2_scale_deviation = 0;  ///< standard deviation of log2_scale, weighted by the area in 3D
   int turning_number = 0;           ///< of the outer loop of the largest chart; only from measure_mesh_distortion
   std::vector<bool> overlapping;    ///< (F,) covers another triangle; only from measure_mesh_distortion
+
+  int n_flipped() const;  ///< triangles
 };
 
 /// positions (V, 3), triangles (F) consistently wound, triangle_weights (F,) as in quad_splits, or empty for 1, z (V,)

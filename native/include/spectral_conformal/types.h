@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <complex>
 #include <map>
 #include <vector>
@@ -11,6 +12,15 @@ namespace spectral_conformal {
 constexpr double pi = 3.14159265358979323846;  // std::numbers::pi of C++20
 
 using Complex = std::complex<double>;
+
+/// |z|. std::abs takes several times as long, to serve numbers whose squares overflow or vanish as well.
+inline double modulus(Complex z) {
+  constexpr double least = 1e-290;
+  constexpr double largest = 1e290;
+  const double square = std::norm(z);
+  return square > least && square < largest ? std::sqrt(square) : std::abs(z);
+}
+
 /// One complex number u + i v per vertex.
 using ComplexVector = Eigen::VectorXcd;
 /// (V, 3), one position per row.

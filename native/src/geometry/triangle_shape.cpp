@@ -19,8 +19,8 @@ double TriangleShape::relative_height() const {
 }
 
 double TriangleShape::quasi_conformal_distortion(Complex d1, Complex d2) const {
-  const double conformal = std::abs(holomorphic_part(d1, d2));
-  const double anticonformal = std::abs(antiholomorphic_part(d1, d2));
+  const double conformal = modulus(holomorphic_part(d1, d2));
+  const double anticonformal = modulus(antiholomorphic_part(d1, d2));
   const double smaller = std::abs(conformal - anticonformal);
   return smaller > 0 ? (conformal + anticonformal) / smaller : std::numeric_limits<double>::infinity();
 }

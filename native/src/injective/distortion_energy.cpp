@@ -37,7 +37,7 @@ struct Density {
 };
 
 /// sqrt(c^2 - 1 + smoothing^2) of DistortionMeasure::quasi_conformal.
-double smoothed_anisotropy(const MapJacobian& j, double smoothing) { return std::hypot(j.anisotropy(), smoothing); }
+double smoothed_anisotropy(const MapJacobian& j, double smoothing) { return modulus({j.anisotropy(), smoothing}); }
 
 Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j, double smoothing) {
   if (std::isinf(element.regularization)) return {2 * j.half_square, 2, 0};

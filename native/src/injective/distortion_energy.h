@@ -20,10 +20,9 @@ enum class DistortionMeasure {
   /// s1 / s2 + s2 / s1: 2 where angles are kept, at any scale (Hormann and Greiner, MIPS: An Efficient Global
   /// Parametrization Method, 2000).
   conformal,
-  /// s1 / s2, the quasi-conformal distortion QC: 1 where angles are kept, at any scale. With c = (s1 / s2 + s2 / s1) /
-  /// 2
-  /// it is c + sqrt(c^2 - 1), which has a kink at similarities; smoothed, c + sqrt(c^2 - 1 + smoothing^2). Elements
-  /// without a barrier have the conformal measure instead.
+  /// s1 / s2, the quasi-conformal distortion QC: 1 where angles are kept, at any scale. With
+  /// c = (s1 / s2 + s2 / s1) / 2 it is c + sqrt(c^2 - 1), which has a kink at similarities; smoothed,
+  /// c + sqrt(c^2 - 1 + smoothing^2). Elements without a barrier have the conformal measure instead.
   quasi_conformal
 };
 
@@ -56,7 +55,7 @@ struct MapJacobian {
   double half_square;
   double determinant;
   /// sqrt(c^2 - 1), half of s1 / s2 - s2 / s1: without cancellation near similarities.
-  double anisotropy() const { return 2 * std::abs(holomorphic) * std::abs(antiholomorphic) / determinant; }
+  double anisotropy() const { return 2 * modulus(holomorphic) * modulus(antiholomorphic) / determinant; }
   bool has_area() const { return determinant > min_determinant * half_square && determinant > min_squared_scale; }
 };
 

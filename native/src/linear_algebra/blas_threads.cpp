@@ -11,24 +11,24 @@
 #include <dlfcn.h>
 #endif
 
-// LAPACK, Fortran linkage. Its address tells which library serves CHOLMOD; on Windows without dllimport it would be
-// that of a stub in our own module.
+// BLAS, Fortran linkage. Its address tells which library serves CHOLMOD; on Windows without dllimport it would be that
+// of a stub in our own module. No other file may declare it without: files are compiled together.
 #ifdef _WIN32
-extern "C" __declspec(dllimport) void zpotrf_(const char*, const int*, void*, const int*, int*);
+extern "C" __declspec(dllimport) void zscal_(const int*, const void*, void*, const int*);
 #else
-extern "C" void zpotrf_(const char*, const int*, void*, const int*, int*);
+extern "C" void zscal_(const int*, const void*, void*, const int*);
 #endif
 
 namespace spectral_conformal {
 namespace {
 
-/// The loaded library that defines zpotrf_. It stays loaded: CHOLMOD is linked to it.
+/// The loaded library that defines zscal_. It stays loaded: CHOLMOD is linked to it.
 #ifdef _WIN32
 class BlasFile {
  public:
   BlasFile() {
     constexpr DWORD flags = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
-    if (GetModuleHandleExA(flags, reinterpret_cast<LPCSTR>(&zpotrf_), &handle_) == 0) handle_ = nullptr;
+    if (GetModuleHandleExA(flags, reinterpret_cast<LPCSTR>(&zscal_), &handle_) == 0) handle_ = nullptr;
   }
   std::string name() const {
     char name[MAX_PATH];
@@ -46,7 +46,7 @@ class BlasFile {
  public:
   BlasFile() {
     Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&zpotrf_), &info) == 0 || info.dli_fname == nullptr) return;
+    if (dladdr(reinterpret_cast<const void*>(&zscal_), &info) == 0 || info.dli_fname == nullptr) return;
     name_ = info.dli_fname;
     handle_ = dlopen(info.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
   }
@@ -95,24 +95,15 @@ const OpenBlas& open_blas() {
 
 /// Who holds the process-wide setting: as much one for the process as the setting itself.
 struct Holders {
-  std::shared_mutex gate;  ///< shared by holders of one thread
+  std::shared_mutex gate;  ///< shared where several may hold at once
   std::mutex counting;     ///< for what follows
   int count = 0;
   int before = 0;  ///< the setting that the first of them found
-  int fixed = 0;   ///< what the first of them set
 };
 
 Holders& holders() {
   static Holders of_process;
   return of_process;
-}
-
-/// Whether OpenBLAS keeps one setting for all threads of the process, and may be called by several of them at once.
-/// Built with OpenMP (2), the thread that sets the number has one of its own; built without threads (0), two calls at
-/// once share their buffers.
-bool serves_many() {
-  constexpr int with_its_own_threads = 1;
-  return open_blas().get_parallel == nullptr || open_blas().get_parallel() == with_its_own_threads;
 }
 
 }  // namespace
@@ -126,7 +117,7 @@ void set_blas_thread_setting(int threads) {
   if (open_blas().has_threads()) open_blas().set_num_threads(threads);
 }
 
-BlasThreads::BlasThreads(Count count) : is_alone_(count == Count::two || !serves_many()) {
+BlasThreads::BlasThreads() : is_alone_(!serves_many()) {
   if (!open_blas().has_threads()) return;
   Holders& all = holders();
   if (is_alone_) {
@@ -137,8 +128,7 @@ BlasThreads::BlasThreads(Count count) : is_alone_(count == Count::two || !serves
   const std::lock_guard<std::mutex> lock(all.counting);
   if (all.count++ > 0) return;
   all.before = open_blas().get_num_threads();
-  all.fixed = count == Count::two ? 2 : 1;
-  if (all.before != all.fixed) open_blas().set_num_threads(all.fixed);
+  if (all.before != 1) open_blas().set_num_threads(1);
 }
 
 BlasThreads::~BlasThreads() {
@@ -146,14 +136,21 @@ BlasThreads::~BlasThreads() {
   Holders& all = holders();
   {
     const std::lock_guard<std::mutex> lock(all.counting);
-    const bool is_ours = --all.count == 0 && open_blas().get_num_threads() == all.fixed;
-    if (is_ours && all.before != all.fixed) open_blas().set_num_threads(all.before);
+    const bool is_ours = --all.count == 0 && open_blas().get_num_threads() == 1;
+    if (is_ours && all.before != 1) open_blas().set_num_threads(all.before);
   }
   if (is_alone_) {
     all.gate.unlock();
   } else {
     all.gate.unlock_shared();
   }
+}
+
+bool BlasThreads::serves_many() {
+  // Built with OpenMP (2), the thread that sets the number has one of its own; built without threads (0), two calls at
+  // once share their buffers.
+  constexpr int with_its_own_threads = 1;
+  return open_blas().get_parallel == nullptr || open_blas().get_parallel() == with_its_own_threads;
 }
 
 std::string blas_library() {
@@ -169,8 +166,9 @@ namespace spectral_conformal {
 
 std::optional<int> blas_thread_setting() { return std::nullopt; }
 void set_blas_thread_setting(int) {}
-BlasThreads::BlasThreads(Count) : is_alone_(false) {}
+BlasThreads::BlasThreads() : is_alone_(false) {}
 BlasThreads::~BlasThreads() = default;
+bool BlasThreads::serves_many() { return true; }
 std::string blas_library() { return ""; }
 
 }  // namespace spectral_conformal

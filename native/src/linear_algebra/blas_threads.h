@@ -19,17 +19,19 @@ std::optional<int> blas_thread_setting();
 /// Changes it, for the whole process; without effect where there is none.
 void set_blas_thread_setting(int threads);
 
-/// Fixes OpenBLAS's number of threads while the object lives, and puts the process's own number back when the last of
-/// them ends, however it ends; a number that somebody else set in between is kept. May be held by several threads at
-/// once, which wait for each other where needed: any number of holders of one thread, or one of two. A holder must not
-/// construct another one. Without effect with another BLAS.
+/// Fixes OpenBLAS's number of threads at one while the object lives, and puts the process's own number back when the
+/// last of them ends, however it ends; a number that somebody else set in between is kept. May be held by several
+/// threads at once, which wait for each other unless the BLAS serves many. A holder must not construct another one.
+/// Without effect with another BLAS. A second thread of the BLAS itself would spin while it waits and stall where the
+/// other core is busy; a factorisation works on several subtrees at once instead (supernodal_factor.h).
 class BlasThreads {
  public:
-  enum class Count { one, two };
-  explicit BlasThreads(Count count);
+  BlasThreads();
   ~BlasThreads();
   BlasThreads(const BlasThreads&) = delete;
   BlasThreads& operator=(const BlasThreads&) = delete;
+  /// Whether the BLAS keeps one setting for all threads of the process, and may be called by several of them at once.
+  static bool serves_many();
 
  private:
   [[maybe_unused]] bool is_alone_;  ///< holds the lock alone

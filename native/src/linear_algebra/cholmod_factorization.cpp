@@ -6,21 +6,13 @@
 
 #include <cholmod.h>
 
-#include <algorithm>
 #include <limits>
 #include <new>
-#include <utility>
 #include <vector>
 
 #include "linear_algebra/blas_threads.h"
+#include "linear_algebra/supernodal_factor.h"
 #include "spectral_conformal/errors.h"
-
-// BLAS, Fortran linkage.
-extern "C" {
-void ztrsv_(const char*, const char*, const char*, const int*, const void*, const int*, void*, const int*);
-void zgemv_(const char*, const int*, const int*, const void*, const void*, const int*, const void*, const int*,
-            const void*, void*, const int*);
-}
 
 namespace spectral_conformal {
 namespace {
@@ -33,151 +25,87 @@ class CholmodFactorization final : public Factorization {
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.postorder = 1;
   }
-  ~CholmodFactorization() override {
-    cholmod_free_factor(&factor_, &common_);
-    cholmod_finish(&common_);
-  }
+  ~CholmodFactorization() override { cholmod_finish(&common_); }
   CholmodFactorization(const CholmodFactorization&) = delete;
   CholmodFactorization& operator=(const CholmodFactorization&) = delete;
 
   void analyze(const HermitianMatrix& matrix) override {
-    cholmod_free_factor(&factor_, &common_);
     // Below, AMD alone is faster than AMD and METIS, of which CHOLMOD by itself takes the better: with 535,000 vertices
-    // 8.2 against 8.3 s. Beyond, METIS saves more than it costs, and memory (0.71 instead of 1.08 GB).
+    // and CHOLMOD's own factorisation 8.2 against 8.3 s. Beyond, METIS saves memory (0.71 instead of 1.08 GB).
     constexpr Eigen::Index compare_from = 600000;
     common_.nmethods = matrix.rows() < compare_from ? 1 : 0;
     common_.method[0].ordering = CHOLMOD_AMD;
     cholmod_sparse view = view_of(matrix);
-    factor_ = cholmod_analyze(&view, &common_);
+    cholmod_factor* symbolic = cholmod_analyze(&view, &common_);
     check();
-    supernode_of_.resize(factor_->n);
-    all_.resize(factor_->nsuper);
-    int max_rows = 0;
-    for (int k = 0; k < static_cast<int>(factor_->nsuper); ++k) {
-      all_[k] = k;
-      max_rows = std::max(max_rows, rows(k));
-      for (int column = first_column(k); column < first_column(k + 1); ++column) supernode_of_[column] = k;
+    try {
+      factor_.analyze(matrix, structure_of(*symbolic));
+    } catch (...) {
+      cholmod_free_factor(&symbolic, &common_);
+      throw;
     }
-    work_.setZero(static_cast<Eigen::Index>(factor_->n));
-    below_.resize(max_rows);
+    cholmod_free_factor(&symbolic, &common_);
+    all_ = factor_.whole();
+    work_.setZero(factor_.n());
   }
 
-  bool factorize(const HermitianMatrix& matrix) override {
-    // A second thread gains a third on idle cores from here on; on smaller fronts it gains nothing, and stalls while
-    // the other core is busy.
-    constexpr std::size_t two_from = 40000;
-    const BlasThreads threads(factor_->n < two_from ? BlasThreads::Count::one : BlasThreads::Count::two);
-    cholmod_sparse view = view_of(matrix);
-    cholmod_factorize(&view, factor_, &common_);
-    if (common_.status == CHOLMOD_NOT_POSDEF) return false;
-    check();
-    return true;
-  }
+  bool factorize(const HermitianMatrix& matrix) override { return factor_.factorize(matrix); }
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
-    const BlasThreads threads(BlasThreads::Count::one);
-    const int* order = permutation();
-    for (std::size_t i = 0; i < factor_->n; ++i) work_[static_cast<Eigen::Index>(i)] = b[order[i]];
-    forward(all_);
-    backward(all_);
+    const BlasThreads threads;
+    for (Eigen::Index i = 0; i < work_.size(); ++i) work_[i] = b[factor_.order()[i]];
+    factor_.forward(all_, work_);
+    factor_.backward(all_, work_);
     permute_back(x);
   }
 
   void select(std::vector<int> vertices) override {
-    std::vector<int> index(factor_->n);
-    for (std::size_t i = 0; i < factor_->n; ++i) index[permutation()[i]] = static_cast<int>(i);
+    std::vector<int> index(static_cast<std::size_t>(factor_.n()));
+    for (int i = 0; i < factor_.n(); ++i) index[factor_.order()[i]] = i;
     selected_.clear();
     for (const int vertex : vertices) selected_.push_back(index[vertex]);
-    // Everything above the selected vertices in the elimination tree of supernodes.
-    std::vector<char> reached(factor_->nsuper, 0);
-    for (const int column : selected_) {
-      for (int k = supernode_of_[column]; k >= 0 && !reached[k]; k = parent(k)) reached[k] = 1;
-    }
-    reached_.clear();
-    for (std::size_t k = 0; k < factor_->nsuper; ++k) {
-      if (reached[k]) reached_.push_back(static_cast<int>(k));
-    }
+    reached_ = factor_.above(selected_);
   }
 
   void solve_selected(const ComplexVector& b, ComplexVector& x) override {
-    const BlasThreads threads(BlasThreads::Count::one);
-    for (const int k : reached_) work_.segment(first_column(k), columns(k)).setZero();
+    const BlasThreads threads;
+    for (const int k : reached_.supernodes()) {
+      work_.segment(factor_.first_column(k), factor_.first_column(k + 1) - factor_.first_column(k)).setZero();
+    }
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
-    forward(reached_);
-    backward(reached_);
+    factor_.forward(reached_, work_);
+    factor_.backward(reached_, work_);
     x.resize(b.size());
     for (Eigen::Index i = 0; i < b.size(); ++i) x[i] = work_[selected_[i]];
   }
 
   void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
-    const BlasThreads threads(BlasThreads::Count::one);
+    const BlasThreads threads;
     work_.setZero();
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
-    forward(reached_);
-    backward(all_);
+    factor_.forward(reached_, work_);
+    factor_.backward(all_, work_);
     permute_back(x);
   }
 
-  double factor_nonzeros() const override { return static_cast<double>(factor_->xsize); }
+  double factor_nonzeros() const override { return factor_.nonzeros(); }
 
  private:
-  // Supernode k: a dense column-major block of rows(k) x columns(k), lower triangular at the top; the rows below it are
-  // named by row_indices(k). CHOLMOD's User Guide, section "The cholmod_factor object".
-  const int* permutation() const { return static_cast<const int*>(factor_->Perm); }
-  int first_column(int k) const { return static_cast<const int*>(factor_->super)[k]; }
-  int columns(int k) const { return first_column(k + 1) - first_column(k); }
-  int rows(int k) const {
-    const int* start = static_cast<const int*>(factor_->pi);
-    return start[k + 1] - start[k];
-  }
-  const int* row_indices(int k) const {
-    return static_cast<const int*>(factor_->s) + static_cast<const int*>(factor_->pi)[k];
-  }
-  const Complex* block(int k) const {
-    return static_cast<const Complex*>(factor_->x) + static_cast<const int*>(factor_->px)[k];
-  }
-  int parent(int k) const { return rows(k) == columns(k) ? -1 : supernode_of_[row_indices(k)[columns(k)]]; }
-
-  /// work <- L^-1 work over the given supernodes, ascending.
-  void forward(const std::vector<int>& supernodes) {
-    constexpr int one = 1;
-    const Complex unit(1);
-    const Complex zero(0);
-    for (const int k : supernodes) {
-      const int width = columns(k);
-      const int height = rows(k);
-      const int below = height - width;
-      Complex* const own = work_.data() + first_column(k);
-      ztrsv_("L", "N", "N", &width, block(k), &height, own, &one);
-      if (below == 0) continue;
-      zgemv_("N", &below, &width, &unit, block(k) + width, &height, own, &one, &zero, below_.data(), &one);
-      const int* const target = row_indices(k) + width;
-      for (int i = 0; i < below; ++i) work_[target[i]] -= below_[i];
-    }
-  }
-
-  /// work <- L^-H work over the given supernodes, descending; closed under parents.
-  void backward(const std::vector<int>& supernodes) {
-    constexpr int one = 1;
-    const Complex minus(-1);
-    const Complex unit(1);
-    for (auto k = supernodes.rbegin(); k != supernodes.rend(); ++k) {
-      const int width = columns(*k);
-      const int height = rows(*k);
-      const int below = height - width;
-      Complex* const own = work_.data() + first_column(*k);
-      if (below > 0) {
-        const int* const source = row_indices(*k) + width;
-        for (int i = 0; i < below; ++i) below_[i] = work_[source[i]];
-        zgemv_("C", &below, &width, &minus, block(*k) + width, &height, below_.data(), &one, &unit, own, &one);
-      }
-      ztrsv_("L", "C", "N", &width, block(*k), &height, own, &one);
-    }
+  /// CHOLMOD's User Guide, section "The cholmod_factor object".
+  static SupernodalStructure structure_of(const cholmod_factor& symbolic) {
+    const auto* const order = static_cast<const int*>(symbolic.Perm);
+    const auto* const first_column = static_cast<const int*>(symbolic.super);
+    const auto* const first_row = static_cast<const int*>(symbolic.pi);
+    const auto* const rows = static_cast<const int*>(symbolic.s);
+    return {{order, order + symbolic.n},
+            {first_column, first_column + symbolic.nsuper + 1},
+            {first_row, first_row + symbolic.nsuper + 1},
+            {rows, rows + first_row[symbolic.nsuper]}};
   }
 
   void permute_back(ComplexVector& x) const {
     x.resize(work_.size());
-    for (Eigen::Index i = 0; i < work_.size(); ++i) x[permutation()[i]] = work_[i];
+    for (Eigen::Index i = 0; i < work_.size(); ++i) x[factor_.order()[i]] = work_[i];
   }
 
   static cholmod_sparse view_of(const HermitianMatrix& matrix) {
@@ -207,13 +135,11 @@ class CholmodFactorization final : public Factorization {
   }
 
   cholmod_common common_{};
-  cholmod_factor* factor_ = nullptr;
-  std::vector<int> supernode_of_;  ///< of each column
-  std::vector<int> all_;           ///< supernodes
-  std::vector<int> selected_;      ///< columns
-  std::vector<int> reached_;       ///< supernodes from the selected columns to the root, ascending
-  ComplexVector work_;             ///< in the factor's order
-  ComplexVector below_;            ///< rows below one supernode's triangle
+  SupernodalFactor factor_;
+  SupernodalFactor::Path all_;
+  std::vector<int> selected_;       ///< columns
+  SupernodalFactor::Path reached_;  ///< from the selected columns
+  ComplexVector work_;              ///< in the factor's order
 };
 
 }  // namespace

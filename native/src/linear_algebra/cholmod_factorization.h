@@ -10,9 +10,10 @@ namespace spectral_conformal {
 /// Whether the module was built with CHOLMOD.
 bool has_cholmod();
 
-/// SuiteSparse CHOLMOD's supernodal L L^H (Chen, Davis, Hager and Rajamanickam, Algorithm 887, 2008), whose blocks the
-/// solves go through by BLAS themselves: CHOLMOD's own solve allocates, and cannot stop at selected vertices. Throws
-/// std::invalid_argument without CHOLMOD.
+/// A supernodal L L^H whose order and structure SuiteSparse CHOLMOD finds (Chen, Davis, Hager and Rajamanickam,
+/// Algorithm 887, 2008), and whose numbers are supernodal_factor.h: CHOLMOD's own factorisation goes through the
+/// supernodes one after the other and keeps complex numbers where all are real, its solve allocates and cannot stop at
+/// selected vertices. Throws std::invalid_argument without CHOLMOD.
 std::unique_ptr<Factorization> make_cholmod_factorization();
 
 /// CHOLMOD's version, such as "3.0.14"; "" without it.

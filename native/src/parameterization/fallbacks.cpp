@@ -13,11 +13,11 @@ namespace {
 constexpr double min_relative_height = 1e-5;
 
 /// Smaller is better: flipped triangles, then mean QC.
-using Cost = std::tuple<std::ptrdiff_t, double>;
+using Cost = std::tuple<int, double>;
 
 Cost cost_of(const NormalizedPatch& patch, const ComplexVector& z) {
   const Distortion distortion = chart_distortion(patch, z);
-  return {std::count(distortion.flipped.begin(), distortion.flipped.end(), true), distortion.mean_qc};
+  return {distortion.n_flipped(), distortion.mean_qc};
 }
 
 /// The rejected map unfolded, or an embedding. Empty where neither can be had without going round a vertex twice.

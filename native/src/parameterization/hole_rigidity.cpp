@@ -1,7 +1,6 @@
 #include "parameterization/hole_rigidity.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -16,15 +15,14 @@ constexpr double least_rigidity = 1e-3;
 constexpr double hardly_distorted = 1.02;
 
 struct Quality {
-  std::ptrdiff_t flipped = 0;
+  int flipped = 0;
   double mean_qc = 0;
   double max_qc = 0;
 };
 
 Quality quality_of(const NormalizedPatch& patch, const ComplexVector& z) {
   const Distortion distortion = chart_distortion(patch, z);
-  return {std::count(distortion.flipped.begin(), distortion.flipped.end(), true), distortion.mean_qc,
-          distortion.max_qc};
+  return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc};
 }
 
 std::vector<double> lowered_from(double rigidity) {

@@ -23,10 +23,6 @@ namespace {
 
 bool is_attracted(const SolveOptions& options) { return options.method == Method::spectral && options.soft_pins > 0; }
 
-std::ptrdiff_t n_flipped(const Distortion& distortion) {
-  return std::count(distortion.flipped.begin(), distortion.flipped.end(), true);
-}
-
 void take(SpectralMap&& map, Parameterization& result) {
   result.z = std::move(map.z);
   result.eigenvalue = map.eigenvalue;
@@ -171,7 +167,7 @@ SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, cons
       const int steps = spectral.polish(*with_free_holes, progress, result.timings);
       const Distortion rigid = chart_distortion(patch, map.z);
       const Distortion free = chart_distortion(patch, with_free_holes->z);
-      if (free.mean_qc < rigid.mean_qc && n_flipped(free) <= n_flipped(rigid)) {
+      if (free.mean_qc < rigid.mean_qc && free.n_flipped() <= rigid.n_flipped()) {
         map = std::move(*with_free_holes);
         result.hole_rigidity = 0;
         result.polish_steps = steps;

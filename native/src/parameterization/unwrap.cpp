@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "conformal/conformal_energy.h"
+#include "graph/parallel_calls.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
 #include "parameterization/chart_metric.h"
@@ -75,32 +77,37 @@ class ChartUnwrapper {
     }
   }
 
-  /// Solves and writes the corners' places to `result`; the extenders that act are no longer unused.
-  UnwrappedChart solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
-                       double tolerance, const Progress& progress, Unwrap& result) {
-    UnwrappedChart report = report_;
-    if (!solver_) return report;
+  /// A map of the chart, where there is one.
+  struct Solution {
+    UnwrappedChart report;
+    ComplexVector z;
+    std::vector<std::size_t> acting;  ///< extenders
+  };
+
+  Solution solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
+                 const Progress& progress) {
+    Solution result{report_, {}, {}};
+    UnwrappedChart& report = result.report;
+    if (!solver_) return result;
     try {
       SolveOptions options = options_;
       options.tolerance = tolerance;
-      std::vector<std::size_t> acting;
       if (report.method == Method::spectral) {
         options.hole_rigidity = hole_rigidity;
-        options.extenders = own(extenders, acting);
+        options.extenders = own(extenders, result.acting);
       }
-      const Parameterization solution = solver_->solve(options, pins_, progress);
+      Parameterization solution = solver_->solve(options, pins_, progress);
       static_cast<SolveRecord&>(report) = solution;
-      report.solved = true;
       measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
       report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
-      for (const std::size_t k : acting) result.unused_extenders[k] = false;
-      write(report.faces, solution.z, result);
+      report.solved = true;
+      result.z = std::move(solution.z);
     } catch (const InvalidMesh& problem) {
       report.message = problem.what();
     } catch (const SolveFailure& problem) {
       report.message = problem.what();
     }
-    return report;
+    return result;
   }
 
  private:
@@ -135,16 +142,6 @@ class ChartUnwrapper {
     return result;
   }
 
-  void write(const std::vector<int>& faces, const ComplexVector& z, Unwrap& result) const {
-    for (const int face : faces) {
-      for (int c = cut_.mesh.face_offsets[face]; c < cut_.mesh.face_offsets[face + 1]; ++c) {
-        const Complex uv = z[cut_.decomposition.chart_vertex_of_corner[c]];
-        result.uv.row(c) << uv.real(), uv.imag();
-        result.solved_corners[c] = true;
-      }
-    }
-  }
-
   const Cut& cut_;
   Chart chart_;
   UnwrappedChart report_;  ///< before a solve
@@ -153,6 +150,21 @@ class ChartUnwrapper {
   std::unique_ptr<Solver> solver_;                   ///< null where the chart cannot be solved
   std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
 };
+
+/// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused.
+void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result) {
+  if (solution.report.solved) {
+    for (const std::size_t k : solution.acting) result.unused_extenders[k] = false;
+    for (const int face : solution.report.faces) {
+      for (int c = cut.mesh.face_offsets[face]; c < cut.mesh.face_offsets[face + 1]; ++c) {
+        const Complex uv = solution.z[cut.decomposition.chart_vertex_of_corner[c]];
+        result.uv.row(c) << uv.real(), uv.imag();
+        result.solved_corners[c] = true;
+      }
+    }
+  }
+  result.charts.push_back(std::move(solution.report));
+}
 
 /// A result without its charts.
 Unwrap empty_result(const Cut& cut, std::size_t n_extenders) {
@@ -177,21 +189,65 @@ void add_degenerate_faces(const Cut& cut, Unwrap& result) {
   result.charts.push_back(std::move(unusable));
 }
 
-/// The fraction of the work that each chart takes, by faces: where it begins and ends, 0 to 1. About a twentieth goes
-/// into cutting the mesh into charts.
-std::vector<std::pair<double, double>> work_fractions(const std::vector<Chart>& charts) {
-  constexpr double cutting = 0.05;
-  double total = 1e-9;  // no charts: no division by zero
-  for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
-  std::vector<std::pair<double, double>> result;
-  double done = 0;
-  for (const Chart& chart : charts) {
-    const double fraction = static_cast<double>(chart.faces.size()) / total;
-    result.push_back({cutting + (1 - cutting) * done, cutting + (1 - cutting) * (done + fraction)});
-    done += fraction;
+/// Goes through all charts, small ones in several threads at once, large ones one after the other.
+class ChartLoop {
+ public:
+  explicit ChartLoop(const std::vector<Chart>& charts) {
+    constexpr double cutting = 0.05;  // of the work, which is counted by faces, to make the charts
+    double total = 1e-9;              // no charts: no division by zero
+    for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
+    double done = 0;
+    end_.push_back(cutting);
+    for (const Chart& chart : charts) {
+      n_faces_.push_back(chart.faces.size());
+      done += static_cast<double>(chart.faces.size());
+      end_.push_back(cutting + (1 - cutting) * done / total);
+    }
   }
-  return result;
-}
+
+  /// Calls solve(i, progress), and then write(i) in the order of the charts.
+  template <class Solve, class Write>
+  void run(const Progress& progress, const Solve& solve, const Write& write) const {
+    int first = 0;
+    while (first < size()) {
+      const int last = end_of_batch(first);
+      run_in_parallel(
+          last - first, n_faces_of(first, last) < min_faces_to_share ? 1 : max_threads,
+          [&](int k, const Progress& going_on) {
+            const int i = first + k;
+            solve(i, part(going_on, end_[i], end_[i + 1]));
+          },
+          progress, "eigenproblem");
+      for (; first < last; ++first) write(first);
+    }
+  }
+
+ private:
+  /// Charts of more faces share their own factorisation among threads, and take too much memory for two at a time.
+  static constexpr std::size_t max_faces_together = 20000;
+  /// In a batch: the maps of all its charts are kept until it ends.
+  static constexpr std::size_t max_faces_in_batch = 400000;
+  /// Fewer are done before a second thread has begun.
+  static constexpr std::size_t min_faces_to_share = 2000;
+  static constexpr unsigned max_threads = 64;
+
+  int size() const { return static_cast<int>(n_faces_.size()); }
+  std::size_t n_faces_of(int first, int last) const {
+    return std::accumulate(n_faces_.begin() + first, n_faces_.begin() + last, std::size_t{0});
+  }
+  int end_of_batch(int first) const {
+    std::size_t n_faces = n_faces_[first];
+    int last = first + 1;
+    if (n_faces > max_faces_together) return last;
+    while (last < size() && n_faces_[last] <= max_faces_together && n_faces + n_faces_[last] <= max_faces_in_batch) {
+      n_faces += n_faces_[last++];
+    }
+    return last;
+  }
+
+  std::vector<std::size_t> n_faces_;  ///< of each chart
+  std::vector<double> end_;           ///< fraction of the work before each chart, and after the last
+};
 
 }  // namespace
 
@@ -199,24 +255,29 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   report(progress, 0.0, "charts");
   Cut cut(mesh, options.corner_pins);
   Unwrap result = empty_result(cut, options.extenders.size());
-  const auto parts = work_fractions(cut.decomposition.charts);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    // Moved in, so that each gives its memory back before the next solve.
-    ChartUnwrapper chart(cut, std::move(cut.decomposition.charts[i]), options);
-    result.charts.push_back(chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance,
-                                        part(progress, parts[i].first, parts[i].second), result));
-  }
+  std::vector<Chart>& charts = cut.decomposition.charts;
+  const ChartLoop loop(charts);
+  std::vector<ChartUnwrapper::Solution> solutions(charts.size());
+  loop.run(
+      progress,
+      [&](int i, const Progress& going_on) {
+        const auto k = static_cast<std::size_t>(i);
+        // Moved in, so that each gives its memory back before the next solve.
+        ChartUnwrapper chart(cut, std::move(charts[k]), options);
+        solutions[k] = chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on);
+      },
+      [&](int i) { add(cut, std::move(solutions[static_cast<std::size_t>(i)]), result); });
   add_degenerate_faces(cut, result);
   return result;
 }
 
 struct Unwrapper::State {
   Cut cut;
-  std::vector<std::pair<double, double>> parts;
+  ChartLoop loop;
   std::vector<ChartUnwrapper> charts;
   State(const PolygonMesh& mesh, const UnwrapOptions& options)
-      : cut(mesh, options.corner_pins), parts(work_fractions(cut.decomposition.charts)) {
-    charts.reserve(parts.size());
+      : cut(mesh, options.corner_pins), loop(cut.decomposition.charts) {
+    charts.reserve(cut.decomposition.charts.size());
     for (Chart& chart : cut.decomposition.charts) charts.emplace_back(cut, std::move(chart), options);
   }
 };
@@ -229,11 +290,14 @@ Unwrapper::~Unwrapper() = default;
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const Progress& progress) {
   Unwrap result = empty_result(state_->cut, extenders.size());
-  for (std::size_t i = 0; i < state_->charts.size(); ++i) {
-    const auto& [from, to] = state_->parts[i];
-    result.charts.push_back(
-        state_->charts[i].solve(extenders, hole_rigidity, tolerance, part(progress, from, to), result));
-  }
+  std::vector<ChartUnwrapper::Solution> solutions(state_->charts.size());
+  state_->loop.run(
+      progress,
+      [&](int i, const Progress& going_on) {
+        const auto k = static_cast<std::size_t>(i);
+        solutions[k] = state_->charts[k].solve(extenders, hole_rigidity, tolerance, going_on);
+      },
+      [&](int i) { add(state_->cut, std::move(solutions[static_cast<std::size_t>(i)]), result); });
   add_degenerate_faces(state_->cut, result);
   return result;
 }

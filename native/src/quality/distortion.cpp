@@ -126,6 +126,8 @@ struct InUnits {
 
 }  // namespace
 
+int Distortion::n_flipped() const { return static_cast<int>(std::count(flipped.begin(), flipped.end(), true)); }
+
 Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<double>& triangle_weights, const ComplexVector& z) {

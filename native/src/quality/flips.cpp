@@ -10,7 +10,7 @@ namespace spectral_conformal {
 
 int image_orientation(Complex a, Complex b, Complex c, const FlipTolerance& tolerance) {
   if (tolerance.sine == 0 && tolerance.resolution == 0) return orientation(a, b, c);
-  const std::array<double, 3> length{std::abs(b - a), std::abs(c - b), std::abs(a - c)};
+  const std::array<double, 3> length{modulus(b - a), modulus(c - b), modulus(a - c)};
   double collapsed = tolerance.sine * length[0] * length[2];
   if (tolerance.resolution > 0) {
     double largest = 0;

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "seams/parallel_trials.h"
+#include "graph/parallel_calls.h"
 
 namespace spectral_conformal {
 namespace {
@@ -137,11 +137,11 @@ Cutter::Trial Cutter::attempt(SeamEdges cut, const TrialMaps& known, const Progr
 std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) const {
   std::vector<Trial> trials(proposals.size());
   run_in_parallel(
-      static_cast<int>(proposals.size()),
+      static_cast<int>(proposals.size()), Cutter::max_threads,
       [&](int i, const Progress& going_on) {
         trials[static_cast<std::size_t>(i)] = attempt(proposals[static_cast<std::size_t>(i)].cut, {}, going_on);
       },
-      progress);
+      progress, "seams");
   return trials;
 }
 
@@ -307,12 +307,12 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
   const CutCandidates candidates = this->candidates();
   std::vector<std::vector<int>> defects(charts_.size());
   run_in_parallel(
-      static_cast<int>(charts_.size()),
+      static_cast<int>(charts_.size()), Cutter::max_threads,
       [&](int i, const Progress&) {
         const auto chart = static_cast<std::size_t>(i);
         if (!contains(sound_, charts_[chart])) defects[chart] = defective_faces(*charts_[chart]);
       },
-      progress);
+      progress, "seams");
   sound_.clear();
   SeamEdges all;
   TrialMaps known;
@@ -344,7 +344,7 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
     std::vector<Trial> trials(proposals.size());
     std::vector<double> left(proposals.size(), 0);
     run_in_parallel(
-        static_cast<int>(proposals.size()),
+        static_cast<int>(proposals.size()), Cutter::max_threads,
         [&](int i, const Progress& going_on) {
           const auto k = static_cast<std::size_t>(i);
           trials[k] = attempt(proposals[k].cut, {}, going_on);
@@ -353,7 +353,7 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
             left[k] += mapped->solved ? extent_of(*mapped, defective_faces(*mapped), quality_.area) : before;
           }
         },
-        progress);
+        progress, "seams");
     const double highest = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
     std::size_t best = trials.size();
     double best_score = 0;
@@ -409,14 +409,14 @@ void Cutter::sew(const Progress& progress) {
     if (trials.empty()) return;
     std::vector<char> sewable(trials.size(), 0);
     run_in_parallel(
-        static_cast<int>(trials.size()),
+        static_cast<int>(trials.size()), Cutter::max_threads,
         [&](int i, const Progress& going_on) {
           Trial& trial = trials[static_cast<std::size_t>(i)];
           trial.charts = map_charts(seams_.without(trial.cut), {}, going_on);
           trial.quality = map_quality(trial.charts, options_.scale_limit);
           sewable[static_cast<std::size_t>(i)] = is_sewable(trial.charts, trial.quality) ? 1 : 0;
         },
-        progress);
+        progress, "seams");
     std::size_t best = trials.size();
     double best_score = 0;
     for (std::size_t i = 0; i < trials.size(); ++i) {

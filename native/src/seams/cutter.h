@@ -19,6 +19,9 @@ namespace spectral_conformal {
 /// does. In the end seams that the maps can do without are sewn up again.
 class Cutter {
  public:
+  /// A trial of a large mesh takes hundreds of megabytes.
+  static constexpr unsigned max_threads = 4;
+
   /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
   Cutter(PieceSeams seams, const SeamSuggestionOptions& options);
 

@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "graph/parallel_calls.h"
 #include "mesh/mirror_symmetry.h"
 #include "seams/canonical_mesh.h"
 #include "seams/cutter.h"
-#include "seams/parallel_trials.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
 #include "seams/seam_preferences.h"
@@ -44,11 +44,11 @@ class SeamFinder {
   SeamSuggestion run() {
     for (std::size_t i = 0; i < pieces_.size(); ++i) open(i);
     run_in_parallel(
-        static_cast<int>(cutters_.size()),
+        static_cast<int>(cutters_.size()), Cutter::max_threads,
         [&](int i, const Progress& going_on) {
           if (cutters_[static_cast<std::size_t>(i)]) cutters_[static_cast<std::size_t>(i)]->solve(going_on);
         },
-        quiet());
+        quiet(), "seams");
     std::vector<int> steps(cutters_.size(), 0);
     for (int next = most_urgent(steps); next >= 0; next = most_urgent(steps)) {
       const auto i = static_cast<std::size_t>(next);

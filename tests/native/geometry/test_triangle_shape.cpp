@@ -114,6 +114,15 @@ TEST_CASE("coordinates that are not finite are clamped") {
   CHECK(local_isometric_frame({0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<double>::quiet_NaN(), 0}).clamped);
 }
 
+TEST_CASE("the modulus of a complex number is right where its square overflows or vanishes") {
+  for (const double scale : {1e-320, 1e-200, 1e-146, 1e-20, 1.0, 1e140, 1e146, 1e300}) {
+    const Complex z(3 * scale, -4 * scale);
+    CHECK(modulus(z) == doctest::Approx(std::abs(z)).epsilon(1e-15));
+    CHECK(modulus(z) > 0);
+  }
+  CHECK(modulus(0) == 0);
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -14,8 +14,6 @@
 namespace spectral_conformal::test {
 namespace {
 
-using Count = BlasThreads::Count;
-
 /// Another number than any that the library sets, while a test runs.
 class Setting {
  public:
@@ -45,54 +43,46 @@ TEST_CASE("there is a setting where OpenBLAS serves CHOLMOD") {
   CHECK(blas_thread_setting().has_value() == (blas_library().find("OpenBLAS") != std::string::npos));
 }
 
-TEST_CASE("the number is fixed while it is held, and put back however that ends") {
+TEST_CASE("the number is one while it is held, and put back however that ends") {
   const Setting process;
-  for (const Count count : {Count::one, Count::two}) {
-    {
-      const BlasThreads threads(count);
-      CHECK(process.is(count == Count::one ? 1 : 2));
-    }
-    CHECK(process.is(Setting::number));
-    const auto hold_and_throw = [&] {
-      const BlasThreads threads(count);
-      throw std::runtime_error("a failed solve");
-    };
-    CHECK_THROWS_AS(hold_and_throw(), std::runtime_error);
-    CHECK(process.is(Setting::number));
+  {
+    const BlasThreads threads;
+    CHECK(process.is(1));
   }
+  CHECK(process.is(Setting::number));
+  const auto hold_and_throw = [] {
+    const BlasThreads threads;
+    throw std::runtime_error("a failed solve");
+  };
+  CHECK_THROWS_AS(hold_and_throw(), std::runtime_error);
+  CHECK(process.is(Setting::number));
 }
 
 TEST_CASE("a number that somebody else sets in between is kept") {
   const Setting process;
-  for (const Count count : {Count::one, Count::two}) {
-    {
-      const BlasThreads threads(count);
-      set_blas_thread_setting(4);
-    }
-    CHECK(process.is(4));
-    set_blas_thread_setting(Setting::number);
+  {
+    const BlasThreads threads;
+    set_blas_thread_setting(4);
   }
+  CHECK(process.is(4));
 }
 
 TEST_CASE("holders in two threads do not take each other's number for the process's") {
   const Setting process;
   std::atomic<int> wrong{0};
-  const auto hold = [&](Count count) {
+  const auto hold = [&] {
     for (int k = 0; k < 200; ++k) {
-      const BlasThreads threads(count);
-      if (!process.is(count == Count::one ? 1 : 2)) ++wrong;
+      const BlasThreads threads;
+      if (!process.is(1)) ++wrong;
       std::this_thread::yield();
-      if (!process.is(count == Count::one ? 1 : 2)) ++wrong;
+      if (!process.is(1)) ++wrong;
     }
   };
-  for (const Count other : {Count::one, Count::two}) {
-    std::thread first(hold, Count::one);
-    std::thread second(hold, other);
-    first.join();
-    second.join();
-    CHECK(wrong == 0);
-    CHECK(process.is(Setting::number));
-  }
+  std::thread first(hold);
+  std::thread second(hold);
+  first.join();
+  second.join();
+  CHECK(wrong == 0);
   std::thread reader([&] { CHECK(process.is(Setting::number)); });
   reader.join();
 }

@@ -1,4 +1,4 @@
-#include "seams/parallel_trials.h"
+#include "graph/parallel_calls.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,16 +7,14 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <new>
-#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "graph/helper_threads.h"
 
 namespace spectral_conformal {
 namespace {
 
-/// A trial of a large mesh takes hundreds of megabytes.
-constexpr unsigned max_threads = 4;
 /// How often the caller is asked whether to go on, while its thread has nothing left to do.
 constexpr std::chrono::milliseconds poll_interval{30};
 
@@ -56,24 +54,10 @@ class SharedCalls {
   std::atomic<bool> cancelled_{false};  ///< calls that go on hear of it; of failures they do not
 };
 
-/// Threads that take calls until none is left; joined in any case.
+/// Threads that take calls until none is left.
 class Helpers {
  public:
-  Helpers(unsigned count, SharedCalls& calls) : calls_(calls) {
-    threads_.reserve(count);
-    try {
-      for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
-    } catch (const std::system_error&) {
-      // The system gives no more threads; those that there are take all calls.
-    } catch (const std::bad_alloc&) {
-      // Neither is there memory for one.
-    }
-  }
-  ~Helpers() {
-    for (std::thread& thread : threads_) thread.join();
-  }
-  Helpers(const Helpers&) = delete;
-  Helpers& operator=(const Helpers&) = delete;
+  Helpers(unsigned count, SharedCalls& calls) : calls_(calls), threads_(count, [this] { run(); }) {}
 
   /// True when all are done, false after the interval.
   bool wait() {
@@ -93,19 +77,22 @@ class Helpers {
   std::mutex mutex_;
   std::condition_variable ended_;
   std::size_t n_ended_ = 0;
-  std::vector<std::thread> threads_;
+  HelperThreads threads_;  ///< last: they use what stands above
 };
 
 }  // namespace
 
-void run_in_parallel(int n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
+void run_in_parallel(int n, unsigned max_threads, const std::function<void(int, const Progress&)>& work,
+                     const Progress& progress, const char* phase_of_waiting) {
   if (n <= 0) return;
   SharedCalls calls(n, work);
   std::exception_ptr thrown;
+  double done = 0;
   const Progress asking = [&](double fraction, const char* phase) {
     if (!progress || calls.is_cancelled()) return !calls.is_cancelled();
+    done = std::max(done, fraction);
     try {
-      if (!progress(fraction, phase)) calls.cancel();
+      if (!progress(done, phase)) calls.cancel();
     } catch (...) {
       thrown = std::current_exception();
       calls.cancel();
@@ -116,7 +103,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
     const unsigned threads = std::min({max_threads, std::max(1U, std::thread::hardware_concurrency()), unsigned(n)});
     Helpers helpers(threads - 1, calls);
     calls.take(asking);
-    while (!helpers.wait()) asking(0, "seams");
+    while (!helpers.wait()) asking(done, phase_of_waiting);
   }
   if (thrown) std::rethrow_exception(thrown);
   if (calls.is_cancelled()) throw Cancelled();

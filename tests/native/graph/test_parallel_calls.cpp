@@ -1,21 +1,23 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "seams/parallel_trials.h"
+#include "graph/parallel_calls.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 
-TEST_SUITE_BEGIN("parallel_trials");
+TEST_SUITE_BEGIN("parallel_calls");
 
 TEST_CASE("every call is made once") {
   for (const int n : {0, 1, 2, 3, 50}) {
     std::vector<int> calls(static_cast<std::size_t>(n), 0);
-    run_in_parallel(n, [&](int i, const Progress&) { ++calls[static_cast<std::size_t>(i)]; }, {});
+    run_in_parallel(
+        n, 4, [&](int i, const Progress&) { ++calls[static_cast<std::size_t>(i)]; }, {}, "work");
     CHECK(calls == std::vector<int>(static_cast<std::size_t>(n), 1));
   }
 }
@@ -34,7 +36,7 @@ TEST_CASE("the progress function is called in the caller's thread, and stops all
       std::this_thread::yield();
     }
   };
-  CHECK_THROWS_AS(run_in_parallel(8, endless, progress), Cancelled);
+  CHECK_THROWS_AS(run_in_parallel(8, 4, endless, progress, "work"), Cancelled);
   CHECK(asked == 5);
   CHECK_FALSE(elsewhere);
 }
@@ -48,7 +50,7 @@ TEST_CASE("the caller is heard while its thread waits for others") {
       std::this_thread::yield();
     }
   };
-  CHECK_THROWS_AS(run_in_parallel(2, work, progress), Cancelled);
+  CHECK_THROWS_AS(run_in_parallel(2, 4, work, progress, "work"), Cancelled);
 }
 
 TEST_CASE("of several failures the first is thrown") {
@@ -56,8 +58,21 @@ TEST_CASE("of several failures the first is thrown") {
     if (i > 0) throw std::runtime_error(std::to_string(i));
   };
   for (int repetition = 0; repetition < 20; ++repetition) {
-    CHECK_THROWS_WITH_AS(run_in_parallel(6, work, {}), "1", std::runtime_error);
+    CHECK_THROWS_WITH_AS(run_in_parallel(6, 4, work, {}, "work"), "1", std::runtime_error);
   }
+}
+
+TEST_CASE("the fraction done never falls") {
+  std::vector<double> fractions;
+  const Progress progress = [&](double fraction, const char*) {
+    fractions.push_back(fraction);
+    return true;
+  };
+  const auto work = [](int i, const Progress& going_on) {
+    report(going_on, i % 2 == 0 ? 0.9 - 0.1 * i : 0.1 * i, "work");
+  };
+  run_in_parallel(8, 3, work, progress, "work");
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
 }
 
 TEST_SUITE_END();

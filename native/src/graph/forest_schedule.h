@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace spectral_conformal {
+
+/// The order in which several threads go through a forest, from the leaves to the roots or back: cheap subtrees as a
+/// whole, what lies above them one by one, the most costly way first. Threads that have nothing to do sleep.
+class ForestSchedule {
+ public:
+  ForestSchedule() = default;
+  /// parent (n,): greater than the node, -1 for a root. cost (n,): of each node, not negative, in any unit.
+  ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost);
+
+  /// Calls work(node) for every node, after all of its children, in up to `threads` threads at once, the caller's among
+  /// them; in fewer where the system gives no more. What a call has written can be read by those that come after it.
+  /// Once a call has thrown no other subtree begins; what it threw is thrown here when all have ended.
+  void run_up(unsigned threads, const std::function<void(int node)>& work) const;
+  /// The same, each node after its parent.
+  void run_down(unsigned threads, const std::function<void(int node)>& work) const;
+
+  double cost() const { return cost_; }  ///< of all nodes
+
+ private:
+  friend class ForestRun;
+  void run(bool is_up, unsigned threads, const std::function<void(int)>& work) const;
+  int n_tasks() const { return static_cast<int>(parent_.size()); }
+
+  double cost_ = 0;
+  std::vector<int> first_node_{0};          ///< (tasks + 1,) into nodes_
+  std::vector<int> nodes_;                  ///< of each task, ascending
+  std::vector<int> parent_;                 ///< of each task, a task or -1
+  std::vector<std::vector<int>> children_;  ///< of each task, tasks
+  std::vector<double> way_up_;              ///< cost of a task, all below it and all on its way to the root
+  std::vector<double> below_;               ///< cost of a task and all below it
+};
+
+}  // namespace spectral_conformal

@@ -1,0 +1,413 @@
+#include "linear_algebra/supernodal_factor.h"
+
+#ifdef SPECTRAL_CONFORMAL_HAVE_CHOLMOD
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "linear_algebra/blas_threads.h"
+
+// BLAS and LAPACK, Fortran linkage.
+extern "C" {
+void dpotrf_(const char*, const int*, double*, const int*, int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*,
+            double*, const int*);
+void zpotrf_(const char*, const int*, void*, const int*, int*);
+void ztrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const void*, const void*,
+            const int*, void*, const int*);
+void zherk_(const char*, const char*, const int*, const int*, const double*, const void*, const int*, const double*,
+            void*, const int*);
+void ztrsv_(const char*, const char*, const char*, const int*, const void*, const int*, void*, const int*);
+void zgemv_(const char*, const int*, const int*, const void*, const void*, const int*, const void*, const int*,
+            const void*, void*, const int*);
+}
+
+namespace spectral_conformal {
+namespace {
+
+constexpr int one = 1;
+/// Less work is done before a second thread has begun: of a factorisation, in multiplications, and of a solve, in
+/// entries of the factor.
+constexpr double min_multiplications_to_share = 2e7;
+constexpr double min_entries_to_share = 1e6;
+
+/// A = L L^H in place, (n, n) lower. False when it is not positive definite.
+bool eliminate_columns(int n, double* a, int stride) {
+  int info = 0;
+  dpotrf_("L", &n, a, &stride, &info);
+  return info == 0;
+}
+bool eliminate_columns(int n, Complex* a, int stride) {
+  int info = 0;
+  zpotrf_("L", &n, a, &stride, &info);
+  return info == 0;
+}
+
+/// B <- B L^-H, (m, n).
+void divide(int m, int n, const double* l, double* b, int stride) {
+  constexpr double unit = 1;
+  dtrsm_("R", "L", "T", "N", &m, &n, &unit, l, &stride, b, &stride);
+}
+void divide(int m, int n, const Complex* l, Complex* b, int stride) {
+  const Complex unit = 1;
+  ztrsm_("R", "L", "C", "N", &m, &n, &unit, l, &stride, b, &stride);
+}
+
+/// C = -B B^H, (n, n) lower, B (n, k).
+void multiply(int n, int k, const double* b, int stride, double* c) {
+  constexpr double minus = -1;
+  constexpr double zero = 0;
+  dsyrk_("L", "N", &n, &k, &minus, b, &stride, &zero, c, &n);
+}
+void multiply(int n, int k, const Complex* b, int stride, Complex* c) {
+  constexpr double minus = -1;
+  constexpr double zero = 0;
+  zherk_("L", "N", &n, &k, &minus, b, &stride, &zero, c, &n);
+}
+
+template <class Scalar>
+Scalar part_of(const Complex& value) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return value.real();
+  } else {
+    return value;
+  }
+}
+
+// Solves with a real block and a complex vector. BLAS has them for real vectors only and would read the block twice.
+
+/// b <- L^-1 b, (n,), and c <- c - B b, (m,), B standing below L in the block. Four columns at a time, so that c is
+/// read and written a quarter as often.
+void solve_lower(int n, int m, const double* block, int stride, Complex* b, Complex* c) {
+  int j = 0;
+  const auto column = [&](int at) { return block + static_cast<std::ptrdiff_t>(at) * stride; };
+  for (; j + 4 <= n; j += 4) {
+    const double* const l[] = {column(j), column(j + 1), column(j + 2), column(j + 3)};
+    for (int p = 0; p < 4; ++p) {
+      b[j + p] /= l[p][j + p];
+      for (int q = p + 1; q < 4; ++q) b[j + q] -= l[p][j + q] * b[j + p];
+    }
+    const Complex x[] = {b[j], b[j + 1], b[j + 2], b[j + 3]};
+    for (int i = j + 4; i < n; ++i) b[i] -= (l[0][i] * x[0] + l[1][i] * x[1]) + (l[2][i] * x[2] + l[3][i] * x[3]);
+    for (int i = 0; i < m; ++i) {
+      const int row = n + i;
+      c[i] -= (l[0][row] * x[0] + l[1][row] * x[1]) + (l[2][row] * x[2] + l[3][row] * x[3]);
+    }
+  }
+  for (; j < n; ++j) {
+    const double* const l = column(j);
+    b[j] /= l[j];
+    for (int i = j + 1; i < n; ++i) b[i] -= l[i] * b[j];
+    for (int i = 0; i < m; ++i) c[i] -= l[n + i] * b[j];
+  }
+}
+
+/// b <- L^-H (b - B^H c). Four columns at a time, whose sums do not wait for each other.
+void solve_upper(int n, int m, const double* block, int stride, Complex* b, const Complex* c) {
+  int j = n;
+  const auto column = [&](int at) { return block + static_cast<std::ptrdiff_t>(at) * stride; };
+  for (; j % 4 != 0; --j) {
+    const double* const l = column(j - 1);
+    Complex sum = 0;
+    for (int i = j; i < n; ++i) sum += l[i] * b[i];
+    for (int i = 0; i < m; ++i) sum += l[n + i] * c[i];
+    b[j - 1] = (b[j - 1] - sum) / l[j - 1];
+  }
+  for (; j > 0; j -= 4) {
+    const double* const l[] = {column(j - 4), column(j - 3), column(j - 2), column(j - 1)};
+    Complex sum[4] = {};
+    for (int i = j; i < n; ++i) {
+      for (int p = 0; p < 4; ++p) sum[p] += l[p][i] * b[i];
+    }
+    for (int i = 0; i < m; ++i) {
+      for (int p = 0; p < 4; ++p) sum[p] += l[p][n + i] * c[i];
+    }
+    for (int p = 3; p >= 0; --p) {
+      const int at = j - 4 + p;
+      for (int q = p + 1; q < 4; ++q) sum[p] += l[p][j - 4 + q] * b[j - 4 + q];
+      b[at] = (b[at] - sum[p]) / l[p][at];
+    }
+  }
+}
+
+/// Memory that is not written before it is used: its pages are first touched by the thread that needs them.
+std::unique_ptr<double[]> uninitialized(std::ptrdiff_t n) {
+  return std::unique_ptr<double[]>(new double[static_cast<std::size_t>(n)]);
+}
+
+}  // namespace
+
+void SupernodalFactor::analyze(const HermitianMatrix& matrix, SupernodalStructure structure) {
+  structure_ = std::move(structure);
+  const int n_super = static_cast<int>(structure_.first_column.size()) - 1;
+  supernode_of_.resize(structure_.order.size());
+  for (int k = 0; k < n_super; ++k) {
+    std::fill(supernode_of_.begin() + first_column(k), supernode_of_.begin() + first_column(k + 1), k);
+  }
+  below_.resize(static_cast<Eigen::Index>(structure_.rows.size()));
+
+  parent_.resize(n_super);
+  place_.resize(structure_.rows.size());
+  first_child_.assign(n_super + 1, 0);
+  std::vector<double> cost(n_super);
+  for (int k = 0; k < n_super; ++k) {
+    const double width = columns(k);
+    const double height = rows(k);
+    // Multiplications, and what the calls and the passing on of small blocks cost beside.
+    cost[k] = width * height * height + 20 * height * height + 5000;
+    parent_[k] = rows(k) == columns(k) ? -1 : supernode_of_[row_indices(k)[columns(k)]];
+    if (parent_[k] < 0) continue;
+    ++first_child_[parent_[k] + 1];
+    const int* const above = row_indices(parent_[k]);
+    int at = 0;
+    for (int i = columns(k); i < rows(k); ++i) {
+      while (above[at] < row_indices(k)[i]) ++at;
+      place_[structure_.first_row[k] + i] = at;
+    }
+  }
+  std::partial_sum(first_child_.begin(), first_child_.end(), first_child_.begin());
+  children_.resize(static_cast<std::size_t>(first_child_.back()));
+  std::vector<int> end(first_child_.begin(), first_child_.end() - 1);
+  for (int k = 0; k < n_super; ++k) {
+    if (parent_[k] >= 0) children_[end[parent_[k]]++] = k;
+  }
+  schedule_ = ForestSchedule(parent_, cost);
+
+  std::vector<int> place_of(structure_.order.size());
+  for (int i = 0; i < n(); ++i) place_of[structure_.order[i]] = i;
+  const auto column_of = [&](int row, int column) { return std::min(place_of[row], place_of[column]); };
+  first_entry_.assign(n_super + 1, 0);
+  for (int column = 0; column < n(); ++column) {
+    for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
+      ++first_entry_[supernode_of_[column_of(matrix.innerIndexPtr()[e], column)] + 1];
+    }
+  }
+  std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
+  entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));
+  end.assign(first_entry_.begin(), first_entry_.end() - 1);
+  for (int column = 0; column < n(); ++column) {
+    for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
+      const int row = matrix.innerIndexPtr()[e];
+      const bool is_below = place_of[row] >= place_of[column];
+      const int place = std::max(place_of[row], place_of[column]);
+      const int k = supernode_of_[column_of(row, column)];
+      const int in_block =
+          static_cast<int>(std::lower_bound(row_indices(k), row_indices(k) + rows(k), place) - row_indices(k));
+      entries_[end[k]++] = {is_below ? e : ~e, in_block + (column_of(row, column) - first_column(k)) * rows(k)};
+    }
+  }
+}
+
+double SupernodalFactor::nonzeros() const {
+  double sum = 0;
+  for (int k = 0; k < n_supernodes(); ++k) sum += static_cast<double>(rows(k)) * columns(k);
+  return sum;
+}
+
+bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
+  const int n_super = n_supernodes();
+  is_real_.assign(n_super, 1);
+  offset_.assign(n_super + 1, 0);
+  for (int k = 0; k < n_super; ++k) {
+    for (int e = first_entry_[k]; e < first_entry_[k + 1] && is_real_[k]; ++e) {
+      const int source = entries_[e].source;
+      is_real_[k] = matrix.valuePtr()[source < 0 ? ~source : source].imag() == 0;
+    }
+    if (!is_real_[k] && parent_[k] >= 0) is_real_[parent_[k]] = 0;
+    offset_[k + 1] = offset_[k] + static_cast<std::ptrdiff_t>(rows(k)) * columns(k) * (is_real_[k] ? 1 : 2);
+  }
+  if (capacity_ < offset_.back()) {
+    capacity_ = 0;
+    values_.reset();
+    values_ = uninitialized(offset_.back());
+    capacity_ = offset_.back();
+  }
+  passed_.clear();
+  passed_.resize(n_super);
+  std::atomic<bool> is_definite{true};
+  const BlasThreads blas;
+  schedule_.run_up(n_threads(schedule_.cost(), min_multiplications_to_share), [&](int k) {
+    if (!is_definite) return;
+    const bool done = is_real_[k] ? eliminate<double>(k, matrix) : eliminate<Complex>(k, matrix);
+    if (!done) is_definite = false;
+  });
+  passed_.clear();
+  return is_definite;
+}
+
+unsigned SupernodalFactor::n_threads(double work, double min_work) const {
+  if (!BlasThreads::serves_many()) return 1;
+  if (max_threads_ > 0) return max_threads_;
+  return work < min_work ? 1 : std::max(1U, std::thread::hardware_concurrency());
+}
+
+template <class Scalar>
+bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
+  const int width = columns(k);
+  const int height = rows(k);
+  const int below = height - width;
+  auto* const own = reinterpret_cast<Scalar*>(block(k));
+  std::fill(own, own + static_cast<std::ptrdiff_t>(width) * height, Scalar(0));
+  for (int e = first_entry_[k]; e < first_entry_[k + 1]; ++e) {
+    const int source = entries_[e].source;
+    const Complex value = source < 0 ? std::conj(matrix.valuePtr()[~source]) : matrix.valuePtr()[source];
+    own[entries_[e].target] = part_of<Scalar>(value);
+  }
+  for_each_child<Scalar>(k, [&](int child, const auto* from) { add_to_columns(child, from, own, height, width); });
+  if (!eliminate_columns(width, own, height)) return false;
+  if (below == 0) {
+    for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) passed_[children_[i]].reset();
+    return true;
+  }
+  divide(below, width, own, own + width, height);
+  constexpr int doubles = std::is_same_v<Scalar, double> ? 1 : 2;
+  passed_[k] = uninitialized(static_cast<std::ptrdiff_t>(below) * below * doubles);
+  auto* const passed = reinterpret_cast<Scalar*>(passed_[k].get());
+  multiply(below, width, own + width, height, passed);
+  for_each_child<Scalar>(k, [&](int child, const auto* from) {
+    add_below(child, from, passed, below, width);
+    passed_[child].reset();
+  });
+  return true;
+}
+
+/// Calls visit(child, what it passes on), which is complex only where the parent is.
+template <class Scalar, class Visit>
+void SupernodalFactor::for_each_child(int k, const Visit& visit) {
+  for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) {
+    const int child = children_[i];
+    const double* const from = passed_[child].get();
+    if constexpr (std::is_same_v<Scalar, Complex>) {
+      if (!is_real_[child]) {
+        visit(child, reinterpret_cast<const Complex*>(from));
+        continue;
+      }
+    }
+    visit(child, from);
+  }
+}
+
+/// To the columns of the parent.
+template <class Scalar, class OfChild>
+void SupernodalFactor::add_to_columns(int child, const OfChild* from, Scalar* own, int height, int width) const {
+  const int* const place = place_in_parent(child) + columns(child);
+  const int n = rows(child) - columns(child);
+  for (int j = 0; j < n && place[j] < width; ++j) {
+    const OfChild* const column = from + static_cast<std::ptrdiff_t>(j) * n;
+    Scalar* const target = own + static_cast<std::ptrdiff_t>(place[j]) * height;
+    for (int i = j; i < n; ++i) target[place[i]] += column[i];
+  }
+}
+
+/// To what the parent passes on itself.
+template <class Scalar, class OfChild>
+void SupernodalFactor::add_below(int child, const OfChild* from, Scalar* passed, int height, int width) const {
+  const int* const place = place_in_parent(child) + columns(child);
+  const int n = rows(child) - columns(child);
+  const int first = static_cast<int>(std::lower_bound(place, place + n, width) - place);
+  for (int j = first; j < n; ++j) {
+    const OfChild* const column = from + static_cast<std::ptrdiff_t>(j) * n;
+    Scalar* const target = passed + static_cast<std::ptrdiff_t>(place[j] - width) * height;
+    for (int i = j; i < n; ++i) target[place[i] - width] += column[i];
+  }
+}
+
+SupernodalFactor::Path SupernodalFactor::whole() const {
+  std::vector<int> all(parent_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return path_of(std::move(all));
+}
+
+SupernodalFactor::Path SupernodalFactor::above(const std::vector<int>& columns) const {
+  std::vector<char> is_reached(parent_.size(), 0);
+  for (const int column : columns) {
+    for (int k = supernode_of_[column]; k >= 0 && !is_reached[k]; k = parent_[k]) is_reached[k] = 1;
+  }
+  std::vector<int> reached;
+  for (int k = 0; k < n_supernodes(); ++k) {
+    if (is_reached[k]) reached.push_back(k);
+  }
+  return path_of(std::move(reached));
+}
+
+SupernodalFactor::Path SupernodalFactor::path_of(std::vector<int> supernodes) const {
+  Path path;
+  path.is_member_.assign(parent_.size(), 0);
+  std::vector<int> place(parent_.size(), -1);
+  for (std::size_t i = 0; i < supernodes.size(); ++i) {
+    path.is_member_[supernodes[i]] = 1;
+    place[supernodes[i]] = static_cast<int>(i);
+  }
+  std::vector<int> parent;
+  std::vector<double> cost;
+  parent.reserve(supernodes.size());
+  cost.reserve(supernodes.size());
+  for (const int k : supernodes) {
+    parent.push_back(parent_[k] < 0 ? -1 : place[parent_[k]]);
+    cost.push_back(static_cast<double>(rows(k)) * columns(k));
+  }
+  path.schedule_ = ForestSchedule(parent, cost);
+  path.supernodes_ = std::move(supernodes);
+  return path;
+}
+
+void SupernodalFactor::forward(const Path& path, ComplexVector& work) {
+  const Complex minus(-1);
+  const Complex unit(1);
+  path.schedule_.run_up(n_threads(path.schedule_.cost(), min_entries_to_share), [&](int member) {
+    const int k = path.supernodes_[member];
+    const int width = columns(k);
+    const int height = rows(k);
+    const int below = height - width;
+    Complex* const own = work.data() + first_column(k);
+    Complex* const passed = below_.data() + structure_.first_row[k] + width;
+    std::fill(passed, passed + below, Complex(0));
+    for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) {
+      const int child = children_[i];
+      if (!path.is_member_[child]) continue;
+      const Complex* const from = below_.data() + structure_.first_row[child];
+      const int* const place = place_in_parent(child);
+      int row = columns(child);
+      for (; row < rows(child) && place[row] < width; ++row) own[place[row]] += from[row];
+      for (; row < rows(child); ++row) passed[place[row] - width] += from[row];
+    }
+    if (is_real_[k]) {
+      solve_lower(width, below, block(k), height, own, passed);
+      return;
+    }
+    const auto* const values = reinterpret_cast<const Complex*>(block(k));
+    ztrsv_("L", "N", "N", &width, values, &height, own, &one);
+    if (below > 0) zgemv_("N", &below, &width, &minus, values + width, &height, own, &one, &unit, passed, &one);
+  });
+}
+
+void SupernodalFactor::backward(const Path& path, ComplexVector& work) {
+  const Complex minus(-1);
+  const Complex unit(1);
+  path.schedule_.run_down(n_threads(path.schedule_.cost(), min_entries_to_share), [&](int member) {
+    const int k = path.supernodes_[member];
+    const int width = columns(k);
+    const int height = rows(k);
+    const int below = height - width;
+    Complex* const own = work.data() + first_column(k);
+    Complex* const above = below_.data() + structure_.first_row[k] + width;
+    for (int i = 0; i < below; ++i) above[i] = work[row_indices(k)[width + i]];
+    if (is_real_[k]) {
+      solve_upper(width, below, block(k), height, own, above);
+      return;
+    }
+    const auto* const values = reinterpret_cast<const Complex*>(block(k));
+    if (below > 0) zgemv_("C", &below, &width, &minus, values + width, &height, above, &one, &unit, own, &one);
+    ztrsv_("L", "C", "N", &width, values, &height, own, &one);
+  });
+}
+
+}  // namespace spectral_conformal
+
+#endif
