@@ -289,8 +289,9 @@ def test_arm_module_solves_as_the_one_built_here(linux_on_arm, unpacked, example
     check_equal(tmp_path / "found.npz", examples)
 
 
-# What test_memory.py limits is qemu's own address space, which is larger than that of the program that it runs.
-NOT_UNDER_QEMU = ["--ignore=tests/module/test_memory.py"]
+# What test_memory.py limits is qemu's own address space, which is larger than that of the program that it runs. The
+# slow tests would take another half hour.
+NOT_UNDER_QEMU = ["--ignore=tests/module/test_memory.py", "-m", "not slow"]
 
 
 @pytest.mark.slow
