@@ -203,6 +203,14 @@ def positions_of(vertices, edges):
     return sorted(sorted(map(tuple, vertices[edge].tolist())) for edge in edges)
 
 
+def check_that_numbers_do_not_matter(mesh, repetitions):
+    expected = [positions_of(mesh[0], cut) for cut in sc.suggest_cuts(*mesh)]
+    assert expected
+    for seed in range(repetitions):
+        other = renumbered(mesh, seed)
+        assert [positions_of(other[0], cut) for cut in sc.suggest_cuts(*other)] == expected
+
+
 @pytest.mark.parametrize(
     "mesh",
     [
@@ -216,11 +224,30 @@ def positions_of(vertices, edges):
     ids=["creature", "cube", "fine cube", "plank", "bumps", "two sheets"],
 )
 def test_seams_do_not_depend_on_numbers(mesh):
-    expected = [positions_of(mesh[0], cut) for cut in sc.suggest_cuts(*mesh)]
-    assert expected
-    for seed in range(4):
-        other = renumbered(mesh, seed)
-        assert [positions_of(other[0], cut) for cut in sc.suggest_cuts(*other)] == expected
+    check_that_numbers_do_not_matter(mesh, 4)
+
+
+@pytest.mark.slow
+def test_seams_of_a_large_mesh_are_found_on_a_coarse_one_and_are_as_good():
+    mesh = closed_creature(34)
+    seams = sc.suggest_seams(*mesh)
+    charts = sc.unwrap(*mesh, seam_edges=seams).charts
+    assert [(chart.status, chart.overlapping, chart.flipped) for chart in charts] == [("solved", 0, 0)] * len(charts)
+    mean_qc, within = quality(mesh, seams)
+    assert mean_qc <= 1.1
+    assert within >= 0.95
+    image = {tuple(np.round(position, 9)): v for v, position in enumerate(mesh[0] * [-1, 1, 1])}
+    mirrored = np.array([image[tuple(np.round(position, 9))] for position in mesh[0]])
+    assert {tuple(sorted(edge)) for edge in mirrored[seams].tolist()} == {tuple(edge) for edge in seams.tolist()}
+    check_that_numbers_do_not_matter(mesh, 2)
+
+
+@pytest.mark.slow
+def test_the_length_is_limited_on_a_large_mesh_too():
+    mesh = closed_creature(34)
+    needed, whole = (length(mesh[0], sc.suggest_seams(*mesh, max_length=limit)) for limit in (0, np.inf))
+    half = (needed + whole) / 2
+    assert needed < length(mesh[0], sc.suggest_seams(*mesh, max_length=half)) <= half
 
 
 def test_progress_and_cancelling():

@@ -38,10 +38,11 @@ struct SeamSuggestion {
 /// distorted regions to the boundary: the prominent extrema of the scale (see field_extrema.h), and the vertices with
 /// the highest QC, are joined to the cuts by cheapest paths (Sheffer and Hart 2002, "Seamster"). Each cut is solved and
 /// kept only if the distortion falls; of several the one is taken that lowers it most for its length. Charts whose
-/// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Charts
-/// that cannot be solved even so get no seams. The numbering of vertices and faces makes no difference (see
-/// canonical_mesh.h). Throws InvalidMesh for arrays that do not describe a mesh, and
-/// Cancelled.
+/// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Of
+/// large charts all this is done on copies with few vertices first (see coarse_piece.h), and the charts themselves are
+/// cut where their copies are, and further where that is not enough. Charts that cannot be solved even so get no seams.
+/// The numbering of vertices and faces makes no difference (see canonical_mesh.h). Throws InvalidMesh for arrays that
+/// do not describe a mesh, and Cancelled.
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -24,6 +24,8 @@ constexpr double qc_weight = 5;
 /// the distortion by no more than this factor.
 constexpr double min_removed = 0.5;
 constexpr double distortion_for_parting = 1.05;
+/// Cuts that may part a chart's defects are tried in fours, the shortest first.
+constexpr std::size_t parted_at_once = 4;
 /// What a cut gains counts less by this factor where it makes an island: artists prefer few.
 constexpr double island_penalty = 0.4;
 /// A cut is priced at its length and this fraction of the root of the area, what any cut costs: without it the gain for
@@ -34,6 +36,8 @@ constexpr double base_price = 0.25;
 constexpr double min_length = 0.05;
 /// Cuts with this fraction of the best one's gain are made together with it; a trial of all of them confirms it.
 constexpr double nearly_as_good = 0.25;
+/// Vertices of the maps that are kept for later trials: some hundred megabytes.
+constexpr std::int64_t remembered_vertices = 400000;
 /// Only of larger pieces are short cuts left out.
 constexpr int small_piece = 3000;
 /// Vertices that a round of trials solves for, for 2 to 4 regions, and all rounds before giving up, for 8 to 24.
@@ -71,17 +75,23 @@ void add_new(const SeamEdges& more, SeamEdges& all) {
 
 }  // namespace
 
-Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options) : seams_(std::move(seams)), options_(options) {}
+Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
+    : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices(), false}, changed_(true) {}
+
+Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
+    : seams_(std::move(seams)), options_(options), stage_(stage), changed_(!stage.refined) {}
 
 void Cutter::solve(const Progress& progress) {
-  charts_ = map_charts(seams_.with({}), {}, progress);
-  quality_ = map_quality(charts_, options_.scale_limit);
+  TrialMaps charts = map_charts(seams_.with({}), {}, {}, progress);
+  const MapQuality quality = map_quality(charts, options_.scale_limit);
+  take_maps(std::move(charts), quality);
 }
 
 SeamEdges Cutter::step(double longest, const Progress& progress) {
+  recent_ = std::exchange(fresh_, {});
   SeamEdges accepted;
   const bool wanted = quality_.solved && !exhausted_ && !good_enough();
-  if (wanted && quality_.within_limit < enough_area) accepted = cut_to_all(longest, progress);
+  if (wanted && (stage_.refined || quality_.within_limit < enough_area)) accepted = cut_to_all(longest, progress);
   if (wanted && accepted.empty()) accepted = best_cut(longest, progress);
   if (accepted.empty() && quality_.hopeless()) accepted = blind_cut(longest, progress);
   if (wanted && accepted.empty()) accepted = split_in_half(longest, progress);
@@ -90,7 +100,8 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     accepted = part_defects(longest, progress);
     exhausted_ = exhausted_ && accepted.empty();  // of new charts there are new cuts
   }
-  if (accepted.empty()) sew(progress);
+  if (accepted.empty() && changed_) sew(progress);
+  changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
 }
@@ -100,14 +111,31 @@ bool Cutter::good_enough() const {
          quality_.energy <= options_.energy_limit;
 }
 
-/// Charts that stay as they are, or are among the known ones, are not solved again.
-TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const TrialMaps& known,
-                             const Progress& progress) const {
+/// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
+TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed,
+                             const TrialMaps& known, const Progress& progress) const {
   PolygonMesh mesh = seams_.piece().view();
   mesh.seam_edges = seams.data();
   mesh.n_seam_edges = static_cast<int>(seams.size());
-  ChartDecomposition decomposition = build_charts(mesh);
   TrialMaps result;
+  std::unique_ptr<bool[]> selected;  // NOLINT(modernize-avoid-c-arrays): as PolygonMesh has it
+  if (!charts_.empty()) {
+    std::vector<char> is_changed(charts_.size(), 0);
+    for (const int edge : changed) {
+      for (const int face : seams_.graph().edges()[edge].faces) {
+        if (face >= 0 && chart_of_face_[face] >= 0) is_changed[chart_of_face_[face]] = 1;
+      }
+    }
+    selected.reset(new bool[static_cast<std::size_t>(mesh.n_faces)]);
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      selected[face] = chart_of_face_[face] >= 0 && is_changed[chart_of_face_[face]] != 0;
+    }
+    mesh.selected_faces = selected.get();
+    for (std::size_t i = 0; i < charts_.size(); ++i) {
+      if (is_changed[i] == 0) result.push_back(charts_[i]);
+    }
+  }
+  ChartDecomposition decomposition = build_charts(mesh);
   for (Chart& chart : decomposition.charts) {
     // Every cut makes copies of vertices or loops: a chart with as many of both, by the same triangles, is the same.
     const auto is_same = [&](const auto& old) {
@@ -115,26 +143,50 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
              old->chart.boundary_loops.size() == chart.boundary_loops.size() && old->chart.triangles == chart.triangles;
     };
     std::shared_ptr<const TrialMap> same;
-    for (const TrialMaps* maps : {&charts_, &known}) {
+    for (const TrialMaps* maps : {&charts_, &known, &recent_, &fresh_}) {
       const auto found = same ? maps->end() : std::find_if(maps->begin(), maps->end(), is_same);
       if (found != maps->end()) same = *found;
     }
     if (!same) same = std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, progress));
     result.push_back(std::move(same));
   }
+  std::sort(result.begin(), result.end(),
+            [](const auto& a, const auto& b) { return a->chart.faces.front() < b->chart.faces.front(); });
   return result;
+}
+
+void Cutter::take_maps(TrialMaps&& charts, const MapQuality& quality) {
+  charts_ = std::move(charts);
+  quality_ = quality;
+  chart_of_face_.assign(static_cast<std::size_t>(seams_.piece().n_faces()), -1);
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
+  }
+}
+
+/// The same cut of a chart is often tried again after another chart was cut.
+void Cutter::remember(const std::vector<Trial>& trials) {
+  std::int64_t n_vertices = 0;
+  for (const auto& mapped : fresh_) n_vertices += mapped->chart.n_vertices();
+  for (const Trial& trial : trials) {
+    for (const auto& mapped : trial.charts) {
+      if (n_vertices > remembered_vertices || contains(charts_, mapped) || contains(fresh_, mapped)) continue;
+      fresh_.push_back(mapped);
+      n_vertices += mapped->chart.n_vertices();
+    }
+  }
 }
 
 Cutter::Trial Cutter::attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const {
   Trial trial;
-  trial.charts = map_charts(seams_.with(cut), known, progress);
+  trial.charts = map_charts(seams_.with(cut), cut, known, progress);
   trial.quality = map_quality(trial.charts, options_.scale_limit);
   trial.cut = std::move(cut);
   return trial;
 }
 
 /// In parallel; in the order of the proposals.
-std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) const {
+std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) {
   std::vector<Trial> trials(proposals.size());
   run_in_parallel(
       static_cast<int>(proposals.size()), Cutter::max_threads,
@@ -142,21 +194,19 @@ std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& prop
         trials[static_cast<std::size_t>(i)] = attempt(proposals[static_cast<std::size_t>(i)].cut, {}, going_on);
       },
       progress, "seams");
+  remember(trials);
   return trials;
 }
 
-bool Cutter::is_small() const { return seams_.graph().n_vertices() <= small_piece; }
+bool Cutter::is_small() const { return stage_.n_vertices <= small_piece; }
 
 bool Cutter::makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
 
-double Cutter::price(const Trial& trial) const {
-  return seams_.length(trial.cut) + base_price * std::sqrt(quality_.area);
-}
+double Cutter::price(const SeamEdges& cut) const { return seams_.length(cut) + base_price * std::sqrt(quality_.area); }
 
 SeamEdges Cutter::accept(Trial&& trial) {
   seams_.add(trial.cut);
-  charts_ = std::move(trial.charts);
-  quality_ = trial.quality;
+  take_maps(std::move(trial.charts), trial.quality);
   return std::move(trial.cut);
 }
 
@@ -169,7 +219,7 @@ double Cutter::gain(const Trial& trial) const {
   if (!trial.quality.solved) return 0;
   const double less = excess(quality_) - excess(trial.quality);
   if (less < min_gain * excess(quality_)) return 0;
-  return (makes_islands(trial) ? island_penalty : 1) * less / price(trial);
+  return (makes_islands(trial) ? island_penalty : 1) * less / price(trial.cut);
 }
 
 /// To all the regions that matter at once: one solve instead of many.
@@ -229,9 +279,8 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
                                                                   candidates.regions(CutCandidates::Kind::angle)};
   const std::array<bool, 2> matters{shear<1 - worth_trying, shear> worth_trying};
   // Every trial solves a chart, so large pieces get fewer.
-  const int n_vertices = seams_.graph().n_vertices();
-  const auto few = static_cast<std::size_t>(std::clamp(few_vertices / std::max(1, n_vertices), 2, 4));
-  const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, n_vertices), 2 * 4, 24));
+  const auto few = static_cast<std::size_t>(std::clamp(few_vertices / std::max(1, stage_.n_vertices), 2, 4));
+  const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, stage_.n_vertices), 2 * 4, 24));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
@@ -331,7 +380,7 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
 /// The cut that parts the defects of one chart: with the least distortion and length, or in any case. `known` gets the
 /// maps that it leads to. Empty where it would be too long.
 SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
-                               TrialMaps& known) const {
+                               TrialMaps& known) {
   const CutCandidates candidates = this->candidates();
   const double before = extent_of(*charts_[static_cast<std::size_t>(chart)], faces, quality_.area);
   for (const bool at_any_price : {false, true}) {
@@ -341,36 +390,43 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
     for (SeamEdges& cut : cuts) {
       if (!cut.empty() && seams_.length(cut) <= longest) proposals.push_back({std::move(cut), true, chart});
     }
-    std::vector<Trial> trials(proposals.size());
-    std::vector<double> left(proposals.size(), 0);
-    run_in_parallel(
-        static_cast<int>(proposals.size()), Cutter::max_threads,
-        [&](int i, const Progress& going_on) {
-          const auto k = static_cast<std::size_t>(i);
-          trials[k] = attempt(proposals[k].cut, {}, going_on);
-          for (const auto& mapped : trials[k].charts) {
-            if (contains(charts_, mapped)) continue;
-            left[k] += mapped->solved ? extent_of(*mapped, defective_faces(*mapped), quality_.area) : before;
-          }
-        },
-        progress, "seams");
+    // The shortest first: what is left cannot win once its price is higher than the best score allows.
+    std::stable_sort(proposals.begin(), proposals.end(),
+                     [&](const Proposal& a, const Proposal& b) { return seams_.length(a.cut) < seams_.length(b.cut); });
     const double highest = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
-    std::size_t best = trials.size();
+    Trial best;
     double best_score = 0;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      const double removed = (before - left[i]) / before;
-      const bool is_fine = removed >= min_removed && trials[i].quality.distortion() <= highest;
-      if (!at_any_price && !is_fine) continue;
-      // What parts the chart always counts: a single face is neither flipped nor covers itself.
-      const double score =
-          (is_fine ? 1 : 1e-3) * std::max(removed, makes_islands(trials[i]) ? 1e-3 : 0.0) / price(trials[i]);
-      if (score <= best_score) continue;
-      best_score = score;
-      best = i;
+    for (std::size_t first = 0; first < proposals.size(); first += parted_at_once) {
+      if (best_score * price(proposals[first].cut) >= 1) break;
+      std::vector<Trial> trials(std::min(parted_at_once, proposals.size() - first));
+      std::vector<double> left(trials.size(), 0);
+      run_in_parallel(
+          static_cast<int>(trials.size()), Cutter::max_threads,
+          [&](int i, const Progress& going_on) {
+            const auto k = static_cast<std::size_t>(i);
+            trials[k] = attempt(proposals[first + k].cut, {}, going_on);
+            for (const auto& mapped : trials[k].charts) {
+              if (contains(charts_, mapped)) continue;
+              left[k] += mapped->solved ? extent_of(*mapped, defective_faces(*mapped), quality_.area) : before;
+            }
+          },
+          progress, "seams");
+      remember(trials);
+      for (std::size_t k = 0; k < trials.size(); ++k) {
+        const double removed = (before - left[k]) / before;
+        const bool is_fine = removed >= min_removed && trials[k].quality.distortion() <= highest;
+        if (!at_any_price && !is_fine) continue;
+        // What parts the chart always counts: a single face is neither flipped nor covers itself.
+        const double score =
+            (is_fine ? 1 : 1e-3) * std::max(removed, makes_islands(trials[k]) ? 1e-3 : 0.0) / price(trials[k].cut);
+        if (score <= best_score) continue;
+        best_score = score;
+        best = std::move(trials[k]);
+      }
     }
-    if (best == trials.size()) continue;
-    known.insert(known.end(), trials[best].charts.begin(), trials[best].charts.end());
-    return trials[best].cut;
+    if (best.cut.empty()) continue;
+    known.insert(known.end(), best.charts.begin(), best.charts.end());
+    return best.cut;
   }
   return {};
 }
@@ -412,11 +468,12 @@ void Cutter::sew(const Progress& progress) {
         static_cast<int>(trials.size()), Cutter::max_threads,
         [&](int i, const Progress& going_on) {
           Trial& trial = trials[static_cast<std::size_t>(i)];
-          trial.charts = map_charts(seams_.without(trial.cut), {}, going_on);
+          trial.charts = map_charts(seams_.without(trial.cut), trial.cut, {}, going_on);
           trial.quality = map_quality(trial.charts, options_.scale_limit);
           sewable[static_cast<std::size_t>(i)] = is_sewable(trial.charts, trial.quality) ? 1 : 0;
         },
         progress, "seams");
+    remember(trials);
     std::size_t best = trials.size();
     double best_score = 0;
     for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -436,8 +493,7 @@ void Cutter::sew(const Progress& progress) {
       if (sewable[i] != 0) kept.erase(trials[i].cut);
     }
     seams_.remove(trials[best].cut);
-    charts_ = std::move(trials[best].charts);
-    quality_ = trials[best].quality;
+    take_maps(std::move(trials[best].charts), trials[best].quality);
   }
 }
 

@@ -22,8 +22,15 @@ class Cutter {
   /// A trial of a large mesh takes hundreds of megabytes.
   static constexpr unsigned max_threads = 4;
 
+  /// Where in the search a piece is: it may stand for a finer one, and its seams may come from a coarser one.
+  struct Stage {
+    int n_vertices = 0;    ///< of the finest piece, which the number of trials is chosen by
+    bool refined = false;  ///< the seams were found on a coarser piece
+  };
+
   /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
   Cutter(PieceSeams seams, const SeamSuggestionOptions& options);
+  Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage);
 
   /// Solves the piece with the seams that it has. Throws Cancelled.
   void solve(const Progress& progress);
@@ -52,14 +59,16 @@ class Cutter {
 
   bool good_enough() const;
   bool is_small() const;
-  TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const TrialMaps& known,
+  TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
                        const Progress& progress) const;
+  void take_maps(TrialMaps&& charts, const MapQuality& quality);
+  void remember(const std::vector<Trial>& trials);
   CutCandidates candidates() const { return {seams_, charts_, quality_}; }
 
   Trial attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const;
-  std::vector<Trial> attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) const;
+  std::vector<Trial> attempt_all(const std::vector<Proposal>& proposals, const Progress& progress);
   bool makes_islands(const Trial& trial) const;
-  double price(const Trial& trial) const;
+  double price(const SeamEdges& cut) const;
   double excess(const MapQuality& quality) const;
   double gain(const Trial& trial) const;
   bool is_tried(const Proposal& proposal) const;
@@ -72,15 +81,20 @@ class Cutter {
   SeamEdges split_in_half(double longest, const Progress& progress);
   SeamEdges part_defects(double longest, const Progress& progress);
   SeamEdges part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
-                         TrialMaps& known) const;
+                         TrialMaps& known);
   SeamEdges blind_cut(double longest, const Progress& progress);
   bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
   void sew(const Progress& progress);
 
   PieceSeams seams_;
   const SeamSuggestionOptions& options_;
+  Stage stage_;
+  bool changed_;  ///< seams are not those of a coarser piece
   TrialMaps charts_;
+  std::vector<int> chart_of_face_;  ///< of charts_, per face of the piece; -1 where a face is in none
   MapQuality quality_;
+  TrialMaps recent_;  ///< of trials of the last step and this one that were not accepted, as far as they are few
+  TrialMaps fresh_;
   std::vector<Futile> futile_;
   TrialMaps sound_;  ///< those of charts_ that are known to be without defects
   bool finished_ = false;

@@ -131,7 +131,6 @@ int PieceSeams::mirror_edge(int edge) const {
   return graph_.find_edge(mirror_.vertex[a], mirror_.vertex[b]);
 }
 
-/// The edges that are not cut yet, in the order of the path, and then their images.
 SeamEdges PieceSeams::with_images(const SeamEdges& path) const {
   SeamEdges result;
   std::set<int> known;

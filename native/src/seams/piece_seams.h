@@ -42,6 +42,16 @@ class PieceSeams {
   bool self_mirrored(int chart, const std::vector<int>& chart_of_face) const;
   /// The chart that `chart` is mapped onto, or itself where the piece has no mirror image of its own.
   int mirrored_chart(int chart, const std::vector<int>& chart_of_face) const;
+  /// Whether cuts come with their images. Not where the piece was slit off its mirror plane.
+  bool is_symmetric() const { return symmetric_; }
+  void forget_symmetry() { symmetric_ = false; }
+  /// Of a symmetric piece: of a vertex, as MirrorSymmetry::side; the image of a vertex; whether an edge lies in the
+  /// plane.
+  int side(int vertex) const { return side_[static_cast<std::size_t>(vertex)]; }
+  int mirrored(int vertex) const { return mirror_.vertex[static_cast<std::size_t>(vertex)]; }
+  bool along_axis(int edge) const;
+  /// Those of some edges that are not cut yet, in their order, and then their images.
+  SeamEdges with_images(const SeamEdges& path) const;
   /// Of a vertex and its mirror image the one on the positive side.
   int on_positive_side(int vertex) const;
 
@@ -65,9 +75,7 @@ class PieceSeams {
   bool in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const;
   int n_edges() const { return static_cast<int>(graph_.edges().size()); }
   bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }
-  bool along_axis(int edge) const;
   int mirror_edge(int edge) const;
-  SeamEdges with_images(const SeamEdges& path) const;
   SeamEdges first_slit();
   int farthest_vertex(int source, bool on_axis_only) const;
   SeamEdges symmetric_outer_loop() const;

@@ -9,6 +9,8 @@
 #include "graph/parallel_calls.h"
 #include "mesh/mirror_symmetry.h"
 #include "seams/canonical_mesh.h"
+#include "seams/carried_seams.h"
+#include "seams/coarse_piece.h"
 #include "seams/cutter.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
@@ -19,6 +21,14 @@ namespace {
 
 /// Of one piece; far above what any took (at most 112 on the meshes of the tests): a bound, not a limit.
 constexpr int max_steps = 1000;
+/// Seams of pieces with more vertices are looked for on a coarse copy first, then carried over to finer ones and to the
+/// piece, each of which has at most `level_ratio` times as many vertices.
+constexpr int max_searched = 6000;
+constexpr int level_ratio = 4;
+constexpr int coarse_vertices = 1000;
+/// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
+/// finer ones have more of it with the same seams, and to cut them further takes longer.
+constexpr double coarse_energy = 0.85;
 
 bool has_extent(const Piece& piece) {
   if (!piece.positions.allFinite()) return false;
@@ -31,7 +41,12 @@ bool has_extent(const Piece& piece) {
 class SeamFinder {
  public:
   SeamFinder(const CanonicalMesh& canonical, const SeamSuggestionOptions& options, const Progress& progress)
-      : options_(options), progress_(progress), length_left_(options.max_length), mesh_vertices_(canonical.vertices()) {
+      : options_(options),
+        coarse_options_(options),
+        progress_(progress),
+        length_left_(options.max_length),
+        mesh_vertices_(canonical.vertices()) {
+    coarse_options_.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
     report(progress, 0.0, "charts");
     const PolygonMesh mesh = canonical.view();
     const ChartDecomposition decomposition = build_charts(mesh);
@@ -39,6 +54,7 @@ class SeamFinder {
     symmetry_ = find_mirror_symmetry(mesh);
     mirrors_ = mirror_pieces(mesh, decomposition, pieces_, symmetry_);
     cutters_.resize(pieces_.size());
+    levels_.resize(pieces_.size());
   }
 
   SeamSuggestion run() {
@@ -55,6 +71,10 @@ class SeamFinder {
       ++steps_;
       ++steps[i];
       add(i, cutters_[i]->seams(), cutters_[i]->step(length_left_ / copies(i), quiet()));
+      if (!levels_[i].empty() && (cutters_[i]->finished() || steps[i] >= max_steps)) {
+        refine(i);
+        steps[i] = 0;
+      }
     }
     report(progress_, 1.0, "done");
     return result();
@@ -66,13 +86,70 @@ class SeamFinder {
     const int image = mirrors_[i].image;
     if (!has_extent(pieces_[i]) || (image >= 0 && image < static_cast<int>(i))) return;
     report(progress_, 0.02, "seams");
-    PieceSeams seams(pieces_[i], static_cast<int>(i), mirrors_[i], symmetry_);
-    std::vector<int> given_vertices;
-    given_vertices.reserve(pieces_[i].vertices.size());
-    for (const int v : pieces_[i].vertices) given_vertices.push_back(mesh_vertices_[static_cast<std::size_t>(v)]);
-    seams.scale_costs(cost_factors(options_, seams.graph(), given_vertices));
+    make_levels(i);
+    PieceSeams seams = unseamed(i);
     for (const SeamEdges& cut : seams.open()) add(i, seams, cut);
-    cutters_[i] = std::make_unique<Cutter>(std::move(seams), options_);
+    cutters_[i] = cutter(i, std::move(seams), false);
+  }
+  std::unique_ptr<Cutter> cutter(std::size_t i, PieceSeams&& seams, bool refined) const {
+    return std::make_unique<Cutter>(std::move(seams), levels_[i].empty() ? options_ : coarse_options_,
+                                    Cutter::Stage{n_vertices(i), refined});
+  }
+  int n_vertices(std::size_t i) const { return static_cast<int>(pieces_[i].vertices.size()); }
+  /// Copies of a large piece, each with fewer vertices than the one before.
+  void make_levels(std::size_t i) {
+    const bool is_own_image = mirrors_[i].image == static_cast<int>(i);
+    const Piece* finer = &pieces_[i];
+    const PieceMirror* mirror = &mirrors_[i];
+    // Coarse seams are shorter than those that they become, so that a limit of the length could not be kept.
+    if (n_vertices(i) <= max_searched || std::isfinite(options_.max_length)) return;
+    int n = n_vertices(i);
+    while (n > coarse_vertices) {
+      n = n / level_ratio > 2 * coarse_vertices ? n / level_ratio : coarse_vertices;
+      std::vector<signed char> side;
+      std::vector<double> preference;
+      for (const int v : finer->vertices) {
+        if (is_own_image) side.push_back(symmetry_.side[v]);
+        if (options_.vertex_preference != nullptr) preference.push_back(options_.vertex_preference[mesh_vertices_[v]]);
+      }
+      levels_[i].push_back(std::make_unique<CoarsePiece>(
+          coarse_piece(*finer, static_cast<int>(i), *mirror, side, preference, n, quiet())));
+      finer = &levels_[i].back()->piece;
+      mirror = &levels_[i].back()->mirror;
+    }
+  }
+  /// The coarsest level that is left, without seams.
+  PieceSeams unseamed(std::size_t i) const {
+    return levels_[i].empty() ? priced(pieces_[i], i, mirrors_[i])
+                              : priced(levels_[i].back()->piece, i, levels_[i].back()->mirror);
+  }
+  /// Without seams yet.
+  PieceSeams priced(const Piece& piece, std::size_t i, const PieceMirror& mirror) const {
+    PieceSeams seams(piece, static_cast<int>(i), mirror, symmetry_);
+    std::vector<int> given_vertices;
+    given_vertices.reserve(piece.vertices.size());
+    for (const int v : piece.vertices) given_vertices.push_back(mesh_vertices_[static_cast<std::size_t>(v)]);
+    seams.scale_costs(cost_factors(options_, seams.graph(), given_vertices));
+    return seams;
+  }
+  /// Goes on with the next finer level, cut as the one before.
+  void refine(std::size_t i) {
+    const std::unique_ptr<CoarsePiece> coarse = std::move(levels_[i].back());
+    levels_[i].pop_back();
+    PieceSeams seams = unseamed(i);
+    std::vector<SeamEdges> cuts;
+    for (const auto& [piece, cut] : cuts_) {
+      if (piece == i) cuts.push_back(cut);
+    }
+    length_left_ += copies(i) * cutters_[i]->seams().length(cutters_[i]->seams().edges());
+    const std::vector<SeamEdges> carried = carry_seams(*coarse, cutters_[i]->seams(), cuts, seams);
+    length_left_ -= copies(i) * seams.length(seams.edges());
+    auto next = carried.begin();
+    for (auto& [piece, cut] : cuts_) {
+      if (piece == i) cut = *next++;
+    }
+    cutters_[i] = cutter(i, std::move(seams), true);
+    cutters_[i]->solve(quiet());
   }
   /// Solves report that they go on, not how far they are; the fraction done only rises.
   Progress quiet() const {
@@ -126,6 +203,7 @@ class SeamFinder {
   }
 
   const SeamSuggestionOptions& options_;
+  SeamSuggestionOptions coarse_options_;
   const Progress& progress_;
   double length_left_;
   const std::vector<int>& mesh_vertices_;  ///< of the canonical ones
@@ -133,6 +211,8 @@ class SeamFinder {
   std::vector<Piece> pieces_;
   MirrorSymmetry symmetry_;
   std::vector<PieceMirror> mirrors_;
+  std::vector<std::vector<std::unique_ptr<CoarsePiece>>>
+      levels_;  ///< copies on which seams are still to be looked for, each coarser
   std::vector<std::unique_ptr<Cutter>> cutters_;
   std::vector<std::pair<std::size_t, SeamEdges>> cuts_;  ///< with their pieces
 };

@@ -48,14 +48,24 @@ double bounded_cosh(double t) {
   return std::cosh(from) * (2 + beyond * beyond) + 2 * std::sinh(from) * beyond;
 }
 
+/// By bisection of the values around a pivot, the middle one by position of those that are left.
 double weighted_median(std::vector<std::pair<double, double>>& value_and_weight, double total) {
-  std::sort(value_and_weight.begin(), value_and_weight.end());
+  auto first = value_and_weight.begin();
+  auto last = value_and_weight.end();
   double below = 0;
-  for (const auto& [value, weight] : value_and_weight) {
-    below += weight;
-    if (2 * below >= total) return value;
+  while (last - first > 1) {
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last);
+    double left = below;
+    for (auto i = first; i != middle; ++i) left += i->second;
+    if (2 * left >= total) {
+      last = middle;
+    } else {
+      below = left;
+      first = middle;
+    }
   }
-  return 0;
+  return first == last ? 0 : first->first;
 }
 
 }  // namespace

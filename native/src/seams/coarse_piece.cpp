@@ -1,0 +1,451 @@
+#include "seams/coarse_piece.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+/// Of the merges that are possible in a round the cheapest fraction is made: fewer come nearer to the order of costs,
+/// more need fewer rounds.
+constexpr double merged_per_round = 0.4;
+/// What a merge costs for the length of its edge, as a fraction of its square: it keeps flat regions evenly meshed.
+constexpr double length_weight = 0.03;
+/// The plane that keeps a boundary in its place, as a multiple of the squared length of its edge.
+constexpr double boundary_weight = 1.0;
+/// What a change of the preference by 1 adds to the cost, as a multiple of the squared length.
+constexpr double preference_weight = 1.0;
+/// The least cosine of the turn of a face, and the least height of its corners (see corner_height), if merging lowers
+/// it: maps of folded or thin faces tell nothing of the fine ones.
+constexpr double min_turn_cosine = 0.5;
+constexpr double min_corner_height = 0.2;
+constexpr std::size_t max_faces_around = 14;
+
+/// Sum of squared distances from planes, each with a weight, as x^T A x + 2 b^T x + c.
+struct Quadric {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  double constant = 0;
+  double weight = 0;  ///< sum of the weights
+
+  void add_plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& point, double plane_weight) {
+    const double offset = -normal.dot(point);
+    matrix += plane_weight * normal * normal.transpose();
+    vector += plane_weight * offset * normal;
+    constant += plane_weight * offset * offset;
+  }
+  void add(const Quadric& other) {
+    matrix += other.matrix;
+    vector += other.vector;
+    constant += other.constant;
+    weight += other.weight;
+  }
+  double at(const Eigen::Vector3d& x) const { return std::max(0.0, x.dot(matrix * x) + 2 * vector.dot(x) + constant); }
+};
+
+struct Merge {
+  double cost;
+  int vertex;
+  bool operator<(const Merge& other) const { return cost != other.cost ? cost < other.cost : vertex < other.vertex; }
+};
+
+bool has_corner(const std::vector<int>& corners, int v) {
+  return std::find(corners.begin(), corners.end(), v) != corners.end();
+}
+
+/// The corners before and after one of a polygon.
+std::array<int, 2> beside(const std::vector<int>& corners, int v) {
+  const auto at = std::find(corners.begin(), corners.end(), v);
+  return {at == corners.begin() ? corners.back() : *(at - 1), at + 1 == corners.end() ? corners.front() : *(at + 1)};
+}
+
+/// The polygons that are left, as lists of corners.
+class ShrinkingMesh {
+ public:
+  ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirror& mirror, const std::vector<signed char>& side,
+                const std::vector<double>& preference);
+
+  int n_vertices() const { return n_left_; }
+  /// Merges the cheapest vertices, at most `most`; returns how many.
+  int merge_round(int most);
+  /// Per vertex: itself, or the one that it was merged into.
+  const std::vector<int>& into() const { return into_; }
+  const std::vector<std::vector<int>>& faces() const { return faces_; }
+
+ private:
+  struct Shape {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Newell's
+    double corner_height = 0;
+  };
+
+  Shape shape(const std::vector<int>& corners) const;
+  bool is_border(int v) const { return border_[static_cast<std::size_t>(v)] != 0; }
+  int mirrored(int v) const { return mirror_.vertex[static_cast<std::size_t>(v)]; }
+  void collect_neighbours(int v);
+  bool is_simple_fan(int v);
+  double cost(int v, int w) const;
+  bool can_merge(int v, int w);
+  bool has_only_common_triangles(int v, int w);
+  bool keeps_shapes(int v, int w) const;
+  double least_cost(int v) const;
+  int best_neighbour(int v);
+  void merge(int v, int w);
+  void merge_with_image(int v, int w);
+  template <class Visit>
+  void visit_fans(int v, const Visit& visit) const;
+
+  const Piece& fine_;
+  bool symmetric_;
+  const PieceMirror& mirror_;
+  const std::vector<signed char>& side_;
+  const std::vector<double>& preference_;
+  std::vector<std::vector<int>> faces_;
+  std::vector<std::vector<int>> faces_of_;  ///< per vertex
+  std::vector<char> border_;                ///< 1 on the boundary, 2 where a vertex has to stay
+  std::vector<Quadric> quadrics_;
+  std::vector<int> into_;
+  std::vector<int> changed_;  ///< per vertex: the round in which a face around it was changed last
+  std::vector<double> cost_;  ///< per vertex: see least_cost
+  int round_ = 0;
+  int n_left_;
+  std::vector<std::pair<int, int>> neighbours_;  ///< scratch: a vertex, and in how many edges of faces it occurs
+  std::vector<std::pair<int, int>> others_;
+};
+
+ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirror& mirror,
+                             const std::vector<signed char>& side, const std::vector<double>& preference)
+    : fine_(fine),
+      symmetric_(symmetric),
+      mirror_(mirror),
+      side_(side),
+      preference_(preference),
+      faces_of_(fine.vertices.size()),
+      border_(fine.vertices.size(), 0),
+      quadrics_(fine.vertices.size()),
+      into_(fine.vertices.size()),
+      changed_(fine.vertices.size(), 0),
+      cost_(fine.vertices.size(), 0),
+      n_left_(static_cast<int>(fine.vertices.size())) {
+  for (std::size_t v = 0; v < into_.size(); ++v) into_[v] = static_cast<int>(v);
+  std::vector<std::array<int, 3>> sides;  // of faces: the ends, the smaller first, and the face
+  for (int f = 0; f < fine.n_faces(); ++f) {
+    faces_.emplace_back(fine.corner_vertices.begin() + fine.face_offsets[f],
+                        fine.corner_vertices.begin() + fine.face_offsets[f + 1]);
+    const std::vector<int>& corners = faces_.back();
+    const Eigen::Vector3d normal = shape(corners).normal;
+    const double area = 0.5 * normal.norm();
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const int v = corners[c];
+      const int next = corners[c + 1 == corners.size() ? 0 : c + 1];
+      faces_of_[v].push_back(f);
+      sides.push_back({std::min(v, next), std::max(v, next), f});
+      const double weight = area / static_cast<double>(corners.size());
+      quadrics_[v].weight += weight;
+      if (area > 0) quadrics_[v].add_plane(normal / (2 * area), fine.positions.row(v), weight);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1]) ++end;
+    const auto [a, b, f] = sides[i];
+    if (end == i + 1) {
+      const Eigen::Vector3d edge = fine.positions.row(b) - fine.positions.row(a);
+      const Eigen::Vector3d across = edge.cross(shape(faces_[f]).normal);
+      for (const int v : {a, b}) {
+        border_[v] = std::max(border_[v], char{1});
+        if (across.norm() > 0) {
+          quadrics_[v].add_plane(across.normalized(), fine.positions.row(a), boundary_weight * edge.squaredNorm());
+        }
+      }
+    } else if (end > i + 2) {
+      border_[a] = border_[b] = 2;
+    }
+    i = end;
+  }
+  for (const auto& seam : fine.seams) border_[seam[0]] = border_[seam[1]] = 2;
+}
+
+/// The least of (twice the area of the triangle at a corner) over the mean of the squared edges: 0.87 in an equilateral
+/// triangle, 1 in a square.
+ShrinkingMesh::Shape ShrinkingMesh::shape(const std::vector<int>& corners) const {
+  Shape result;
+  const std::size_t n = corners.size();
+  const auto point = [&](std::size_t c) -> Eigen::Vector3d { return fine_.positions.row(corners[c % n]); };
+  const Eigen::Vector3d origin = point(0);
+  double squares = 0;
+  for (std::size_t c = 0; c < n; ++c) {
+    result.normal += (point(c) - origin).cross(point(c + 1) - origin);
+    squares += (point(c + 1) - point(c)).squaredNorm();
+  }
+  const double length = result.normal.norm();
+  if (!(length > 0) || !(squares > 0)) return result;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < n; ++c) {
+    const Eigen::Vector3d corner = point(c + 1);
+    least = std::min(least, (point(c + 2) - corner).cross(point(c) - corner).dot(result.normal));
+  }
+  result.corner_height = least / length / (squares / static_cast<double>(n));
+  return result;
+}
+
+/// The vertices joined to v by an edge, ascending.
+void ShrinkingMesh::collect_neighbours(int v) {
+  neighbours_.clear();
+  for (const int f : faces_of_[v]) {
+    for (const int w : beside(faces_[f], v)) neighbours_.emplace_back(w, 1);
+  }
+  std::sort(neighbours_.begin(), neighbours_.end());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+    if (n > 0 && neighbours_[n - 1].first == neighbours_[i].first) {
+      ++neighbours_[n - 1].second;
+    } else {
+      neighbours_[n++] = neighbours_[i];
+    }
+  }
+  neighbours_.resize(n);
+}
+
+/// Whether the faces around a vertex are one fan, closed inside and open on the boundary. Leaves its neighbours.
+bool ShrinkingMesh::is_simple_fan(int v) {
+  collect_neighbours(v);
+  const auto open = std::count_if(neighbours_.begin(), neighbours_.end(), [](const auto& n) { return n.second == 1; });
+  return open == (is_border(v) ? 2 : 0) &&
+         std::all_of(neighbours_.begin(), neighbours_.end(), [](const auto& n) { return n.second <= 2; });
+}
+
+double ShrinkingMesh::cost(int v, int w) const {
+  const Eigen::Vector3d from = fine_.positions.row(v);
+  const Eigen::Vector3d to = fine_.positions.row(w);
+  double factor = length_weight;
+  if (!preference_.empty()) factor += preference_weight * std::abs(preference_[v] - preference_[w]);
+  return quadrics_[v].at(to) + factor * quadrics_[v].weight * (to - from).squaredNorm();
+}
+
+/// Vertices next to both have to be those of the triangles that vanish, and must have more faces than these. Expects
+/// the neighbours of v.
+bool ShrinkingMesh::has_only_common_triangles(int v, int w) {
+  others_.swap(neighbours_);  // those of v
+  collect_neighbours(w);
+  others_.swap(neighbours_);  // others_: those of w
+  std::size_t common = 0;
+  for (std::size_t i = 0, j = 0; i < neighbours_.size() && j < others_.size();) {
+    if (neighbours_[i].first == others_[j].first)
+      ++common, ++i, ++j;
+    else if (neighbours_[i].first < others_[j].first)
+      ++i;
+    else
+      ++j;
+  }
+  std::size_t triangles = 0;
+  std::size_t shared = 0;
+  for (const int f : faces_of_[v]) {
+    const std::vector<int>& corners = faces_[f];
+    if (!has_corner(corners, w)) continue;
+    const auto [previous, next] = beside(corners, w);
+    if (next != v && previous != v) return false;
+    ++shared;
+    if (corners.size() > 3) continue;
+    ++triangles;
+    const int third = next == v ? previous : next;
+    if (faces_of_[third].size() < (border_[third] == 1 ? 2 : 4)) return false;
+  }
+  return triangles == common && faces_of_[v].size() + faces_of_[w].size() - 2 * shared <= max_faces_around;
+}
+
+bool ShrinkingMesh::keeps_shapes(int v, int w) const {
+  std::vector<int> after;
+  for (const int f : faces_of_[v]) {
+    const std::vector<int>& corners = faces_[f];
+    const bool shared = has_corner(corners, w);
+    if (shared && corners.size() <= 3) continue;
+    after.clear();
+    for (const int c : corners) {
+      if (c != v) after.push_back(c);
+      if (c == v && !shared) after.push_back(w);
+    }
+    const Shape old = shape(corners);
+    const Shape made = shape(after);
+    if (old.normal.dot(made.normal) < min_turn_cosine * old.normal.norm() * made.normal.norm()) return false;
+    if (made.corner_height < std::min(min_corner_height, old.corner_height)) return false;
+  }
+  return true;
+}
+
+/// Expects the neighbours of v.
+bool ShrinkingMesh::can_merge(int v, int w) {
+  if (is_border(v) && is_border(w)) {
+    // Along the boundary only.
+    const auto to = std::find_if(neighbours_.begin(), neighbours_.end(), [&](const auto& n) { return n.first == w; });
+    if (to->second != 1) return false;
+  } else if (is_border(v)) {
+    return false;
+  }
+  return has_only_common_triangles(v, w) && keeps_shapes(v, w);
+}
+
+/// Of merging v into a neighbour, whether or not it can be; infinite where v has to stay.
+double ShrinkingMesh::least_cost(int v) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (border_[v] == 2 || (symmetric_ && side_[v] < 0)) return least;
+  for (const int f : faces_of_[v]) {
+    least = std::min(least, cost(v, beside(faces_[f], v)[1]));
+  }
+  return least;
+}
+
+/// The one that v can be merged into at the least cost, or -1.
+int ShrinkingMesh::best_neighbour(int v) {
+  if (!is_simple_fan(v)) return -1;
+  std::vector<Merge> merges;
+  for (const auto& [w, count] : neighbours_) {
+    const bool crosses = symmetric_ && (side_[w] < 0 || (side_[v] == 0 && side_[w] != 0));
+    if (!crosses && (!is_border(v) || count == 1)) merges.push_back({cost(v, w), w});
+  }
+  std::sort(merges.begin(), merges.end());
+  for (const Merge& merge : merges) {
+    if (can_merge(v, merge.vertex)) return merge.vertex;
+  }
+  return -1;
+}
+
+void ShrinkingMesh::merge(int v, int w) {
+  for (const int f : faces_of_[v]) {
+    std::vector<int>& corners = faces_[f];
+    if (!has_corner(corners, w)) {
+      std::replace(corners.begin(), corners.end(), v, w);
+      faces_of_[w].push_back(f);
+      continue;
+    }
+    corners.erase(std::find(corners.begin(), corners.end(), v));
+    if (corners.size() > 2) continue;
+    for (const int c : corners) faces_of_[c].erase(std::find(faces_of_[c].begin(), faces_of_[c].end(), f));
+    corners.clear();
+  }
+  faces_of_[v].clear();
+  quadrics_[w].add(quadrics_[v]);
+  into_[v] = w;
+  --n_left_;
+}
+
+/// Nothing is changed where the image cannot be merged any more once v is.
+void ShrinkingMesh::merge_with_image(int v, int w) {
+  if (!symmetric_ || side_[v] == 0) {
+    merge(v, w);
+    return;
+  }
+  std::vector<int> around{v};
+  for (const int f : faces_of_[v]) around.insert(around.end(), faces_[f].begin(), faces_[f].end());
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  std::vector<std::vector<int>> faces_of;
+  faces_of.reserve(around.size());
+  for (const int a : around) faces_of.push_back(faces_of_[a]);
+  std::vector<std::pair<int, std::vector<int>>> faces;
+  for (const int f : faces_of_[v]) faces.emplace_back(f, faces_[f]);
+  const Quadric quadric = quadrics_[w];
+  merge(v, w);
+  const int image = mirrored(v);
+  const int image_into = mirrored(w);
+  collect_neighbours(image);
+  const bool joined = std::any_of(neighbours_.begin(), neighbours_.end(),
+                                  [&](const auto& neighbour) { return neighbour.first == image_into; });
+  if (joined && is_simple_fan(image) && can_merge(image, image_into)) {
+    merge(image, image_into);
+    return;
+  }
+  for (std::size_t i = 0; i < around.size(); ++i) faces_of_[around[i]] = std::move(faces_of[i]);
+  for (auto& [f, corners] : faces) faces_[f] = std::move(corners);
+  quadrics_[w] = quadric;
+  into_[v] = v;
+  ++n_left_;
+}
+
+/// Visits the vertices around v and its image, some of them several times.
+template <class Visit>
+void ShrinkingMesh::visit_fans(int v, const Visit& visit) const {
+  for (const int centre : {v, symmetric_ ? mirrored(v) : v}) {
+    for (const int f : faces_of_[centre]) {
+      for (const int c : faces_[f]) visit(c);
+    }
+  }
+}
+
+int ShrinkingMesh::merge_round(int most) {
+  ++round_;
+  std::vector<Merge> merges;
+  for (std::size_t v = 0; v < into_.size(); ++v) {
+    if (into_[v] != static_cast<int>(v)) continue;
+    if (changed_[v] == round_ - 1) cost_[v] = least_cost(static_cast<int>(v));
+    if (std::isfinite(cost_[v])) merges.push_back({cost_[v], static_cast<int>(v)});
+  }
+  const auto n_cheap = static_cast<std::ptrdiff_t>(merged_per_round * static_cast<double>(merges.size())) + 1;
+  const auto last = merges.begin() + std::min(n_cheap, static_cast<std::ptrdiff_t>(merges.size()));
+  std::partial_sort(merges.begin(), last, merges.end());
+  const int before = n_left_;
+  for (auto merge = merges.begin(); merge != merges.end() && before - n_left_ < most; ++merge) {
+    // Where none of the cheap ones can be merged, all others are tried.
+    if (merge >= last && before != n_left_) break;
+    if (merge == last) std::sort(last, merges.end());
+    bool is_free = true;
+    visit_fans(merge->vertex, [&](int c) { is_free = is_free && changed_[c] != round_; });
+    const int into = is_free ? best_neighbour(merge->vertex) : -1;
+    if (into < 0) continue;
+    visit_fans(merge->vertex, [&](int c) { changed_[c] = round_; });
+    merge_with_image(merge->vertex, into);
+  }
+  return before - n_left_;
+}
+
+}  // namespace
+
+CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror, const std::vector<signed char>& side,
+                         const std::vector<double>& preference, int n_vertices, const Progress& progress) {
+  const bool symmetric = mirror.image == index;
+  ShrinkingMesh mesh(fine, symmetric, mirror, side, preference);
+  while (mesh.n_vertices() > n_vertices) {
+    report(progress, 0, "seams");
+    if (mesh.merge_round(mesh.n_vertices() - n_vertices) == 0) break;
+  }
+  CoarsePiece result;
+  std::vector<int> root = mesh.into();
+  for (int& v : root) {
+    while (mesh.into()[v] != v) v = mesh.into()[v];
+  }
+  std::vector<int> number(root.size(), -1);
+  for (std::size_t v = 0; v < root.size(); ++v) {
+    if (root[v] != static_cast<int>(v)) continue;
+    number[v] = static_cast<int>(result.vertex.size());
+    result.vertex.push_back(static_cast<int>(v));
+    result.piece.vertices.push_back(fine.vertices[v]);
+  }
+  for (const int v : root) result.cluster.push_back(number[v]);
+  result.piece.positions.resize(static_cast<Eigen::Index>(result.vertex.size()), 3);
+  for (std::size_t v = 0; v < result.vertex.size(); ++v) {
+    result.piece.positions.row(static_cast<Eigen::Index>(v)) = fine.positions.row(result.vertex[v]);
+  }
+  std::vector<int> face_number(fine.faces.size(), -1);
+  for (std::size_t f = 0; f < fine.faces.size(); ++f) {
+    if (mesh.faces()[f].empty()) continue;
+    face_number[f] = result.piece.n_faces();
+    result.piece.faces.push_back(fine.faces[f]);
+    for (const int v : mesh.faces()[f]) result.piece.corner_vertices.push_back(number[v]);
+    result.piece.face_offsets.push_back(static_cast<int>(result.piece.corner_vertices.size()));
+  }
+  for (const auto& seam : fine.seams) result.piece.seams.push_back({number[seam[0]], number[seam[1]]});
+  result.mirror.image = symmetric ? index : -1;
+  if (!symmetric) return result;
+  for (const int v : result.vertex) result.mirror.vertex.push_back(number[mirror.vertex[v]]);
+  for (std::size_t f = 0; f < fine.faces.size(); ++f) {
+    if (face_number[f] >= 0) result.mirror.face.push_back(face_number[mirror.face[f]]);
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal

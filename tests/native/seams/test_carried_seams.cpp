@@ -1,0 +1,137 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "meshes.h"
+#include "seams/carried_seams.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+/// A piece and its coarse copy.
+struct TwoLevels {
+  Mesh mesh;
+  MirrorSymmetry symmetry;
+  std::vector<Piece> pieces;
+  PieceMirror mirror;
+  CoarsePiece coarse;
+
+  TwoLevels(Mesh given, int fraction) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
+    const ChartDecomposition decomposition = build_charts(mesh.view());
+    pieces = split_into_pieces(mesh.view(), decomposition);
+    REQUIRE(pieces.size() == 1);
+    mirror = mirror_pieces(mesh.view(), decomposition, pieces, symmetry)[0];
+    std::vector<signed char> side;
+    for (const int v : pieces[0].vertices) side.push_back(symmetry.side[v]);
+    const int n = static_cast<int>(pieces[0].vertices.size()) / fraction;
+    coarse = coarse_piece(pieces[0], 0, mirror, side, {}, n, {});
+  }
+  PieceSeams fine_seams() const { return {pieces[0], 0, mirror, symmetry}; }
+  PieceSeams coarse_seams() const { return {coarse.piece, 0, coarse.mirror, symmetry}; }
+};
+
+std::vector<Chart> charts_of(const PieceSeams& seams) {
+  PolygonMesh view = seams.piece().view();
+  const auto edges = seams.with({});
+  view.seam_edges = edges.data();
+  view.n_seam_edges = static_cast<int>(edges.size());
+  return build_charts(view).charts;
+}
+
+/// (Euler characteristic, boundary loops) of each chart.
+std::multiset<std::array<int, 2>> topology(const PieceSeams& seams) {
+  std::multiset<std::array<int, 2>> result;
+  for (const Chart& chart : charts_of(seams)) {
+    result.insert({chart.euler_characteristic, static_cast<int>(chart.boundary_loops.size())});
+  }
+  return result;
+}
+
+/// The border of the faces whose centre is above a height along an axis.
+SeamEdges border_above(const PieceSeams& seams, int axis, double height) {
+  const Piece& piece = seams.piece();
+  const auto is_above = [&](int face) {
+    double sum = 0;
+    for (int c = piece.face_offsets[face]; c < piece.face_offsets[face + 1]; ++c) {
+      sum += piece.positions(piece.corner_vertices[c], axis) - height;
+    }
+    return sum > 0;
+  };
+  SeamEdges cut;
+  for (std::size_t e = 0; e < seams.graph().edges().size(); ++e) {
+    const auto& edge = seams.graph().edges()[e];
+    if (!edge.cut && is_above(edge.faces[0]) != is_above(edge.faces[1])) cut.push_back(static_cast<int>(e));
+  }
+  return seams.with_images(cut);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("carried_seams");
+
+TEST_CASE("the charts of the fine piece are those of the coarse one") {
+  for (const int fraction : {3, 6}) {
+    for (const Mesh& mesh : {torus(60, 30), sphere(14), perforated_grid(24, 24), spiky_grid(4, 6), double_torus()}) {
+      for (const int axis : {0, 1, 2}) {
+        const TwoLevels levels(mesh, fraction);
+        PieceSeams from = levels.coarse_seams();
+        std::vector<SeamEdges> cuts = from.open();
+        const Positions& at = levels.coarse.piece.positions;
+        for (const double position : {0.3, 0.7}) {
+          const double low = at.col(axis).minCoeff();
+          cuts.push_back(border_above(from, axis, low + position * (at.col(axis).maxCoeff() - low)));
+          from.add(cuts.back());
+        }
+        PieceSeams to = levels.fine_seams();
+        const std::vector<SeamEdges> carried = carry_seams(levels.coarse, from, cuts, to);
+        CHECK(topology(to) == topology(from));
+        REQUIRE(carried.size() == cuts.size());
+        std::multiset<int> all;
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+          CHECK(carried[i].empty() == cuts[i].empty());
+          all.insert(carried[i].begin(), carried[i].end());
+        }
+        CHECK(all == std::multiset<int>(to.edges().begin(), to.edges().end()));
+        CHECK(std::set<int>(all.begin(), all.end()).size() == all.size());
+        CHECK(to.length(to.edges()) < 1.6 * from.length(from.edges()));
+      }
+    }
+  }
+}
+
+TEST_CASE("carried seams of a symmetric piece are symmetric") {
+  for (const Mesh& mesh : {sphere(14), spiky_grid(4, 6)}) {
+    const TwoLevels levels(mesh, 4);
+    PieceSeams from = levels.coarse_seams();
+    std::vector<SeamEdges> cuts = from.open();
+    cuts.push_back(border_above(from, 1, levels.coarse.piece.positions.col(1).mean() + 0.2));
+    from.add(cuts.back());
+    PieceSeams to = levels.fine_seams();
+    carry_seams(levels.coarse, from, cuts, to);
+    REQUIRE(to.is_symmetric() == from.is_symmetric());
+    REQUIRE(to.is_symmetric());
+    const std::set<int> edges(to.edges().begin(), to.edges().end());
+    for (const int e : edges) {
+      const auto& ends = to.graph().edges()[e].vertices;
+      CHECK(edges.count(to.graph().find_edge(to.mirrored(ends[0]), to.mirrored(ends[1]))) == 1);
+    }
+  }
+}
+
+TEST_CASE("what was sewn up is not carried") {
+  const TwoLevels levels(torus(60, 30), 4);
+  PieceSeams from = levels.coarse_seams();
+  std::vector<SeamEdges> cuts = from.open();
+  cuts.push_back(border_above(from, 0, 0));
+  from.add(cuts.back());
+  from.remove(cuts.back());
+  PieceSeams to = levels.fine_seams();
+  const std::vector<SeamEdges> carried = carry_seams(levels.coarse, from, cuts, to);
+  CHECK(carried.back().empty());
+  CHECK(topology(to) == topology(from));
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
