@@ -150,6 +150,15 @@ def test_no_island_covers_itself_or_is_flipped():
         )
 
 
+def test_a_patch_that_cuts_do_not_make_easy_to_map_is_parted_all_the_same():
+    vertices, faces = meshes.rough_grid(16, 3.0, 2)
+    mesh = (vertices, *meshes.polygons(faces))
+    assert sc.unwrap(*mesh).charts[0].fallback is not None
+    charts = sc.unwrap(*mesh, seam_edges=sc.suggest_seams(*mesh)).charts
+    assert [(chart.status, chart.overlapping, chart.flipped) for chart in charts] == [("solved", 0, 0)] * len(charts)
+    assert len(charts) < len(faces) / 5
+
+
 @pytest.mark.parametrize("n", [1, 4])
 def test_a_cube_is_one_net(n):
     mesh = box((1, 1, 1), n)

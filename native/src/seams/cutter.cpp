@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -53,7 +54,7 @@ constexpr std::size_t sewn_at_once = 4;
 constexpr std::int64_t sewing_vertices = 80000;
 /// The least cost of sewing, as a fraction of the distortion that is allowed: what costs less is free.
 constexpr double least_loss = 0.02;
-/// A piece whose map fails is given up after this number of cuts.
+/// A piece that no map serves after this number of cuts gets one that fallbacks make.
 constexpr int max_blind_cuts = 30;
 
 /// The area of some faces, each of which counts with a little of the whole, so that slivers count.
@@ -81,14 +82,17 @@ Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
     : seams_(std::move(seams)), options_(options), stage_(stage), changed_(!stage.refined) {}
 
-void Cutter::solve(const Progress& progress) {
-  TrialMaps charts = map_charts(seams_.with({}), {}, {}, progress);
+void Cutter::solve(const Progress& progress) { solve({}, progress); }
+
+void Cutter::solve(const TrialMaps& known, const Progress& progress) {
+  TrialMaps charts = map_charts(seams_.with({}), {}, known, progress);
   const MapQuality quality = map_quality(charts, options_.scale_limit);
   take_maps(std::move(charts), quality);
 }
 
 SeamEdges Cutter::step(double longest, const Progress& progress) {
   recent_ = std::exchange(fresh_, {});
+  if (!quality_.solved && blind_cuts_ >= max_blind_cuts && !fallbacks_) allow_fallbacks(progress);
   SeamEdges accepted;
   const bool wanted = quality_.solved && !exhausted_ && !good_enough();
   if (wanted && (stage_.refined || quality_.within_limit < enough_area)) accepted = cut_to_all(longest, progress);
@@ -104,6 +108,17 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
+}
+
+/// Charts that no cut makes easy to map get the map that `unwrap` would give them, which tells where to cut.
+void Cutter::allow_fallbacks(const Progress& progress) {
+  fallbacks_ = true;
+  TrialMaps solved;
+  std::copy_if(charts_.begin(), charts_.end(), std::back_inserter(solved), [](const auto& old) { return old->solved; });
+  charts_.clear();
+  recent_.clear();
+  fresh_.clear();
+  solve(solved, progress);
 }
 
 bool Cutter::good_enough() const {
@@ -147,7 +162,9 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
       const auto found = same ? maps->end() : std::find_if(maps->begin(), maps->end(), is_same);
       if (found != maps->end()) same = *found;
     }
-    if (!same) same = std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, progress));
+    if (!same)
+      same =
+          std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, fallbacks_, progress));
     result.push_back(std::move(same));
   }
   std::sort(result.begin(), result.end(),
@@ -433,7 +450,8 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
 
 /// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.
 SeamEdges Cutter::blind_cut(double longest, const Progress& progress) {
-  if (++blind_cuts_ > max_blind_cuts) return {};
+  if (blind_cuts_ >= max_blind_cuts) return {};
+  ++blind_cuts_;
   SeamEdges cut = candidates().blind_cut();
   if (cut.empty() || (quality_.solved && seams_.length(cut) > longest)) return {};
   Trial trial = attempt(std::move(cut), {}, progress);

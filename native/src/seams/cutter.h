@@ -57,6 +57,8 @@ class Cutter {
   /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
+  void solve(const TrialMaps& known, const Progress& progress);
+  void allow_fallbacks(const Progress& progress);
   bool good_enough() const;
   bool is_small() const;
   TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
@@ -101,6 +103,7 @@ class Cutter {
   bool exhausted_ = false;  ///< no cut gains any more
   bool cones_tried_ = false;
   int blind_cuts_ = 0;
+  bool fallbacks_ = false;  ///< are allowed to trial maps
   int losing_splits_ = 0;
 };
 

@@ -70,15 +70,15 @@ double weighted_median(std::vector<std::pair<double, double>>& value_and_weight,
 
 }  // namespace
 
-TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress) {
+TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, bool fallbacks,
+                         const Progress& progress) {
   TrialMap result;
   result.chart = std::move(chart);
   const Positions positions = result.chart.positions(mesh);
   try {
-    // A map that had to be replaced asks for a cut, and takes long.
-    SolveOptions strict;
-    strict.fallbacks = false;
-    result.z = Solver(result.chart, positions, options).solve(strict, {}, progress).z;
+    SolveOptions solve;
+    solve.fallbacks = fallbacks;
+    result.z = Solver(result.chart, positions, options).solve(solve, {}, progress).z;
     result.solved = true;
   } catch (const InvalidMesh&) {
     return result;  // not solved, which is the answer

@@ -20,8 +20,10 @@ struct TrialMap {
   std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
 };
 
-/// Solves a chart of `mesh`. Where it cannot be solved, `solved` is false. Throws Cancelled.
-TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, const Progress& progress);
+/// Solves a chart of `mesh`, with `fallbacks` as in SolveOptions: a map that has to be replaced asks for a cut, and
+/// takes long. Where the chart cannot be solved, `solved` is false. Throws Cancelled.
+TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, bool fallbacks,
+                         const Progress& progress);
 
 /// The faces that no texture can do without a cut: flipped, or covering part of another one. Indices into the chart's
 /// faces, ascending; none where the chart is not solved.

@@ -27,7 +27,8 @@ struct Solved {
         std::make_unique<PieceSeams>(pieces[0], 0, mirror_pieces(mesh.view(), whole, pieces, symmetry)[0], symmetry);
     seams->open();
     for (Chart& chart : charts_with({})) {
-      charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(pieces[0].view(), std::move(chart), {}, {})));
+      charts.push_back(
+          std::make_shared<const TrialMap>(solve_trial_map(pieces[0].view(), std::move(chart), {}, false, {})));
     }
     quality = map_quality(charts, 2);
   }

@@ -67,7 +67,7 @@ TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam 
     view.n_seam_edges = static_cast<int>(seams.size());
     TrialMaps charts;
     for (Chart& chart : build_charts(view).charts) {
-      charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(view, std::move(chart), {}, {})));
+      charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(view, std::move(chart), {}, false, {})));
     }
     return charts;
   };

@@ -11,7 +11,7 @@ namespace {
 TrialMap map_of(const Mesh& mesh) {
   ChartDecomposition decomposition = build_charts(mesh.view());
   REQUIRE(decomposition.charts.size() == 1);
-  TrialMap chart = solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, {});
+  TrialMap chart = solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, false, {});
   REQUIRE(chart.solved);
   return chart;
 }

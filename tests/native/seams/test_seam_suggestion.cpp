@@ -43,7 +43,7 @@ MapQuality quality_with(Mesh mesh, const std::vector<std::array<int, 2>>& seams)
   mesh.seams.insert(mesh.seams.end(), seams.begin(), seams.end());
   TrialMaps charts;
   for (Chart& chart : build_charts(mesh.view()).charts) {
-    charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(mesh.view(), std::move(chart), {}, {})));
+    charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(mesh.view(), std::move(chart), {}, false, {})));
   }
   return map_quality(charts, 2);
 }

@@ -14,7 +14,7 @@ std::shared_ptr<const TrialMap> mapped(const Mesh& mesh, const Progress& progres
   ChartDecomposition decomposition = build_charts(mesh.view());
   REQUIRE(decomposition.charts.size() == 1);
   return std::make_shared<const TrialMap>(
-      solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, progress));
+      solve_trial_map(mesh.view(), std::move(decomposition.charts.front()), {}, false, progress));
 }
 
 }  // namespace
