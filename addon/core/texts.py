@@ -84,8 +84,8 @@ AREA_BLEND_PROPERTY = {
 FOLD_FREE_PROPERTY = {
     "name": "Fold-Free",
     "description": (
-        "Leave no flipped faces: unfold those of the conformal map, at some cost in angles. Islands that "
-        "cannot be unfolded where they are get another map, which takes longer"
+        "Leave no flipped faces, and no island that covers itself: unfold and move apart what is, at some cost in "
+        "angles. Islands where that is not enough get another map, which takes longer"
     ),
 }
 POLISH_PROPERTY = {

@@ -2,6 +2,7 @@
 
     build/venv/bin/python -m tests.benchmarks.fold_free_maps [folder of OBJ files]
 
+Then how many patches, grown at random on these meshes, cover themselves, without fold_free and with it.
 The time is a ratio: with fold_free over without, in the same run. The folder is that of the shared real meshes beside
 the project by default.
 """
@@ -50,6 +51,60 @@ def row(name: str, vertices: np.ndarray, faces: list[list[int]]) -> str | None:
     )
 
 
+def grown(faces: list[list[int]], size: int, rng: np.random.Generator) -> np.ndarray:
+    """Return which faces a patch has, (F,) bool, grown at random over edges to `size` faces."""
+    sides: dict[tuple[int, int], list[int]] = {}
+    for number, face in enumerate(faces):
+        for a, b in zip(face, [*face[1:], face[0]]):
+            sides.setdefault((min(a, b), max(a, b)), []).append(number)
+    beside: list[list[int]] = [[] for _ in faces]
+    for first, *others in sides.values():
+        if len(others) == 1:
+            beside[first].append(others[0])
+            beside[others[0]].append(first)
+    start = int(rng.integers(len(faces)))
+    chosen, open_faces = {start}, [start]
+    while open_faces and len(chosen) < size:
+        at = int(rng.integers(len(open_faces))) if rng.random() < 0.5 else len(open_faces) - 1
+        new = [face for face in beside[open_faces.pop(at)] if face not in chosen]
+        chosen.update(new)
+        open_faces += new
+    patch = np.zeros(len(faces), dtype=bool)
+    patch[list(chosen)] = True
+    return patch
+
+
+def patches(folder: Path) -> None:
+    """Print how many patches of the meshes cover themselves, without fold_free and with it, and at which mean QC."""
+    rng = np.random.default_rng(1)
+    before, after, seconds, left = [], [], [], 0
+    for path in sorted(folder.glob("*.obj")):
+        vertices, faces = meshes.read_obj(path)
+        if len(faces) > LARGEST:
+            continue
+        mesh = (vertices, *meshes.polygons(faces))
+        for _ in range(12):
+            size = np.exp(rng.uniform(np.log(40), np.log(min(4000, 0.8 * len(faces) + 41))))
+            selected = grown(faces, int(size), rng)
+            plain = sc.unwrap(*mesh, selected_faces=selected).charts
+            if not any(chart.status == "solved" and chart.overlapping for chart in plain):
+                continue
+            start = time.perf_counter()
+            free = sc.unwrap(*mesh, selected_faces=selected, fold_free=True).charts
+            seconds.append(time.perf_counter() - start)
+            for chart, apart in zip(plain, free):
+                if chart.status == "solved" and chart.overlapping:
+                    before.append(chart.mean_qc)
+                    after.append(apart.mean_qc)
+                    left += apart.overlapping > 0
+    print(
+        f"\nPatches grown at random: {len(before)} cover themselves -> {left}; mean QC, "
+        f"median {np.median(before):.3f} -> {np.median(after):.3f}, "
+        f"mean {np.mean(before):.3f} -> {np.mean(after):.3f}; "
+        f"seconds, mean {np.mean(seconds):.2f}, longest {np.max(seconds):.2f}"
+    )
+
+
 def main() -> None:
     """Print the table."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else SHARED
@@ -67,6 +122,8 @@ def main() -> None:
             line = row(path.stem, vertices, faces)
             if line:
                 print(line, flush=True)
+    if any(folder.glob("*.obj")):
+        patches(folder)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,6 @@ import spectral_conformal as sc
 from tests.module import meshes
 
 COVERED = [meshes.rough_grid(8, 0.8, 12, 0.1), meshes.rough_grid(10, 1.0, 10, 0.1), meshes.rough_grid(6, 1.5, 9, 0.2)]
-# Flat but for its rise, and more than once round: its parts lie on each other in every map without much distortion.
-SPIRAL = meshes.spiral_ramp(1.5)
 
 
 def triangulated(vertices, faces):
@@ -51,15 +49,37 @@ def test_what_stands_in_for_a_refused_map_says_so_still(mesh, fallback):
     assert apart.mean_qc_before == refused.mean_qc_before
 
 
-def test_what_does_not_come_apart_stays_and_is_told():
-    mesh = triangulated(*SPIRAL)
+@pytest.mark.parametrize("turns", [1.5, 3.0])
+def test_parts_that_cannot_be_pulled_apart_come_apart_in_an_embedding(turns):
+    mesh = triangulated(*meshes.spiral_ramp(turns))
     plain = sc.parameterize(*mesh)
-    assert sc.distortion(*mesh, plain.uv).overlapping.any()
-    told = sc.parameterize(*mesh, fold_free=True)
-    assert np.array_equal(told.uv, plain.uv)
-    assert told.message == "The island still covers itself somewhere; add seams."
-    assert told.unfolded == 0
-    assert not told.is_embedding
+    before = sc.distortion(*mesh, plain.uv)
+    assert before.overlapping.mean() > 0.3
+    assert not before.flipped.any()
+    apart = sc.parameterize(*mesh, fold_free=True)
+    after = sc.distortion(*mesh, apart.uv)
+    assert not after.overlapping.any()
+    assert not after.flipped.any()
+    assert abs(apart.turning_number) == 1
+    # A spiral that grows outwards keeps angles, for all its turns.
+    assert after.mean_qc < 1.1
+    assert apart.is_embedding
+    assert apart.message.startswith("Parts that covered each other came apart in an embedding, relaxed without ")
+    assert apart.mean_qc_before == pytest.approx(before.mean_qc)
+    assert apart.eigenvalue_of == "map"
+    assert apart.fallback == "tutte_embedding"
+
+
+def test_with_pins_parts_stay_where_they_are_and_are_told():
+    vertices, faces = meshes.spiral_ramp(1.5)
+    mesh = (vertices, *meshes.polygons(faces))
+    plain = sc.unwrap(*mesh)
+    first, last = 0, len(mesh[2]) - 1
+    pins = {int(mesh[2][corner]): plain.uv[corner] for corner in (first, last)}
+    (held,) = sc.unwrap(*mesh, pins=pins, fold_free=True).charts
+    assert held.status == "solved"
+    assert held.overlapping > 0.3 * len(held.faces)
+    assert "came apart" not in held.message
 
 
 def test_a_map_that_covers_nothing_twice_stays():
@@ -69,8 +89,8 @@ def test_a_map_that_covers_nothing_twice_stays():
     assert np.array_equal(told.uv, sc.parameterize(*mesh).uv)
 
 
-def test_it_can_be_stopped_at_every_report():
-    mesh = COVERED[0]
+@pytest.mark.parametrize("mesh", [COVERED[0], triangulated(*meshes.spiral_ramp(1.5, 12, 1))])
+def test_it_can_be_stopped_at_every_report(mesh):
     last, calls = 0.0, 0
 
     def count(fraction, _phase):

@@ -44,8 +44,8 @@ struct PatchOptions {
   /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
   /// (isometric_relaxation.h), and its metric, blended with the identity, is that of all solves (section 4.3).
   double area_blend = 0;
-  /// Solves unfold flipped triangles, or replace the map by an embedding, at some cost in distortion; what stays
-  /// flipped is reported. See fold_free_map.h.
+  /// Solves unfold flipped triangles and move parts apart that cover each other, or replace the map by an embedding, at
+  /// some cost in distortion; what stays flipped or covered is reported. See fold_free_map.h.
   bool fold_free = false;
   /// Solves of Method::spectral without pins, soft constraints or a metric go on from the eigenvector to a lower mean
   /// QC (polish.h), where they find one.

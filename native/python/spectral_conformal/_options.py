@@ -59,8 +59,9 @@ class Options:
         fold_free: bool, end without a flipped triangle and with a turning number of 1 or -1, at some cost in
             distortion. Flipped triangles are unfolded where they are; where that leaves some, or the map winds round
             more than once or there is none, a Tutte embedding, one-to-one by theorem, is relaxed without flipping a
-            triangle. `message` says what was done and what it cost, and where several pins leave no room. Triangles
-            without area in 3D cannot flip; of a quad's two splits the first is kept unfolded.
+            triangle. Without pins, parts that cover each other are moved apart, in the end in an embedding whose border
+            does not touch itself. `message` says what was done and what it cost, and where several pins leave no room.
+            Triangles without area in 3D cannot flip; of a quad's two splits the first is kept unfolded.
         polish: bool, go on from the map of "spectral" to a lower mean QC by a few steps with the factor that is there
             (no pins, soft constraints, `metric` or `area_blend`). The conformal energy counts a triangle by its area in
             the map, mean QC by its area on the surface. No step flips a triangle; `polish_steps` says how many there

@@ -42,7 +42,8 @@ class QuadraticForm {
 
   /// Returns false when the form is not positive definite in double precision, however far its weights are clamped.
   /// Counts its attempts.
-  bool factorize(const ComplexVector& z, int& attempts) {
+  /// curvature: per vertex, of what is not the elements'.
+  bool factorize(const ComplexVector& z, const Eigen::VectorXd& curvature, int& attempts) {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
     double largest = 0;
@@ -52,7 +53,7 @@ class QuadraticForm {
     }
     // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the last.
     for (; min_weight_ < 1; min_weight_ *= 100) {
-      assemble(weights, min_weight_ * largest);
+      assemble(weights, curvature, min_weight_ * largest);
       ++attempts;
       if (factorization_->factorize(matrix_)) return true;
     }
@@ -70,7 +71,7 @@ class QuadraticForm {
 
   bool is_fixed(int vertex) const { return !fixed_.empty() && fixed_[vertex]; }
 
-  void assemble(const std::vector<DistortionStiffness>& weights, double min_weight) {
+  void assemble(const std::vector<DistortionStiffness>& weights, const Eigen::VectorXd& curvature, double min_weight) {
     Complex* const value = matrix_.valuePtr();
     const int* const diagonal = matrix_.outerIndexPtr();
     std::fill(value, value + matrix_.nonZeros(), Complex(0));
@@ -97,6 +98,7 @@ class QuadraticForm {
       }
     }
     for (int v = 0; v < static_cast<int>(matrix_.cols()); ++v) {
+      value[diagonal[v]] += curvature[v];
       // Vertices without a triangle stay, too.
       if (is_fixed(v) || value[diagonal[v]] == 0.0) value[diagonal[v]] = 1;
     }
@@ -150,6 +152,8 @@ class Relaxation {
   /// the second ended at a mean QC that differs by 3 % at most, on 12 meshes relaxed to equal areas.
   static constexpr double quick_fall = 0.6;
   static constexpr double short_step = 0.003;
+  /// Leaves each triangle a tenth of its way to a flip, and the boundary to a contact.
+  static constexpr double fraction_of_max_step = 0.9;
 
   struct Step {
     double length = 0;  ///< relative to the full one; 0 when none lowers the energy
@@ -186,7 +190,7 @@ class Relaxation {
     while (result_.factorizations < options_.max_factorizations) {
       const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
-      if (!form_.factorize(z_, result_.factorizations)) return DescentStatus::indefinite_form;
+      if (!form_.factorize(z_, curvature(), result_.factorizations)) return DescentStatus::indefinite_form;
       for (int k = 0; k < steps_per_factor; ++k) {
         report(progress, done, "relax");
         const Step step = descend();
@@ -204,8 +208,24 @@ class Relaxation {
     return DescentStatus::factorization_limit;
   }
 
+  /// Of the boundary's barrier.
+  Eigen::VectorXd curvature() const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(z_.size());
+    if (options_.boundary != nullptr) options_.boundary->add_curvature(pairs_, z_, result);
+    return result;
+  }
+
+  /// The part of the step up to which the boundary does not touch itself, with some room.
+  double free_part(const ComplexVector& step) {
+    if (options_.boundary == nullptr) return 1;
+    pairs_ = options_.boundary->pairs_near(z_, step);
+    return std::min(1.0, fraction_of_max_step * BoundaryBarrier::max_step(pairs_, z_, step));
+  }
+
+  /// The boundary's barrier counts as far as pairs_ knows.
   double evaluate(const ComplexVector& z, ComplexVector& gradient) const {
-    const double energy = energy_and_gradient(elements_, options_.measure, z, gradient);
+    double energy = energy_and_gradient(elements_, options_.measure, z, gradient);
+    if (options_.boundary != nullptr) energy += options_.boundary->add(pairs_, z, gradient);
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
       if (fixed_[v]) gradient[static_cast<Eigen::Index>(v)] = 0;
     }
@@ -220,9 +240,8 @@ class Relaxation {
   }
 
   Step descend() {
-    constexpr double fraction_of_max_step = 0.9;  // leaves each triangle a tenth of its way to a flip
-    constexpr double sufficient = 1e-4;           // Armijo's condition, as in Nocedal and Wright (2006), Section 3.1
-    constexpr int max_halvings = 20;              // a step of 1e-6 of the full one changes nothing that is visible
+    constexpr double sufficient = 1e-4;  // Armijo's condition, as in Nocedal and Wright (2006), Section 3.1
+    constexpr int max_halvings = 20;     // a step of 1e-6 of the full one changes nothing that is visible
     const auto inverse = [this](const ComplexVector& b, ComplexVector& x) { form_.solve(b, x); };
     const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
     const double slope = real_dot(gradient_, direction);
@@ -230,6 +249,7 @@ class Relaxation {
     step.promised_fall = -0.5 * slope / excess(energy_);
     if (!(slope < 0)) return step;
     double length = std::min(1.0, fraction_of_max_step * max_step(elements_, z_, direction));
+    length *= free_part(length * direction);
     for (int k = 0; k < max_halvings; ++k, length *= 0.5) {
       const ComplexVector moved = z_ + length * direction;
       ComplexVector gradient;
@@ -260,6 +280,7 @@ class Relaxation {
       ++regularized_;
     }
     started_ = true;
+    if (options_.boundary != nullptr) pairs_ = options_.boundary->pairs_near(z_, ComplexVector::Zero(z_.size()));
     energy_ = evaluate(z_, gradient_);
   }
 
@@ -288,6 +309,7 @@ class Relaxation {
   DescentOptions options_;
   QuadraticForm form_;
   Lbfgs lbfgs_;
+  std::vector<BoundaryBarrier::Pair> pairs_;  ///< the whole of the last step
   double energy_ = 0;
   ComplexVector gradient_;
   int regularized_ = 0;   ///< elements

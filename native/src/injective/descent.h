@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "injective/boundary_barrier.h"
 #include "injective/distortion_energy.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
@@ -19,6 +20,8 @@ struct DescentOptions {
   bool keep_all_barriers = false;
   /// Asked after every step whether the map is what is sought, which ends the descent. Empty: never.
   std::function<bool(const ComplexVector&)> is_enough = {};
+  /// Added to the energy; the boundary does not touch itself then, if it did not before. May be null.
+  const BoundaryBarrier* boundary = nullptr;
 };
 
 /// Why a descent ended.

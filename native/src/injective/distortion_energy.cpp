@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
 
 namespace spectral_conformal {
@@ -60,12 +61,10 @@ Density density(const DistortionElement& element, DistortionMeasure measure, con
 
 /// The smallest positive root of c0 + c1 t + c2 t^2, or infinity.
 double smallest_positive_root(double c0, double c1, double c2) {
-  const double discriminant = c1 * c1 - 4 * c0 * c2;
-  if (!(discriminant >= 0)) return infinity;
-  const double q = -0.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
   double smallest = infinity;
-  if (q != 0 && c0 / q > 0) smallest = c0 / q;
-  if (c2 != 0 && q / c2 > 0) smallest = std::min(smallest, q / c2);
+  for (const double root : quadratic_roots(c0, c1, c2)) {
+    if (root > 0) smallest = std::min(smallest, root);
+  }
   return smallest;
 }
 

@@ -46,6 +46,8 @@ class FoldFree {
   }
 
  private:
+  enum class Boundary { free, apart };
+
   FoldFreeMap without_folds(ComplexVector given) {
     FoldFreeMap result;
     result.z = std::move(given);
@@ -63,13 +65,13 @@ class FoldFree {
       }
       if (result.is_locally_injective || !patch_.held.empty()) return result;
     }
-    FoldFreeMap embedded = embed();
+    FoldFreeMap embedded = embed(part(progress_, 0.3, 1));
     embedded.flipped_before = result.flipped_before;
     if (result.z.size() > 0 && !embedded.is_locally_injective) return result;
     return embedded;
   }
 
-  void move_apart(FoldFreeMap& map) const {
+  void move_apart(FoldFreeMap& map) {
     const auto is_apart = [this](const ComplexVector& z) { return has_degree_at_most_one(patch_.loops, z); };
     map.covers_itself = map.covered_itself = covers_itself(map.z);
     if (!map.covers_itself) return;
@@ -77,10 +79,25 @@ class FoldFree {
     DescentOptions options;
     options.keep_all_barriers = true;
     options.is_enough = is_apart;
-    relax(clamped_elements(), options, part(progress_, 0.9, 1), z);
-    if (covers_itself(z) || count_flipped(elements_, z, unplaced) > 0 || !goes_round_once(z)) return;
-    map.z = std::move(z);
-    map.covers_itself = false;
+    relax(clamped_elements(), options, part(progress_, 0.9, 0.92), z);
+    if (is_one_to_one(z)) {
+      map.z = z;
+      map.covers_itself = false;
+      // Towards an isometry they moved farther than they had to.
+      relax_angles_apart(part(progress_, 0.92, 1), z);
+      if (is_one_to_one(z)) map.z = std::move(z);
+      return;
+    }
+    FoldFreeMap embedded = embed_apart(part(progress_, 0.92, 1));
+    if (!is_one_to_one(embedded.z)) return;
+    embedded.flipped_before = map.flipped_before;
+    embedded.covered_itself = embedded.came_apart_embedded = true;
+    embedded.turning_number = turning_number_of(embedded.z);
+    map = std::move(embedded);
+  }
+
+  bool is_one_to_one(const ComplexVector& z) const {
+    return count_flipped(elements_, z, unplaced) == 0 && goes_round_once(z) && !covers_itself(z);
   }
 
   /// Precondition: no triangle is flipped.
@@ -113,21 +130,42 @@ class FoldFree {
     return std::none_of(angle.begin(), angle.end(), [](double sum) { return sum > 3 * pi; });
   }
 
-  FoldFreeMap embed() {
+  FoldFreeMap embed(const Progress& progress) {
     FoldFreeMap result;
-    result.is_embedding = true;
-    result.z = tutte_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress_, 0.3, 0.5));
+    result.z = embedding(part(progress, 0, 0.4));
     const std::vector<DistortionElement> clamped = clamped_elements();
-    if (count_flipped(clamped, result.z, unplaced) > 0) {
-      unfold_locally(clamped, {}, patch_.backend, result.z, part(progress_, 0.5, 0.6));
-    }
     // The first need not converge as far as the second, which is what is seen.
-    relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress_, 0.6, 0.8),
+    relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress, 0.4, 0.7),
           result.z);
-    result.relaxation = relax_angles(clamped, part(progress_, 0.8, 1), result.z);
-    result.flipped = count_flipped(elements_, result.z, unplaced);
-    result.is_locally_injective = result.flipped == 0 && goes_round_once(result.z);
+    result.relaxation = relax_angles(clamped, part(progress, 0.7, 1), result.z);
+    finish(result);
     return result;
+  }
+
+  /// An embedding relaxed without its boundary touching itself. Contacts hold it up, so that it takes more steps, each
+  /// of which gains little.
+  FoldFreeMap embed_apart(const Progress& progress) {
+    FoldFreeMap result;
+    result.z = embedding(part(progress, 0, 0.2));
+    relax(clamped_elements(), {DistortionMeasure::symmetric_dirichlet, 1e-4, more_factorizations, true},
+          part(progress, 0.2, 0.6), result.z, Boundary::apart);
+    result.relaxation = relax_angles_apart(part(progress, 0.6, 1), result.z);
+    finish(result);
+    return result;
+  }
+
+  ComplexVector embedding(const Progress& progress) const {
+    ComplexVector z =
+        tutte_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress, 0, 0.7));
+    const std::vector<DistortionElement> clamped = clamped_elements();
+    if (count_flipped(clamped, z, unplaced) > 0) unfold_locally(clamped, {}, patch_.backend, z, part(progress, 0.7, 1));
+    return z;
+  }
+
+  void finish(FoldFreeMap& embedded) const {
+    embedded.is_embedding = true;
+    embedded.flipped = count_flipped(elements_, embedded.z, unplaced);
+    embedded.is_locally_injective = embedded.flipped == 0 && goes_round_once(embedded.z);
   }
 
   /// The elements with a barrier each. Degenerate triangles otherwise keep their vertices together and have no
@@ -170,13 +208,20 @@ class FoldFree {
     return relax(elements, {DistortionMeasure::conformal, 1e-3, max_factorizations, true}, progress, z);
   }
 
+  std::optional<Descent> relax_angles_apart(const Progress& progress, ComplexVector& z) const {
+    return relax(clamped_elements(), {DistortionMeasure::conformal, 1e-5, more_factorizations, true}, progress, z,
+                 Boundary::apart);
+  }
+
   /// Lowers the distortion without a new fold. None where that failed and z stays as it was.
-  std::optional<Descent> relax(std::vector<DistortionElement> elements, const DescentOptions& options,
-                               const Progress& progress, ComplexVector& z) const {
+  std::optional<Descent> relax(std::vector<DistortionElement> elements, DescentOptions options,
+                               const Progress& progress, ComplexVector& z, Boundary kept = Boundary::free) const {
     const int flipped = count_flipped(elements, z, unplaced);
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
+    const BoundaryBarrier boundary(patch_.loops, relaxed);
+    if (kept == Boundary::apart) options.boundary = &boundary;
     const Descent descent = descend(elements, {}, relaxed, patch_.backend, options, progress);
     if (!relaxed.allFinite() || count_flipped(elements, relaxed, unplaced) > flipped) return std::nullopt;
     z = std::move(relaxed);
@@ -185,6 +230,8 @@ class FoldFree {
 
   /// Three times the default of a descent: an embedding begins far from its minimum.
   static constexpr int max_factorizations = 60;
+  /// Where contacts of the boundary hold the descent up.
+  static constexpr int more_factorizations = 5 * max_factorizations;
 
   const FoldFreePatch& patch_;
   const Progress& progress_;

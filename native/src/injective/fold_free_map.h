@@ -33,9 +33,10 @@ struct FoldFreeMap {
   /// z has no flipped triangle, its triangles go round every inner vertex once, and the outer loop round the map once:
   /// it is locally one-to-one.
   bool is_locally_injective = false;
-  int turning_number = 0;       ///< of the outer loop, by one split of each quad
-  bool covered_itself = false;  ///< whether it was so, and yet had parts that lay on each other; if asked
-  bool covers_itself = false;   ///< whether z still has such parts
+  int turning_number = 0;            ///< of the outer loop, by one split of each quad
+  bool covered_itself = false;       ///< whether it was so, and yet had parts that lay on each other; if asked
+  bool covers_itself = false;        ///< whether z still has such parts
+  bool came_apart_embedded = false;  ///< whether they came apart only in an embedding
 };
 
 /// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are
@@ -45,7 +46,8 @@ struct FoldFreeMap {
 /// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an
 /// edge), the other where there is room. Degenerate triangles have no fold. Where the map is then locally one-to-one
 /// and yet has parts that lie on each other, it is relaxed towards an isometry, where that was asked for, only as far
-/// as these come apart; where they do not, it stays.
+/// as these come apart; where they do not, an embedding is relaxed whose boundary does not touch itself either
+/// (boundary_barrier.h). Where that fails, too, the map stays.
 ///
 /// z (V,) mostly counter-clockwise, or empty for none. Throws Cancelled, SolveFailure and what Factorization throws.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});

@@ -163,7 +163,7 @@ std::string describe_blend(double amount, RelaxationStatus relaxation, double be
 std::string describe_unfolding(const FoldFreeMap& map, const std::string& failure, double before, double after,
                                int turning_number, bool held) {
   std::string text;
-  if (map.is_embedding) {
+  if (map.is_embedding && !map.came_apart_embedded) {
     text = failure.empty() ? "The folds left no room to unfold them" : failure;
     text += ": replaced by an embedding, relaxed without folding it; mean QC ";
     text += failure.empty() ? five_digits(before) + " -> " + five_digits(after) + ". " : five_digits(after) + ". ";
@@ -175,8 +175,10 @@ std::string describe_unfolding(const FoldFreeMap& map, const std::string& failur
   if (map.covers_itself) {
     text += "The island still covers itself somewhere; add seams. ";
   } else if (map.covered_itself) {
-    text += "Parts that covered each other moved apart; mean QC " + five_digits(before) + " -> " + five_digits(after) +
-            ". ";
+    text += map.came_apart_embedded
+                ? "Parts that covered each other came apart in an embedding, relaxed without folding it"
+                : "Parts that covered each other moved apart";
+    text += "; mean QC " + five_digits(before) + " -> " + five_digits(after) + ". ";
   }
   if (map.flipped > 0) {
     text += count(map.flipped, "triangle", "triangles") +
