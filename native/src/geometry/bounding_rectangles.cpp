@@ -7,12 +7,6 @@
 #include "geometry/signed_area.h"
 
 namespace spectral_conformal {
-namespace {
-
-double dot(Complex a, Complex b) { return std::real(std::conj(a) * b); }
-
-}  // namespace
-
 // Hull and calipers are our own, not CGAL's convex_hull_2 and min_rectangle_2: those compare exactly and return one
 // rectangle, so that among the equal ones of a symmetric or regular outline rounding would choose.
 

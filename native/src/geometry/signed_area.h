@@ -11,6 +11,9 @@ namespace spectral_conformal {
 /// counter-clockwise from a.
 inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
+/// The inner product of two plane vectors, Re(conj(a) b).
+inline double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+
 /// Signed area of the triangle a b c, positive when it runs counter-clockwise.
 inline double signed_area(Complex a, Complex b, Complex c) { return 0.5 * cross(b - a, c - a); }
 
