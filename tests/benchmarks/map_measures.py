@@ -32,7 +32,7 @@ def measure(vertices: np.ndarray, offsets: np.ndarray, corners: np.ndarray, uv: 
     """Measure a map: vertices (V, 3), faces as in `spectral_conformal.unwrap`, uv (corners, 2)."""
     island, seams = _islands(offsets, corners, uv)
     defects = spectral_conformal.map_defects(offsets, corners, uv)
-    triangles = _fans(offsets)
+    triangles = _fans(offsets, uv)
     area = _areas(vertices[corners], triangles)
     return Measures(
         islands=int(island.max()) + 1,
@@ -43,13 +43,24 @@ def measure(vertices: np.ndarray, offsets: np.ndarray, corners: np.ndarray, uv: 
     )
 
 
-def _fans(offsets: np.ndarray) -> np.ndarray:
-    """(triangles, 3) corners: every polygon as a fan around its first one."""
+def _fans(offsets: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """(triangles, 3) corners: every polygon as a fan around the first corner that sees it whole in the map, if any."""
     sizes = np.diff(offsets)
     fans = []
-    for k in range(1, int(sizes.max()) - 1):
-        first = offsets[:-1][sizes > k + 1]
-        fans.append(np.c_[first, first + k, first + k + 1])
+    for size in np.unique(sizes[sizes > 2]):
+        first = offsets[:-1][sizes == size]
+        steps = np.arange(1, size - 1)
+        best, fewest = None, np.full(len(first), size)
+        for start in range(size):
+            around = [(start + k) % size for k in (0 * steps, steps, steps + 1)]
+            fan = first[:, None, None] + np.stack(around, axis=1)
+            a, b, c = (uv[fan[..., k]] for k in range(3))
+            turns = (b - a)[..., 0] * (c - a)[..., 1] - (b - a)[..., 1] * (c - a)[..., 0]
+            reversed_triangles = np.minimum((turns <= 0).sum(1), (turns >= 0).sum(1))
+            better = reversed_triangles < fewest
+            best = fan if best is None else np.where(better[:, None, None], fan, best)
+            fewest = np.minimum(fewest, reversed_triangles)
+        fans.append(best.reshape(-1, 3))
     return np.concatenate(fans)
 
 
