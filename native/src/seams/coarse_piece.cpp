@@ -110,6 +110,7 @@ class ShrinkingMesh {
   std::vector<Quadric> quadrics_;
   std::vector<int> into_;
   std::vector<int> changed_;  ///< per vertex: the round in which a face around it was changed last
+  std::vector<int> failed_;   ///< per vertex: the last round in which it could not be merged
   std::vector<double> cost_;  ///< per vertex: see least_cost
   int round_ = 0;
   int n_left_;
@@ -129,6 +130,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
       quadrics_(fine.vertices.size()),
       into_(fine.vertices.size()),
       changed_(fine.vertices.size(), 0),
+      failed_(fine.vertices.size(), 0),
       cost_(fine.vertices.size(), 0),
       n_left_(static_cast<int>(fine.vertices.size())) {
   for (std::size_t v = 0; v < into_.size(); ++v) into_[v] = static_cast<int>(v);
@@ -387,16 +389,22 @@ int ShrinkingMesh::merge_round(int most) {
   }
   const auto n_cheap = static_cast<std::ptrdiff_t>(merged_per_round * static_cast<double>(merges.size())) + 1;
   const auto last = merges.begin() + std::min(n_cheap, static_cast<std::ptrdiff_t>(merges.size()));
-  std::partial_sort(merges.begin(), last, merges.end());
+  std::nth_element(merges.begin(), last, merges.end());
+  std::sort(merges.begin(), last);
   const int before = n_left_;
   for (auto merge = merges.begin(); merge != merges.end() && before - n_left_ < most; ++merge) {
     // Where none of the cheap ones can be merged, all others are tried.
     if (merge >= last && before != n_left_) break;
     if (merge == last) std::sort(last, merges.end());
-    bool is_free = true;
-    visit_fans(merge->vertex, [&](int c) { is_free = is_free && changed_[c] != round_; });
-    const int into = is_free ? best_neighbour(merge->vertex) : -1;
-    if (into < 0) continue;
+    int changed = -1;
+    visit_fans(merge->vertex, [&](int c) { changed = std::max(changed, changed_[c]); });
+    // What failed fails again as long as nothing around it changes.
+    if (changed == round_ || changed < failed_[merge->vertex]) continue;
+    const int into = best_neighbour(merge->vertex);
+    if (into < 0) {
+      failed_[merge->vertex] = round_;
+      continue;
+    }
     visit_fans(merge->vertex, [&](int c) { changed_[c] = round_; });
     merge_with_image(merge->vertex, into);
   }
