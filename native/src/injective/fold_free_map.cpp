@@ -40,8 +40,8 @@ class FoldFree {
 
   FoldFreeMap run(ComplexVector given) {
     FoldFreeMap result = without_folds(std::move(given));
-    result.turning_number = turning_number_of(result.z);
     if (patch_.moves_apart && result.is_locally_injective && patch_.held.empty()) move_apart(result);
+    result.turning_number = turning_number_of(result.z);
     return result;
   }
 
@@ -92,7 +92,6 @@ class FoldFree {
     if (!is_one_to_one(embedded.z)) return;
     embedded.flipped_before = map.flipped_before;
     embedded.covered_itself = embedded.came_apart_embedded = true;
-    embedded.turning_number = turning_number_of(embedded.z);
     map = std::move(embedded);
   }
 
@@ -220,8 +219,8 @@ class FoldFree {
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;
     ComplexVector relaxed = factor * z;
-    const BoundaryBarrier boundary(patch_.loops, relaxed);
-    if (kept == Boundary::apart) options.boundary = &boundary;
+    std::optional<BoundaryBarrier> boundary;
+    if (kept == Boundary::apart) options.boundary = &boundary.emplace(patch_.loops, relaxed);
     const Descent descent = descend(elements, {}, relaxed, patch_.backend, options, progress);
     if (!relaxed.allFinite() || count_flipped(elements, relaxed, unplaced) > flipped) return std::nullopt;
     z = std::move(relaxed);

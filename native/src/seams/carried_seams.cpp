@@ -88,8 +88,7 @@ void SeamChains::follow(int edge, SeamChain& chain) {
     for (const int other : new_at_[v]) {
       if (found || !goes_on(v, edge, other)) continue;
       followed_[other] = 1;
-      const auto [a, b] = ends(other);
-      chain.vertices.push_back(a == v ? b : a);
+      chain.vertices.push_back(seams_.graph().edges()[other].other_end(v));
       edge = other;
       found = true;
     }
@@ -194,7 +193,7 @@ class SeamCarrier {
     for (const bool apart : {true, false}) {
       SeamEdges path = to_.graph().path(start, target, [&](int e, int from) {
         const auto& edge = to_.graph().edges()[e];
-        const int next = edge.vertices[0] == from ? edge.vertices[1] : edge.vertices[0];
+        const int next = edge.other_end(from);
         const Reach& here = reach(from);
         const Reach& there = reach(next);
         if (there.first < 0 || there.first > here.last + 1 || here.first > there.last + 1) return false;
@@ -220,10 +219,7 @@ class SeamCarrier {
       const auto& ends = to_.graph().edges()[e].vertices;
       return coarse_.cluster[ends[0]] == vertex && coarse_.cluster[ends[1]] == vertex;
     });
-    for (const int e : path) {
-      const auto& ends = to_.graph().edges()[e].vertices;
-      v = ends[0] == v ? ends[1] : ends[0];
-    }
+    for (const int e : path) v = to_.graph().edges()[e].other_end(v);
     if (target[v] != 0) path.push_back(edge_across(v));
     return path;
   }

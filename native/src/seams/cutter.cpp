@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -66,6 +68,10 @@ double extent_of(const TrialMap& mapped, const std::vector<int>& faces, double w
 
 bool contains(const TrialMaps& charts, const std::shared_ptr<const TrialMap>& chart) {
   return std::find(charts.begin(), charts.end(), chart) != charts.end();
+}
+
+void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
+  run_in_parallel(static_cast<int>(n), Cutter::max_threads, work, progress, "seams");
 }
 
 void add_new(const SeamEdges& more, SeamEdges& all) {
@@ -205,12 +211,12 @@ Cutter::Trial Cutter::attempt(SeamEdges cut, const TrialMaps& known, const Progr
 /// In parallel; in the order of the proposals.
 std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& proposals, const Progress& progress) {
   std::vector<Trial> trials(proposals.size());
-  run_in_parallel(
-      static_cast<int>(proposals.size()), Cutter::max_threads,
+  try_in_parallel(
+      proposals.size(),
       [&](int i, const Progress& going_on) {
         trials[static_cast<std::size_t>(i)] = attempt(proposals[static_cast<std::size_t>(i)].cut, {}, going_on);
       },
-      progress, "seams");
+      progress);
   remember(trials);
   return trials;
 }
@@ -372,13 +378,13 @@ SeamEdges Cutter::accept_best(std::vector<Trial>&& trials, double longest, const
 SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
   const CutCandidates candidates = this->candidates();
   std::vector<std::vector<int>> defects(charts_.size());
-  run_in_parallel(
-      static_cast<int>(charts_.size()), Cutter::max_threads,
+  try_in_parallel(
+      charts_.size(),
       [&](int i, const Progress&) {
         const auto chart = static_cast<std::size_t>(i);
         if (!contains(sound_, charts_[chart])) defects[chart] = defective_faces(*charts_[chart]);
       },
-      progress, "seams");
+      progress);
   sound_.clear();
   SeamEdges all;
   TrialMaps known;
@@ -417,8 +423,8 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
       if (best_score * price(proposals[first].cut) >= 1) break;
       std::vector<Trial> trials(std::min(parted_at_once, proposals.size() - first));
       std::vector<double> left(trials.size(), 0);
-      run_in_parallel(
-          static_cast<int>(trials.size()), Cutter::max_threads,
+      try_in_parallel(
+          trials.size(),
           [&](int i, const Progress& going_on) {
             const auto k = static_cast<std::size_t>(i);
             trials[k] = attempt(proposals[first + k].cut, {}, going_on);
@@ -427,7 +433,7 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
               left[k] += mapped->solved ? extent_of(*mapped, defective_faces(*mapped), quality_.area) : before;
             }
           },
-          progress, "seams");
+          progress);
       remember(trials);
       for (std::size_t k = 0; k < trials.size(); ++k) {
         const double removed = (before - left[k]) / before;
@@ -482,15 +488,15 @@ void Cutter::sew(const Progress& progress) {
     }
     if (trials.empty()) return;
     std::vector<char> sewable(trials.size(), 0);
-    run_in_parallel(
-        static_cast<int>(trials.size()), Cutter::max_threads,
+    try_in_parallel(
+        trials.size(),
         [&](int i, const Progress& going_on) {
           Trial& trial = trials[static_cast<std::size_t>(i)];
           trial.charts = map_charts(seams_.without(trial.cut), trial.cut, {}, going_on);
           trial.quality = map_quality(trial.charts, options_.scale_limit);
           sewable[static_cast<std::size_t>(i)] = is_sewable(trial.charts, trial.quality) ? 1 : 0;
         },
-        progress, "seams");
+        progress);
     remember(trials);
     std::size_t best = trials.size();
     double best_score = 0;

@@ -23,8 +23,7 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
     while (parent[v] >= 0) {
       const int step = parent[v];
       if (!loop.insert(step).second) loop.erase(step);
-      const auto& ends = graph.edges()[step].vertices;
-      v = ends[0] == v ? ends[1] : ends[0];
+      v = graph.edges()[step].other_end(v);
     }
   }
   std::vector<int> result;

@@ -200,10 +200,8 @@ SeamEdges PieceSeams::symmetric_outer_loop() const {
   if (loop.count(mirror_.vertex[start]) > 0) return {};
   std::vector<char> axis(static_cast<std::size_t>(graph_.n_vertices()), 0);
   for (int v = 0; v < graph_.n_vertices(); ++v) axis[v] = on_axis(v) ? 1 : 0;
-  return with_images(graph_.path(on_positive_side(start), axis, [&](int e, int from) {
-    const auto& ends = graph_.edges()[e].vertices;
-    return side_[ends[0] == from ? ends[1] : ends[0]] >= 0;
-  }));
+  return with_images(graph_.path(on_positive_side(start), axis,
+                                 [&](int e, int from) { return side_[graph_.edges()[e].other_end(from)] >= 0; }));
 }
 
 bool PieceSeams::in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const {
@@ -241,7 +239,7 @@ SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const std::vec
     if (!in_chart(e, chart, chart_of_face)) return false;
     const auto& edge = graph_.edges()[e];
     if (!halved || edge.cut) return true;
-    const int to = edge.vertices[0] == from ? edge.vertices[1] : edge.vertices[0];
+    const int to = edge.other_end(from);
     // A path that leaves the mirror plane, or its own loop beside it, would enclose an island with its image.
     if (side_[to] < 0 || (on_axis(from) && !on_axis(to))) return false;
     return !(own_loop_halved && own_loop[from] != 0 && !on_axis(from));

@@ -131,7 +131,7 @@ double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacenc
   const Edge& first = edges_[in.edge];
   const Edge& second = edges_[out.edge];
   if (first.cut || second.cut) return 0;
-  const int from = first.vertices[0] == vertex ? first.vertices[1] : first.vertices[0];
+  const int from = first.other_end(vertex);
   const double lengths = first.length * second.length;
   if (!(lengths > 0)) return 0;
   const double cosine =

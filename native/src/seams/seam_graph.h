@@ -20,6 +20,8 @@ class SeamGraph {
     double cost;  ///< the length, lowered along sharp edges, most along concave ones, where seams are seen least
     bool cut;     ///< seam, or not between exactly two faces
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< sum of the unit normals of the two faces; 0 where it is cut
+
+    int other_end(int vertex) const { return vertices[0] == vertex ? vertices[1] : vertices[0]; }
   };
 
   /// Takes the selected faces and the seams of `mesh`. Coordinates must be finite.
