@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import Delaunay
+from scipy.spatial import ConvexHull, Delaunay
 
 
 def read_obj(path):
@@ -165,3 +165,21 @@ def similarity_deviation(uv, reference):
     z = z - z.mean()
     w = w - w.mean()
     return np.abs(z - np.vdot(w, z) / np.vdot(w, w) * w).max() / np.abs(z).max()
+
+
+def limbs(n, count, seed):
+    """A closed body of n vertices with this number of limbs, at random places."""
+    rng = np.random.default_rng(seed)
+    height = 1.0 - (2.0 * np.arange(n) + 1.0) / n
+    turn = np.pi * (1.0 + 5.0**0.5) * (np.arange(n) + 0.5)
+    sphere = np.c_[np.sqrt(1.0 - height**2)[:, None] * np.c_[np.cos(turn), np.sin(turn)], height]
+    faces = ConvexHull(sphere).simplices.copy()
+    first, second, third = (sphere[faces[:, k]] for k in range(3))
+    inwards = (np.cross(second - first, third - first) * first).sum(axis=1) < 0.0
+    faces[inwards] = faces[inwards][:, ::-1]
+    towards = rng.normal(size=(count, 3))
+    towards /= np.linalg.norm(towards, axis=1)[:, None]
+    radius = 1.0
+    for direction in towards:
+        radius = radius + rng.uniform(1.0, 3.0) * np.exp(rng.uniform(15.0, 40.0) * (sphere @ direction - 1.0))
+    return sphere * radius[:, None], *polygons(faces)

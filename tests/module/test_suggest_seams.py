@@ -251,6 +251,14 @@ def test_seams_of_a_large_mesh_are_found_on_a_coarse_one_and_are_as_good():
     check_that_numbers_do_not_matter(mesh, 2)
 
 
+def test_a_search_that_takes_long_goes_on_from_a_coarse_copy():
+    mesh = meshes.limbs(3000, 14, 3)
+    charts = sc.unwrap(*mesh, seam_edges=sc.suggest_seams(*mesh)).charts
+    assert [(chart.status, chart.overlapping, chart.flipped) for chart in charts] == [("solved", 0, 0)] * len(charts)
+    # The search on the mesh itself makes 37 islands, in six times the time.
+    assert len(charts) <= 10
+
+
 @pytest.mark.slow
 def test_the_length_is_limited_on_a_large_mesh_too():
     mesh = closed_creature(34)

@@ -63,10 +63,12 @@ struct SolveOptions {
   /// these.
   std::optional<double> hole_rigidity = 0.0;
   /// Whether Method::spectral may take another map where its own fails: unfolded, an embedding, or that of another
-  /// problem (fallbacks.h). When false, that failure is the answer;
-  /// the second attempt at the same problem, with another start and a larger shift unless that was raised already, is
-  /// made either way, and so is the embedding that PatchOptions::fold_free asks for.
+  /// problem (fallbacks.h). When false, that failure is the answer; the embedding that PatchOptions::fold_free asks for
+  /// is made either way.
   bool fallbacks = true;
+  /// Whether a problem whose map fails the checks is solved once more, with another start and a larger shift unless
+  /// that was raised already.
+  bool second_attempt = true;
   bool has_extenders() const;              ///< whether extenders change the form B
   bool has_extenders_or_rigidity() const;  ///< whether these or a given hole rigidity do
 };

@@ -86,6 +86,7 @@ SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attra
     map.attempts = ++made;
     // Without a factor the shift has been raised as far as it may be.
     if (map.rejection == Rejection::none || map.rejection == Rejection::not_factorized) break;
+    if (!options.second_attempt) break;
     // A strongly negative extender has such maps as its true optimum, so that another attempt would end there too: the
     // pair meets where the map branches.
     if (map.rejection == Rejection::winding && options.has_extenders_or_rigidity()) break;

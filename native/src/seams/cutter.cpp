@@ -168,9 +168,11 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
       const auto found = same ? maps->end() : std::find_if(maps->begin(), maps->end(), is_same);
       if (found != maps->end()) same = *found;
     }
-    if (!same)
+    if (!same) {
+      solved_vertices_ += chart.n_vertices();
       same =
           std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, fallbacks_, progress));
+    }
     result.push_back(std::move(same));
   }
   std::sort(result.begin(), result.end(),

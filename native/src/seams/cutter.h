@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -41,6 +43,8 @@ class Cutter {
   bool finished() const { return finished_; }
   const PieceSeams& seams() const { return seams_; }
   const MapQuality& quality() const { return quality_; }
+  /// Vertices of all charts that were solved so far, which the time of the search goes with.
+  std::int64_t solved_vertices() const { return solved_vertices_; }
 
  private:
   /// A cut that is to be tried.
@@ -105,6 +109,7 @@ class Cutter {
   int blind_cuts_ = 0;
   bool fallbacks_ = false;  ///< are allowed to trial maps
   int losing_splits_ = 0;
+  mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< by several threads at once
 };
 
 }  // namespace spectral_conformal

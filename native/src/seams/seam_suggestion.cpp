@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <utility>
@@ -24,6 +25,11 @@ constexpr int max_steps = 1000;
 /// Seams of pieces with more vertices are looked for on a coarse copy first, then carried over to finer ones and to the
 /// piece, each of which has at most `level_ratio` times as many vertices.
 constexpr int max_searched = 6000;
+/// A smaller piece, down to `min_copied` vertices, gets coarse copies once its search has solved for this number of
+/// vertices: seams found on copies were 9 % longer on meshes whose search ends before, but 9 % shorter, in less than
+/// half the time, on bodies with many limbs.
+constexpr std::int64_t patience = 220000;
+constexpr int min_copied = 2048;
 constexpr int level_ratio = 4;
 constexpr int coarse_vertices = 1000;
 /// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
@@ -55,6 +61,7 @@ class SeamFinder {
     mirrors_ = mirror_pieces(mesh, decomposition, pieces_, symmetry_);
     cutters_.resize(pieces_.size());
     levels_.resize(pieces_.size());
+    began_on_copies_.resize(pieces_.size(), false);
   }
 
   SeamSuggestion run() {
@@ -74,6 +81,9 @@ class SeamFinder {
       if (!levels_[i].empty() && (cutters_[i]->finished() || steps[i] >= max_steps)) {
         refine(i);
         steps[i] = 0;
+      } else if (takes_too_long(i)) {
+        begin_again_on_copies(i);
+        steps[i] = 0;
       }
     }
     report(progress_, 1.0, "done");
@@ -85,11 +95,28 @@ class SeamFinder {
   void open(std::size_t i) {
     const int image = mirrors_[i].image;
     if (!has_extent(pieces_[i]) || (image >= 0 && image < static_cast<int>(i))) return;
+    if (n_vertices(i) > max_searched) make_levels(i);
+    begin(i);
+  }
+  /// On the coarsest copy that there is.
+  void begin(std::size_t i) {
     report(progress_, 0.02, "seams");
-    make_levels(i);
     PieceSeams seams = unseamed(i);
     for (const SeamEdges& cut : seams.open()) add(i, seams, cut);
     cutters_[i] = cutter(i, std::move(seams), false);
+  }
+  bool takes_too_long(std::size_t i) const {
+    return levels_[i].empty() && !began_on_copies_[i] && !cutters_[i]->finished() && n_vertices(i) > min_copied &&
+           cutters_[i]->solved_vertices() > patience;
+  }
+  void begin_again_on_copies(std::size_t i) {
+    make_levels(i);
+    if (levels_[i].empty()) return;
+    length_left_ += copies(i) * cutters_[i]->seams().length(cutters_[i]->seams().edges());
+    cuts_.erase(std::remove_if(cuts_.begin(), cuts_.end(), [&](const auto& cut) { return cut.first == i; }),
+                cuts_.end());
+    begin(i);
+    cutters_[i]->solve(quiet());
   }
   std::unique_ptr<Cutter> cutter(std::size_t i, PieceSeams&& seams, bool refined) const {
     return std::make_unique<Cutter>(std::move(seams), levels_[i].empty() ? options_ : coarse_options_,
@@ -98,11 +125,12 @@ class SeamFinder {
   int n_vertices(std::size_t i) const { return static_cast<int>(pieces_[i].vertices.size()); }
   /// Copies of a large piece, each with fewer vertices than the one before.
   void make_levels(std::size_t i) {
+    began_on_copies_[i] = true;
     const bool is_own_image = mirrors_[i].image == static_cast<int>(i);
     const Piece* finer = &pieces_[i];
     const PieceMirror* mirror = &mirrors_[i];
     // Coarse seams are shorter than those that they become, so that a limit of the length could not be kept.
-    if (n_vertices(i) <= max_searched || std::isfinite(options_.max_length)) return;
+    if (std::isfinite(options_.max_length)) return;
     int n = n_vertices(i);
     while (n > coarse_vertices) {
       n = n / level_ratio > 2 * coarse_vertices ? n / level_ratio : coarse_vertices;
@@ -213,6 +241,7 @@ class SeamFinder {
   std::vector<PieceMirror> mirrors_;
   std::vector<std::vector<std::unique_ptr<CoarsePiece>>>
       levels_;  ///< copies on which seams are still to be looked for, each coarser
+  std::vector<bool> began_on_copies_;
   std::vector<std::unique_ptr<Cutter>> cutters_;
   std::vector<std::pair<std::size_t, SeamEdges>> cuts_;  ///< with their pieces
 };

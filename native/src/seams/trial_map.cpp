@@ -78,6 +78,8 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   try {
     SolveOptions solve;
     solve.fallbacks = fallbacks;
+    // None of 886 maps that failed on bodies with limbs, which wind, passed then.
+    solve.second_attempt = fallbacks;
     result.z = Solver(result.chart, positions, options).solve(solve, {}, progress).z;
     result.solved = true;
   } catch (const InvalidMesh&) {

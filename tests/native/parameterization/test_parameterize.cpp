@@ -228,6 +228,11 @@ TEST_CASE("the fields tell what was solved, and fallbacks can be forbidden") {
     CHECK(asked.eigenvalue_of == EigenvalueOf::map);
     CHECK(asked.boundary == BoundaryMeasure::length);
     CHECK(asked.attempts == 2);
+    SolveOptions once = strict;
+    once.second_attempt = false;
+    const Parameterization asked_once = Solver(patch.chart, patch.positions, options).solve(once, {});
+    CHECK(asked_once.attempts == 1);
+    CHECK(count_flipped(patch, asked_once.z) == 0);
   }
 }
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -33,6 +34,8 @@ TEST_CASE("every step lowers the distortion, until the limits are met") {
     const SeamSuggestionOptions options;
     Cutter cutter(opened(mesh, pieces), options);
     cutter.solve({});
+    const std::int64_t of_the_start = cutter.solved_vertices();
+    CHECK(of_the_start >= static_cast<int>(mesh.points.size()));
     int steps = 0;
     double before = cutter.quality().distortion();
     while (!cutter.step(unlimited, {}).empty()) {
@@ -43,6 +46,7 @@ TEST_CASE("every step lowers the distortion, until the limits are met") {
       before = cutter.quality().distortion();
     }
     CHECK(steps > 0);
+    CHECK(cutter.solved_vertices() > of_the_start);
     CHECK(cutter.finished());
     CHECK(cutter.quality().within_limit >= 0.95);
     CHECK(cutter.quality().mean_qc <= options.qc_limit);
