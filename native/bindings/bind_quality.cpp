@@ -8,6 +8,8 @@
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
 #include "spectral_conformal/distortion.h"
+#include "spectral_conformal/face_distortion.h"
+#include "spectral_conformal/face_triangles.h"
 #include "spectral_conformal/map_defects.h"
 
 namespace spectral_conformal::python {
@@ -53,7 +55,43 @@ py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_ve
     const py::gil_scoped_release unlocked;
     defects = find_map_defects(mesh, corner_uv.data(), between_islands);
   }
-  return py::dict(py::arg("flipped") = copy(defects.flipped), py::arg("overlapping") = copy(defects.overlapping));
+  return py::dict(py::arg("island_of_face") = copy(defects.island_of_face), py::arg("flipped") = copy(defects.flipped),
+                  py::arg("overlapping") = copy(defects.overlapping));
+}
+
+MeshArrays polygon_mesh(const Array<double>& vertices, const Array<int>& face_offsets,
+                        const Array<int>& corner_vertices, const std::optional<Array<bool>>& selected_faces) {
+  return {vertices, face_offsets, corner_vertices, std::nullopt, selected_faces};
+}
+
+py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_offsets,
+                         const Array<int>& corner_vertices, const Array<double>& corner_uv,
+                         const std::optional<Array<bool>>& selected_faces) {
+  const MeshArrays arrays = polygon_mesh(vertices, face_offsets, corner_vertices, selected_faces);
+  FaceDistortion measured;
+  {
+    const PolygonMesh mesh = arrays.view();
+    const py::gil_scoped_release unlocked;
+    measured = measure_face_distortion(mesh, corner_uv.data());
+  }
+  return py::dict(py::arg("qc") = copy(measured.qc), py::arg("log2_scale") = copy(measured.log2_scale),
+                  py::arg("area") = copy(measured.area), py::arg("image_area") = copy(measured.image_area));
+}
+
+py::tuple face_triangles(const Array<double>& vertices, const Array<int>& face_offsets,
+                         const Array<int>& corner_vertices, const std::optional<Array<bool>>& selected_faces) {
+  const MeshArrays arrays = polygon_mesh(vertices, face_offsets, corner_vertices, selected_faces);
+  FaceTriangles triangles;
+  {
+    const PolygonMesh mesh = arrays.view();
+    const py::gil_scoped_release unlocked;
+    triangles = triangulate_faces(mesh);
+  }
+  py::array_t<int> corners(std::vector<py::ssize_t>{static_cast<py::ssize_t>(triangles.corners.size()), 3});
+  static_assert(sizeof(std::array<int, 3>) == 3 * sizeof(int));
+  std::copy_n(reinterpret_cast<const int*>(triangles.corners.data()), 3 * triangles.corners.size(),
+              corners.mutable_data());
+  return py::make_tuple(corners, copy(triangles.face));
 }
 
 }  // namespace
@@ -61,6 +99,8 @@ py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_ve
 void bind_quality(py::module_& module) {
   module.def("distortion", &distortion);
   module.def("map_defects", &map_defects);
+  module.def("face_distortion", &face_distortion);
+  module.def("face_triangles", &face_triangles);
 }
 
 }  // namespace spectral_conformal::python

@@ -6,10 +6,11 @@
 
 namespace spectral_conformal {
 
-/// Faces of a map that are flipped or cover others.
+/// The islands of a map, and its faces that are flipped or cover others.
 struct MapDefects {
-  std::vector<bool> flipped;      ///< (n_faces,)
-  std::vector<bool> overlapping;  ///< (n_faces,)
+  std::vector<int> island_of_face;  ///< (n_faces,) numbered in the order of their first face; -1 for faces in none
+  std::vector<bool> flipped;        ///< (n_faces,)
+  std::vector<bool> overlapping;    ///< (n_faces,)
 };
 
 /// Finds the defects of a map with one point per corner. Its islands are the sets of selected faces that are connected

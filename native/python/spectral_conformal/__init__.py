@@ -26,8 +26,8 @@ from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
-from ._quality import distortion, map_defects
-from ._results import Chart, Distortion, MapDefects, Parameterization, Unwrap
+from ._quality import distortion, face_distortion, face_triangles, map_defects
+from ._results import Chart, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
 from ._seams import suggest_cuts, suggest_seams
 from ._unwrapping import Unwrapper, unwrap
 
@@ -36,6 +36,7 @@ __all__ = [
     "Chart",
     "Distortion",
     "Extenders",
+    "FaceDistortion",
     "InvalidMeshError",
     "MapDefects",
     "OptionChanges",
@@ -53,6 +54,8 @@ __all__ = [
     "build_info",
     "chart_of_face",
     "distortion",
+    "face_distortion",
+    "face_triangles",
     "map_defects",
     "metric_from_direction",
     "metric_from_uv",

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
-from ._results import Distortion, MapDefects
+from ._results import Distortion, FaceDistortion, MapDefects
 
 
 def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> Distortion:
@@ -40,7 +40,7 @@ def map_defects(
     selected_faces: npt.ArrayLike | None = None,
     between_islands: bool = False,
 ) -> MapDefects:
-    """Find flipped and overlapping faces in the UV map of a polygon mesh.
+    """Find the islands of the UV map of a polygon mesh, and its flipped and overlapping faces.
 
     Islands are the parts of the selected faces that are connected over edges of exactly two faces whose corners' UVs
     are equal. An island that is mirrored as a whole has no flipped faces, nor has one whose faces are wound
@@ -66,3 +66,57 @@ def map_defects(
     uv = _arguments.checked_corner_uv(corner_uv, len(corners))
     between = _arguments.checked_flag(between_islands, "between_islands")
     return MapDefects(**_native.map_defects(offsets, corners, uv, selected, between))
+
+
+def face_distortion(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    corner_uv: npt.ArrayLike,
+    *,
+    selected_faces: npt.ArrayLike | None = None,
+) -> FaceDistortion:
+    """Measure the UV map of a polygon mesh face by face, fast enough to follow edits; islands are not looked at.
+
+    Args:
+        vertices: as in `unwrap`, but may have values that are not finite.
+        face_offsets: as in `unwrap`.
+        corner_vertices: as in `unwrap`.
+        corner_uv: (C, 2) the map; may have values that are not finite.
+        selected_faces: (faces,) bool, all faces when left out; others are not looked at.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh, or are not of the kinds described.
+    """
+    vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
+        vertices, face_offsets, corner_vertices, None, selected_faces
+    )
+    uv = _arguments.checked_corner_uv(corner_uv, len(corners))
+    return FaceDistortion(**_native.face_distortion(vertices, offsets, corners, uv, selected))
+
+
+def face_triangles(
+    vertices: npt.ArrayLike,
+    face_offsets: npt.ArrayLike,
+    corner_vertices: npt.ArrayLike,
+    *,
+    selected_faces: npt.ArrayLike | None = None,
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    """Triangulate the faces of a polygon mesh as Blender draws them, so that what is drawn over them lies on them.
+
+    Args:
+        vertices: as in `unwrap`, but may have values that are not finite.
+        face_offsets: as in `unwrap`.
+        corner_vertices: as in `unwrap`.
+        selected_faces: (faces,) bool, all faces when left out; others have no triangles.
+
+    Returns:
+        (T, 3) corners of the triangles, in the order of the faces, and (T,) the face of each.
+
+    Raises:
+        ValueError: the arrays do not describe a mesh, or are not of the kinds described.
+    """
+    vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
+        vertices, face_offsets, corner_vertices, None, selected_faces
+    )
+    return _native.face_triangles(vertices, offsets, corners, selected)

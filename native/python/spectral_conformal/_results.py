@@ -108,9 +108,32 @@ class Distortion:
 
 
 @dataclass(frozen=True)
-class MapDefects:
-    """Faces of a UV map that lie the wrong way round or on others."""
+class FaceDistortion:
+    """What a UV map does to every face of a polygon mesh, by itself.
 
+    A face that is not selected, or has no area in 3D, has `qc` 1, `log2_scale` 0 and no areas; one whose image has no
+    area an infinite `qc` and a `log2_scale` of minus infinity; one with a position or a UV that is not finite a `qc`
+    and a `log2_scale` that are not numbers, and no areas.
+    """
+
+    qc: npt.NDArray[np.float64]
+    """(faces,) quasi-conformal distortion (section 5): larger over smaller singular value, averaged over the face's
+    triangles, weighted by their area in 3D."""
+    log2_scale: npt.NDArray[np.float64]
+    """(faces,) log2 of the root of (area in the map / area in 3D)."""
+    area: npt.NDArray[np.float64]
+    """(faces,) in 3D, in squares of the vertices' unit."""
+    image_area: npt.NDArray[np.float64]
+    """(faces,) in the map, signed: counter-clockwise positive."""
+
+
+@dataclass(frozen=True)
+class MapDefects:
+    """The islands of a UV map, and its faces that lie the wrong way round or on others."""
+
+    island_of_face: npt.NDArray[np.int32]
+    """(faces,) the island of every face, numbered in the order of their first face; -1 for faces that are not selected
+    or have fewer than three different corners."""
     flipped: npt.NDArray[np.bool_]
     """(faces,) a triangle of the face is wound against the majority (by UV area) of its island, after orienting the
     island's faces consistently; False for faces that are not selected."""

@@ -14,17 +14,16 @@ namespace {
 /// quad's area differs by rounding (some 1e-16) or by nothing that a measure could tell.
 constexpr double equal_areas = 1e-9;
 
-/// `area` of the four triangles.
+std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+}  // namespace
+
 bool second_split_is_better(const std::array<double, 4>& area) {
   const double first = std::min(area[0], area[1]);
   const double second = std::min(area[2], area[3]);
   if ((first < 0) != (second < 0)) return first < 0;
   return second - first > equal_areas * std::abs(area[0] + area[1]);
 }
-
-std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-}  // namespace
 
 std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,
                                       const std::vector<double>& triangle_weights, const ComplexVector& z) {

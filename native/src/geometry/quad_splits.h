@@ -18,10 +18,13 @@ constexpr double quad_split_weight = 0.5;
 /// Whether a triangle is the first of four in a row that are the two splits of a quad.
 inline bool begins_quad(double triangle_weight) { return triangle_weight == quad_split_weight; }
 
-/// The one triangulation by which a map z (V,) is measured, drawn and counted, as ascending indices into `triangles`:
-/// every triangle of weight 1, and of a quad with both splits
+/// Of the two splits of a mapped quad, given the signed areas of their four triangles in the order of quad_splits:
 ///  - the one without a clockwise triangle, if only one has none,
 ///  - otherwise the one whose smaller signed area is larger, the first if they differ by rounding only.
+bool second_split_is_better(const std::array<double, 4>& signed_areas);
+
+/// The one triangulation by which a map z (V,) is measured, drawn and counted, as ascending indices into `triangles`:
+/// every triangle of weight 1, and of a quad with both splits the better one (second_split_is_better).
 /// Hence a mapped quad is flipped only if neither split avoids it; a concave one is split at its reflex corner.
 /// triangle_weights (F,) or empty for 1. z positively oriented.
 std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/binary_unit.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
 #include "geometry/triangle_shape.h"
@@ -86,40 +87,29 @@ void summarize(Distortion& d) {
   d.p99_qc = percentile(qc, 0.99);
 }
 
-/// The exponent of the power of two next to the largest of some finite values; bounded, so that it has an inverse.
-int binary_exponent(double largest) {
-  constexpr int bound = 1000;  // 2^1000 and its inverse are normal numbers
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return std::clamp(exponent, -bound, bound);
-}
-
-/// A mesh and a map in units of their own, powers of two, in which squares of lengths neither overflow nor vanish.
+/// A mesh and a map in units of their own.
 struct InUnits {
   Positions positions;
   ComplexVector z;
-  int unit = 0;        ///< log2 of the mesh's unit
-  int image_unit = 0;  ///< log2 of the map's unit
+  BinaryUnit unit;        ///< of the mesh
+  BinaryUnit image_unit;  ///< of the map
   InUnits(const PolygonMesh& mesh, const ComplexVector& map)
       : positions(Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)), z(map) {
-    double largest = 0;
-    double largest_image = 0;
     for (int c = 0; c < mesh.n_corners(); ++c) {
       const int v = mesh.corner_vertices[c];
-      largest = std::max(largest, positions.row(v).cwiseAbs().maxCoeff());
-      largest_image = std::max({largest_image, std::abs(z[v].real()), std::abs(z[v].imag())});
+      for (int k = 0; k < 3; ++k) unit.include(positions(v, k));
+      image_unit.include(z[v].real());
+      image_unit.include(z[v].imag());
     }
-    unit = binary_exponent(largest);
-    image_unit = binary_exponent(largest_image);
-    positions *= std::ldexp(1.0, -unit);
-    z *= std::ldexp(1.0, -image_unit);
+    positions *= unit.scaled(1);
+    z *= image_unit.scaled(1);
   }
   /// Takes what was measured in these units to those of the input.
   void restore(Distortion& d) const {
     for (Eigen::Index t = 0; t < d.area.size(); ++t) {
-      if (d.area[t] > 0) d.log2_scale[t] += image_unit - unit;
-      d.area[t] = std::ldexp(d.area[t], 2 * unit);
-      d.image_area[t] = std::ldexp(d.image_area[t], 2 * image_unit);
+      if (d.area[t] > 0) d.log2_scale[t] += image_unit.exponent() - unit.exponent();
+      d.area[t] = unit.area_of(d.area[t]);
+      d.image_area[t] = image_unit.area_of(d.image_area[t]);
     }
   }
 };

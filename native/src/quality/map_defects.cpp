@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "geometry/quad_splits.h"
 #include "mesh/charts.h"
@@ -23,8 +25,7 @@ class MapMesh {
  public:
   MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
     const int n_corners = mesh.n_corners();
-    std::vector<Image> images;
-    images.reserve(static_cast<std::size_t>(n_corners));
+    std::vector<int> first_image(static_cast<std::size_t>(mesh.n_vertices) + 1, 0);
     for (int face = 0; face < mesh.n_faces; ++face) {
       if (!mesh.is_selected(face)) continue;
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
@@ -33,15 +34,30 @@ class MapMesh {
           throw InvalidMesh("The UV of corner " + std::to_string(c) + " (face " + std::to_string(face) +
                             ") is not finite; leave its face out of the selection or give it coordinates.");
         }
-        images.push_back({mesh.corner_vertices[c], uv[0], uv[1], c});
+        ++first_image[static_cast<std::size_t>(mesh.corner_vertices[c]) + 1];
       }
     }
-    std::sort(images.begin(), images.end());
+    std::partial_sum(first_image.begin(), first_image.end(), first_image.begin());
+    std::vector<Image> images(static_cast<std::size_t>(first_image.back()));
+    std::vector<int> next(first_image.begin(), first_image.end() - 1);
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (!mesh.is_selected(face)) continue;
+      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+        const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
+        images[static_cast<std::size_t>(next[mesh.corner_vertices[c]]++)] = {uv[0], uv[1], c};
+      }
+    }
     vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      const Image& image = images[i];
-      if (i == 0 || !images[i - 1].same_point(image)) positions_.insert(positions_.end(), {image.u, image.v, 0.0});
-      vertex_of_corner_[image.corner] = n_vertices() - 1;
+    for (int v = 0; v < mesh.n_vertices; ++v) {
+      const auto first = images.begin() + first_image[v];
+      const auto last = images.begin() + first_image[v + 1];
+      std::sort(first, last);
+      for (auto image = first; image != last; ++image) {
+        if (image == first || !(image - 1)->same_point(*image)) {
+          positions_.insert(positions_.end(), {image->u, image->v, 0.0});
+        }
+        vertex_of_corner_[image->corner] = n_vertices() - 1;
+      }
     }
     // Corners that are not selected refer to a vertex too.
     if (positions_.empty()) positions_.assign(3, 0.0);
@@ -58,18 +74,17 @@ class MapMesh {
   }
 
  private:
+  /// Of one mesh vertex.
   struct Image {
-    int vertex;
     double u;
     double v;
     int corner;
 
     bool operator<(const Image& other) const {
-      if (vertex != other.vertex) return vertex < other.vertex;
       if (u != other.u) return u < other.u;
       return v != other.v ? v < other.v : corner < other.corner;
     }
-    bool same_point(const Image& other) const { return vertex == other.vertex && u == other.u && v == other.v; }
+    bool same_point(const Image& other) const { return u == other.u && v == other.v; }
   };
 
   int n_vertices() const { return static_cast<int>(positions_.size() / 3); }
@@ -137,7 +152,9 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
   result.flipped.assign(static_cast<std::size_t>(mesh.n_faces), false);
   result.overlapping = result.flipped;
   Layout layout;
-  for (const Chart& island : build_charts(in_plane).charts) {
+  ChartDecomposition islands = build_charts(in_plane);
+  result.island_of_face = std::move(islands.chart_of_face);
+  for (const Chart& island : islands.charts) {
     const ComplexVector z = map_of(island, in_plane);
     const ComplexVector oriented = positively_oriented(island.triangles, island.triangle_weights, z);
     mark_flipped(island, oriented, result.flipped);

@@ -180,6 +180,15 @@ TEST_CASE("a UV that is not finite is named") {
   CHECK_THROWS_WITH_AS(mapped.defects(), doctest::Contains("corner 9 (face 2)"), InvalidMesh);
 }
 
+TEST_CASE("islands are numbered by their first face, apart where the map is cut; faces in none have none") {
+  MappedMesh mapped(quad_grid(4, 1));
+  mapped.mesh.add({0, 1});
+  mapped.uv.insert(mapped.uv.end(), {0.0, 1.0});
+  // The last two quads elsewhere: the mesh is cut in its map.
+  for (std::size_t c = 8; c < 16; ++c) mapped.uv[c] += 10.0;
+  CHECK(mapped.defects().island_of_face == Faces{0, 0, 1, 1, -1});
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

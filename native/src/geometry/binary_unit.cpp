@@ -1,0 +1,23 @@
+#include "geometry/binary_unit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spectral_conformal {
+
+void BinaryUnit::include(double coordinate) {
+  const double size = std::abs(coordinate);
+  if (!(size > largest_) || !std::isfinite(size)) return;
+  largest_ = size;
+  constexpr int bound = 1000;  // 2^1000 and its inverse are normal numbers
+  int exponent = 0;
+  std::frexp(largest_, &exponent);
+  exponent_ = std::clamp(exponent, -bound, bound);
+  factor_ = std::ldexp(1.0, -exponent_);
+}
+
+int BinaryUnit::exponent() const { return exponent_; }
+
+double BinaryUnit::area_of(double scaled_area) const { return std::ldexp(scaled_area, 2 * exponent_); }
+
+}  // namespace spectral_conformal

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace spectral_conformal {
+
+/// A power of two next to the largest of some lengths: measured in it, squares neither overflow nor vanish, and to
+/// change units rounds nothing.
+class BinaryUnit {
+ public:
+  /// Makes the unit large enough for a coordinate; one that is not finite does not count.
+  void include(double coordinate);
+  /// log2 of the unit; bounded, so that it has an inverse. 0 without a coordinate other than 0.
+  int exponent() const;
+  /// A length in this unit.
+  double scaled(double length) const { return length * factor_; }
+  /// An area in squares of this unit, in those of the coordinates.
+  double area_of(double scaled_area) const;
+
+ private:
+  double largest_ = 0;
+  int exponent_ = 0;
+  double factor_ = 1;
+};
+
+}  // namespace spectral_conformal
