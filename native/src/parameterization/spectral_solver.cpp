@@ -11,6 +11,7 @@
 #include "conformal/placement.h"
 #include "conformal/start_vector.h"
 #include "injective/polish.h"
+#include "quality/map_degree.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
 
@@ -245,24 +246,35 @@ SpectralMap SpectralSolver::factorize(const Progress& progress) {
 int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& timings) {
   if (!is_factored() || previous_.size() == 0) return 0;
   Stopwatch watch(timings);
-  SpectralMap polished;
-  polished.whole = map.whole;
-  const int steps = spectral_conformal::polish(*energy_, *factor_.factorization, polished.whole, {}, progress);
+  ComplexVector polished = map.whole;
+  const int steps = spectral_conformal::polish(*energy_, *factor_.factorization, polished, {}, progress);
   watch.lap("polish");
-  if (steps == 0 || !polished.whole.allFinite()) return 0;
-  const Numbers after = numbers(polished.whole);
-  polished.z = polished.whole.head(patch_->n_vertices);
-  const bool is_sound =
-      after.turning_number == map.turning_number &&
-      place(polished.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale) &&
-      chart_distortion(*patch_, polished.z).mean_qc < chart_distortion(*patch_, map.z).mean_qc;
+  if (steps == 0 || !polished.allFinite()) return 0;
+  std::vector<BoundaryLoop> loops = patch_->inner;
+  loops.push_back(patch_->outer);
+  const bool covers_itself = !has_degree_at_most_one(loops, map.z);
+  const double mean_qc = chart_distortion(*patch_, map.z).mean_qc;
+  bool is_sound = false;
+  // The border of the polished map may cross itself where that of the map does not; then not the whole way.
+  for (const double fraction : {1.0, 0.5, 0.25}) {
+    SpectralMap moved;
+    moved.whole = map.whole + fraction * (polished - map.whole);
+    const Numbers after = numbers(moved.whole);
+    moved.z = moved.whole.head(patch_->n_vertices);
+    is_sound =
+        after.turning_number == map.turning_number &&
+        place(moved.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale) &&
+        (covers_itself || has_degree_at_most_one(loops, moved.z)) &&
+        chart_distortion(*patch_, moved.z).mean_qc < mean_qc;
+    if (!is_sound) continue;
+    map.z = std::move(moved.z);
+    map.whole = std::move(moved.whole);
+    map.eigenvalue = after.eigenvalue;
+    map.residual = after.residual;
+    break;
+  }
   watch.lap("placement");
-  if (!is_sound) return 0;
-  map.z = std::move(polished.z);
-  map.whole = std::move(polished.whole);
-  map.eigenvalue = after.eigenvalue;
-  map.residual = after.residual;
-  return steps;
+  return is_sound ? steps : 0;
 }
 
 SpectralSolver::Numbers SpectralSolver::numbers(const ComplexVector& whole) const {
