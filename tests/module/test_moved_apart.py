@@ -7,7 +7,7 @@ import spectral_conformal as sc
 
 from tests.module import meshes
 
-COVERED = [meshes.rough_grid(8, 0.8, 12, 0.1), meshes.rough_grid(10, 1.0, 10, 0.1), meshes.rough_grid(6, 1.5, 9, 0.2)]
+COVERED = [meshes.rough_grid(8, 1.0, 8, 0.1), meshes.rough_grid(8, 1.0, 12, 0.2), meshes.rough_grid(10, 1.0, 10, 0.2)]
 
 
 def triangulated(vertices, faces):

@@ -56,9 +56,9 @@ class SpectralSolver {
   /// another start, where it fails its checks. Solves with soft constraints start from the maps of earlier solves.
   SpectralMap solve(const SolveOptions& options, const Pins& attractors, const Progress& progress, Timings& timings);
 
-  /// Lowers the mean QC of a map of this solver (polish.h) and returns the number of steps; not the whole way, or none of
-  /// it, where the border would cross itself that did not before. 0, and the map stays, where no step lowers it, or the
-  /// factor was not kept: the map took a second attempt.
+  /// Lowers the mean QC of a map of this solver (polish.h) and returns the number of steps; not the whole way, or none
+  /// of it, where the border would cross itself that did not before. 0, and the map stays, where no step lowers it, or
+  /// the factor was not kept: the map took a second attempt.
   int polish(SpectralMap& map, const Progress& progress, Timings& timings);
 
   /// The numbers of any map: its quotient of Eq. 5 and how far it is from an eigenvector. whole: with virtual vertices.

@@ -62,7 +62,7 @@ class FaceMeasure {
       z_ = ComplexVector(n);
     }
     for (int i = 0; i < n; ++i) {
-      const auto corner = static_cast<std::size_t>(mesh_.face_offsets[face] + i);
+      const auto corner = static_cast<std::size_t>(mesh_.face_offsets[face]) + static_cast<std::size_t>(i);
       const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner]);
       corners_.row(i) << unit_.scaled(p[0]), unit_.scaled(p[1]), unit_.scaled(p[2]);
       z_[i] = Complex(image_unit_.scaled(corner_uv_[2 * corner]), image_unit_.scaled(corner_uv_[2 * corner + 1]));
