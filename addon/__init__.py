@@ -2,7 +2,7 @@
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
 from . import handlers, operators, properties
-from .overlay import extender_arrows
+from .overlay import extender_arrows, map_overlay
 from .ui import menus, panels
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
@@ -17,7 +17,7 @@ bl_info = {
 }
 
 # Each may use those before it: they come in this order and go in the reverse one.
-_PARTS = (properties, handlers, operators, menus, panels, extender_arrows)
+_PARTS = (properties, handlers, operators, menus, panels, extender_arrows, map_overlay)
 
 
 def register() -> None:

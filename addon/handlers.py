@@ -10,10 +10,12 @@ from bpy.app.handlers import persistent
 from . import operators
 from .extenders import storage, tracking
 from .live import adjusted_map, following
+from .overlay import map_overlay
 
 
 @persistent
 def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    map_overlay.on_update(depsgraph)
     if bpy.context.mode != "EDIT_MESH":
         tracking.forget_left()
         following.forget_left()
@@ -35,6 +37,7 @@ def _before_undo(*_arguments: object) -> None:
 def _after_undo(*_arguments: object) -> None:
     tracking.follow_after_undo(_edited())
     following.after_undo()
+    map_overlay.edited()
 
 
 @persistent
@@ -43,6 +46,7 @@ def _before_load(*_arguments: object) -> None:
     following.forget()
     tracking.forget()
     storage.forget()
+    map_overlay.forget()
 
 
 @persistent

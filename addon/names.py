@@ -7,9 +7,18 @@ SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"
 
 SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
 
+SELECT_DISTORTED_OPERATOR = "uv.spectral_select_distorted"
+
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 
 LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"
+
+# Property of the window manager: what the overlay of the UV map shows.
+MAP_OVERLAY_PROPERTY = "spectral_map_overlay"
+
+# Properties of the window manager: the islands of the last result, and the index of the active one.
+ISLANDS_PROPERTY = "spectral_islands"
+ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 
 # Properties of meshes: the list of extenders, the index of the active one, and the name of the vertex layer that tells
 # which vertices are theirs. The layer's name is the prefix and a digest of the list; with the dot Blender hides it.
@@ -24,10 +33,9 @@ ADJUST_EXTENDER_OPERATOR = "mesh.spectral_extender_adjust"
 SELECT_EXTENDER_OPERATOR = "mesh.spectral_extender_select"
 
 EXTENDER_LIST = "MESH_UL_spectral_extenders"
-VIEWPORT_PANEL = "VIEW3D_PT_spectral_unwrap"
-VIEWPORT_EXTENDERS_PANEL = "VIEW3D_PT_spectral_extenders"
-UV_EDITOR_PANEL = "IMAGE_PT_spectral_unwrap"
-UV_EDITOR_EXTENDERS_PANEL = "IMAGE_PT_spectral_extenders"
+ISLAND_LIST = "UV_UL_spectral_islands"
+# The panels of the sidebar, in the order of work; each exists in the 3D viewport and in the UV editor.
+PANEL_PREFIXES = ("VIEW3D_PT_spectral_", "IMAGE_PT_spectral_")
 
 # Operators after which changed seams lie along the islands of the map as it is.
 OPERATORS_THAT_MARK_SEAMS_OF_A_MAP = (
@@ -41,6 +49,7 @@ VIEWPORT_UNWRAP_MENU = "VIEW3D_MT_uv_map"
 UV_EDITOR_UNWRAP_MENU = "IMAGE_MT_uvs_unwrap"
 UV_EDITOR_MENU = "IMAGE_MT_uvs"
 UV_EDITOR_SELECT_MENU = "IMAGE_MT_select"
+VIEWPORT_SELECT_BY_TRAIT_MENU = "VIEW3D_MT_edit_mesh_select_by_trait"
 
 # Name that Blender itself gives to the first UV map.
 DEFAULT_UV_MAP = "UVMap"

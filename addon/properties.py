@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The properties that the add-on gives to meshes and scenes: extenders, and whether live unwrapping is on.
+"""The properties that the add-on gives to meshes, scenes and the window manager.
 
 Their values belong to the file: they stay in it when the add-on is disabled, and count again when it is enabled.
 
@@ -7,8 +7,16 @@ Blender keeps the callbacks, and with them all that this file names. So it must 
 4.5 would then free too late when Python ends, and crash or hang.
 """
 
-from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import Context, Mesh, PropertyGroup, Scene
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+from bpy.types import Context, Mesh, PropertyGroup, Scene, WindowManager
 from bpy.utils import register_class, unregister_class
 
 from . import names
@@ -16,6 +24,8 @@ from .core import texts
 from .extenders import storage
 from .extenders.strength import STRENGTH
 from .live import following
+from .overlay import map_overlay
+from .unwrapping import island_list
 
 
 def _on_change(extender: PropertyGroup, _context: Context) -> None:
@@ -41,8 +51,63 @@ class SpectralExtender(PropertyGroup):
     second_id: IntProperty(**texts.SECOND_VERTEX_PROPERTY, options={"HIDDEN"})
 
 
+def _on_map_toggle(_overlay: PropertyGroup, _context: Context) -> None:
+    map_overlay.toggled()
+
+
+def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:
+    map_overlay.redraw(context)
+
+
+def _on_kind(overlay: PropertyGroup, context: Context) -> None:
+    # What is shown now is measured in something else.
+    overlay.use_range = False
+    map_overlay.redraw(context)
+
+
+def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
+    if overlay.use_range:
+        overlay.range_low, overlay.range_high = map_overlay.automatic(context)
+    map_overlay.redraw(context)
+
+
+class SpectralMapOverlay(PropertyGroup):
+    """What the overlay of the UV map shows. Of the window manager: showing is no edit, and nothing to undo."""
+
+    show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_map_toggle)
+    kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
+    use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
+    range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=1.0, update=_on_map_change)
+    range_high: FloatProperty(**texts.RANGE_HIGH_PROPERTY, default=2.0, update=_on_map_change)
+    opacity: FloatProperty(
+        **texts.OPACITY_PROPERTY, default=0.7, min=0.0, max=1.0, subtype="FACTOR", update=_on_map_change
+    )
+    image_size: IntProperty(
+        **texts.IMAGE_SIZE_PROPERTY, default=1024, min=1, max=65536, subtype="PIXEL", update=_on_map_change
+    )
+    checks: IntProperty(**texts.CHECKS_PROPERTY, default=16, min=1, max=4096, update=_on_map_change)
+    legend: BoolProperty(**texts.LEGEND_PROPERTY, default=True, update=_on_map_change)
+
+
+class SpectralIsland(PropertyGroup):
+    """A row of the list of islands; its name is what it says."""
+
+    is_bad: BoolProperty(options={"HIDDEN"})
+
+
+def _on_island(window_manager: WindowManager, context: Context) -> None:
+    island_list.select(context, getattr(window_manager, names.ACTIVE_ISLAND_PROPERTY))
+
+
 def register() -> None:
     """Add the properties."""
+    register_class(SpectralIsland)
+    setattr(WindowManager, names.ISLANDS_PROPERTY, CollectionProperty(type=SpectralIsland, **texts.ISLANDS_PROPERTY))
+    active_island = IntProperty(**texts.ACTIVE_ISLAND_PROPERTY, default=-1, min=-1, update=_on_island)
+    setattr(WindowManager, names.ACTIVE_ISLAND_PROPERTY, active_island)
+    register_class(SpectralMapOverlay)
+    overlay = PointerProperty(type=SpectralMapOverlay, name=texts.MAP_OVERLAY_LABEL)
+    setattr(WindowManager, names.MAP_OVERLAY_PROPERTY, overlay)
     register_class(SpectralExtender)
     setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
     active = IntProperty(**texts.ACTIVE_EXTENDER_PROPERTY, min=0)
@@ -59,3 +124,8 @@ def unregister() -> None:
     for name in (names.EXTENDER_LAYER_PROPERTY, names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
         delattr(Mesh, name)
     unregister_class(SpectralExtender)
+    for name in (names.ACTIVE_ISLAND_PROPERTY, names.ISLANDS_PROPERTY):
+        delattr(WindowManager, name)
+    unregister_class(SpectralIsland)
+    delattr(WindowManager, names.MAP_OVERLAY_PROPERTY)
+    unregister_class(SpectralMapOverlay)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .defects import Defects
+    from .map_view import IslandNumbers
     from .quality import MapQuality
     from .summary import Summary
 
@@ -49,6 +50,17 @@ ADJUST_EXTENDER_DESCRIPTION = "Change the strength of the active extender by dra
 SELECT_EXTENDER_LABEL = "Select Extender Vertices"
 SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
 SIDEBAR_TAB = "Spectral"
+SEAMS_LABEL = "Seams"
+UNWRAP_PANEL_LABEL = "Unwrap"
+SETTINGS_LABEL = "Settings"
+ADVANCED_LABEL = "Advanced"
+RESULT_LABEL = "Last Result"
+CLEAR_SEAMS_LABEL = "Clear Selected"
+SEAMS_FROM_ISLANDS_LABEL = "From Islands"
+NO_RESULT_LABEL = "Nothing was unwrapped yet"
+SELECT_ISLAND_LABEL = "Select Island"
+SELECT_DISTORTED_LABEL = "Select Most Distorted"
+SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
 EXTENDERS_LABEL = "Extenders"
 ADD_TO_ACTIVE_LABEL = "Add to Active"
 VERTEX_GONE_LABEL = "Vertex gone"
@@ -68,7 +80,7 @@ FILL_HOLES_PROPERTY = {
 }
 HOLE_RIGIDITY_PROPERTY = {
     "name": "Hole Rigidity",
-    "description": "How strongly holes are kept from shrinking to a point, at 1 they count like the island's border",
+    "description": "Keep holes open; 1 treats them like the outer border",
 }
 AUTOMATIC_HOLES_PROPERTY = {
     "name": "Automatic Holes",
@@ -82,7 +94,7 @@ AREA_BLEND_PROPERTY = {
     "description": "0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",
 }
 FOLD_FREE_PROPERTY = {
-    "name": "Fold-Free",
+    "name": "No Flip",
     "description": (
         "Leave no flipped faces, and no island that covers itself: unfold and move apart what is, at some cost in "
         "angles. Islands where that is not enough get another map, which takes longer"
@@ -96,6 +108,7 @@ STRETCH_PROPERTY = {
     "name": "Edge Stretch",
     "description": "How much longer the islands get along the direction of the active edge than across it",
 }
+SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show the settings that are seldom changed"}
 USE_SUBSURF_DATA_PROPERTY = {
     "name": "Use Subdivision Surface",
     "description": "Map UVs taking vertex position after Subdivision Surface modifier has been applied",
@@ -166,13 +179,40 @@ BETWEEN_ISLANDS_PROPERTY = {
 }
 EXTEND_PROPERTY = {"name": "Extend", "description": "Add to the selection instead of replacing it"}
 
+ISLANDS_PROPERTY = {"name": "Islands", "description": "The islands of the last result, the worst first"}
+ACTIVE_ISLAND_PROPERTY = {"name": "Island", "description": "Click an island to select its faces"}
+MEASURE_PROPERTY = {"name": "By", "description": "What faces are compared by"}
+MEASURE_ITEMS = (
+    ("ANGLE", "Angle Distortion", "Faces whose angles are farthest from those on the surface"),
+    ("SIZE", "Size", "Faces whose size in the map is farthest from that of most of the surface"),
+)
+AMOUNT_PROPERTY = {"name": "Amount", "description": "How much of the surface to select, the worst faces first"}
+WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Compare islands instead of faces, by their average"}
+# The properties of the overlay that shows the map.
+MAP_OVERLAY_LABEL = "UV Map Overlay"
+SHOW_MAP_PROPERTY = {
+    "name": "Show UV Map",
+    "description": "Colour the faces by what the active UV map does to them, in the 3D viewport and in the UV editor",
+}
+LOOK_PROPERTY = {"name": "Show", "description": "What the colours stand for"}
+USE_RANGE_PROPERTY = {
+    "name": "Own Range",
+    "description": "Set the values of the two ends of the colours by hand; otherwise they follow the map",
+}
+RANGE_LOW_PROPERTY = {"name": "Low", "description": "Value at the lower end of the colours"}
+RANGE_HIGH_PROPERTY = {"name": "High", "description": "Value at the upper end of the colours"}
+OPACITY_PROPERTY = {"name": "Opacity", "description": "How much the colours hide of what is below them"}
+IMAGE_SIZE_PROPERTY = {
+    "name": "Image Size",
+    "description": "Pixels along one side of the image that the texel density is stated for",
+}
+CHECKS_PROPERTY = {"name": "Squares", "description": "Squares of the checker along one side of a UV tile"}
+LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colours mean, and the numbers of the map"}
+
 PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices make a pair"}
 STRENGTH_PROPERTY = {
     "name": "Strength",
-    "description": (
-        "How strongly the two vertices are pushed apart, or below 0 pulled together, as a fraction of the boundary's "
-        "total mass"
-    ),
+    "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
 }
 INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active extender"}
 BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all extenders with a vertex that is gone instead"}
@@ -188,8 +228,6 @@ ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The exten
 METHOD_ITEMS = (
     ("SPECTRAL", "Spectral", "Least angle distortion with the whole boundary free; no pins"),
     ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
-    ("FIEDLER", "Fiedler Vector", "Smallest nontrivial eigenvector over all vertices, for comparison"),
-    ("AREA", "Area Normalized", "Least angle distortion relative to the area of the map, for comparison"),
 )
 WEIGHTS_ITEMS = (
     ("UNIFORM", "Uniform", "Every triangle counts by its area"),
@@ -203,6 +241,18 @@ MARGIN_METHOD_ITEMS = (
     ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
     ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
     ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
+)
+LOOK_ANGLE = "ANGLE"
+LOOK_SIZE = "SIZE"
+LOOK_DENSITY = "DENSITY"
+LOOK_DEFECTS = "DEFECTS"
+LOOK_CHECKER = "CHECKER"
+LOOK_ITEMS = (
+    (LOOK_ANGLE, "Angle Distortion", "How far angles are from those on the surface: 1 where they are kept"),
+    (LOOK_SIZE, "Size", "How much larger or smaller faces are in the map than in the middle of it, beside the surface"),
+    (LOOK_DENSITY, "Texel Density", "Pixels of the image along one unit of length on the surface"),
+    (LOOK_DEFECTS, "Flipped and Overlapping", "Faces that lie the wrong way round, or cover others of their island"),
+    (LOOK_CHECKER, "Checker", "Squares of the UV map on the surface, without touching materials"),
 )
 PACK = "PACK"
 KEEP = "KEEP"
@@ -240,7 +290,7 @@ STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
 NO_SUCH_EXTENDER = "No such extender; choose one in the list"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
-NOTHING_SELECTED = "Nothing selected; select the faces to unwrap, in the UV editor their UVs"
+NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
@@ -294,15 +344,82 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
 
     `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
     """
-    defects = _count(summary.flipped, "flipped face")
-    if summary.overlapping:
-        defects += f", {_count(summary.overlapping, 'overlapping face')}"
-    if summary.flipped or summary.overlapping:
-        defects += f" (see {where_to_see})"
-    return (
-        f"Unwrapped {_count(summary.solved, 'island')}: mean QC {_qc(summary.mean_qc)}, "
-        f"maximum QC {_qc(summary.max_qc)}, {defects}, {seconds:.2f} s"
-    )
+    parts = [
+        f"Unwrapped {_count(summary.solved, 'island')}: angle distortion {_qc(summary.mean_qc)} average, "
+        f"{_qc(summary.max_qc)} worst",
+        _defects(summary.flipped, summary.overlapping, where_to_see),
+        f"{seconds:.2f} s",
+    ]
+    return "; ".join(parts)
+
+
+def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
+    if not flipped and not overlapping:
+        return "no flipped faces"
+    kinds = [(flipped, "flipped face"), (overlapping, "overlapping face")]
+    return f"{', '.join(_count(count, noun) for count, noun in kinds if count)} (see {where_to_see})"
+
+
+def look(kind: str) -> str:
+    """Return the label of what the overlay shows."""
+    return next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind)
+
+
+def look_value(kind: str, value: float) -> str:
+    """Return a value of what the overlay shows, as the legend has it."""
+    if kind == LOOK_SIZE:
+        return f"{2.0**value:.2f} x"
+    return f"{value:.3g}" if kind == LOOK_DENSITY else f"{value:.2f}"
+
+
+def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
+    """Return what stands at the lower end, the middle and the upper end of the legend's colours."""
+    if kind == LOOK_DEFECTS:
+        return ("sound", "overlapping", "flipped")
+    return tuple(look_value(kind, value) for value in (low, middle, high))
+
+
+def legend_numbers(name: str, numbers: IslandNumbers) -> tuple[str, ...]:
+    """Return the lines that the legend has on a part of the map."""
+    if numbers.mean_qc != numbers.mean_qc:
+        return (f"{name}: {_count(numbers.faces, 'face')}, nothing to measure",)
+    spread = 100.0 * (2.0**numbers.log2_scale_deviation - 1.0)
+    lines = [
+        f"{name}: {_count(numbers.faces, 'face')}",
+        f"Angles {_qc(numbers.mean_qc)} average, {_qc(numbers.max_qc)} worst",
+        f"Sizes vary by {spread:.1f} %",
+    ]
+    if numbers.flipped or numbers.overlapping:
+        lines.append(f"{numbers.flipped} flipped, {numbers.overlapping} overlapping")
+    return tuple(lines)
+
+
+def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapping: int) -> str:
+    """Return the line of an island in the list of the last result."""
+    parts = [f"{mean_qc:.3f} / {_qc(max_qc)}", f"{faces} f."]
+    if flipped:
+        parts.append(f"{flipped} flipped")
+    if overlapping:
+        parts.append(f"{overlapping} overlap")
+    return "   ".join(parts)
+
+
+def island_failed(faces: int) -> str:
+    """Return the line of an island that could not be unwrapped."""
+    return f"Not unwrapped   {faces} f."
+
+
+ISLAND_GONE = "The faces of this island have changed since; unwrap again"
+
+
+def selected_worst(faces: int) -> str:
+    """Return what Select Most Distorted says."""
+    return f"Selected {_count(faces, 'face')}"
+
+
+LEGEND_MESH = "Shown"
+LEGEND_ISLAND = "Active island"
+LEGEND_FACE = "Face below the mouse"
 
 
 def unfolded(summary: Summary) -> str:
@@ -311,14 +428,14 @@ def unfolded(summary: Summary) -> str:
     if summary.unfolded:
         parts.append(f"{_count(summary.unfolded, 'flipped triangle')} unfolded")
     if summary.embedded:
-        parts.append(f"{_count(summary.embedded, 'island')} replaced by an embedding, relaxed without folding it")
+        parts.append(f"{_count(summary.embedded, 'island')} needed the slower fallback map")
     if not parts:
         return ""
     cost = ""
     if summary.mean_qc_change is not None:
         before, after = summary.mean_qc_change
-        cost = f"; mean QC of these islands {_qc(before)} before, {_qc(after)} after"
-    return f"Fold-free: {', '.join(parts)}{cost}"
+        cost = f"; their angle distortion {_qc(before)} before, {_qc(after)} after"
+    return f"No Flip: {', '.join(parts)}{cost}"
 
 
 def too_small(faces: int) -> str:
@@ -489,8 +606,8 @@ def preview_status(known: str) -> str:
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
     """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
     even = f"{_percent(after.even)} of the surface within {factor:.3g} times the median scale"
-    qc = f", mean QC {_qc(after.mean_qc)}" if after.mean_qc == after.mean_qc else ""
-    now = _percent(before.even) + (f", QC {_qc(before.mean_qc)}" if before.mean_qc == before.mean_qc else "")
+    qc = f", angle distortion {_qc(after.mean_qc)}" if after.mean_qc == after.mean_qc else ""
+    now = _percent(before.even) + (f", {_qc(before.mean_qc)}" if before.mean_qc == before.mean_qc else "")
     return f"{even}{qc} (now {now})"
 
 
@@ -555,4 +672,7 @@ def _count(number: int, noun: str) -> str:
 
 
 def _qc(value: float) -> str:
-    return f"{value:.4f}" if value < 100.0 else f"{value:.3g}"
+    """Return a distortion as artists read it: 1.003 is not 1.00, and of large ones no digit counts but the first."""
+    if value < 1.1:
+        return f"{value:.3f}"
+    return f"{value:.2f}" if value < 100.0 else f"{value:.3g}"

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..unwrapping import last_result
+from ..unwrapping import island_list, last_result
 from . import extender_adjust, job_operator
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
@@ -11,7 +11,11 @@ from .extender_list import (
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,
 )
-from .select import UV_OT_spectral_select_defects, UV_OT_spectral_select_failed
+from .select import (
+    UV_OT_spectral_select_defects,
+    UV_OT_spectral_select_distorted,
+    UV_OT_spectral_select_failed,
+)
 from .suggest_seams import UV_OT_spectral_suggest_seams
 from .unwrap import UV_OT_spectral_unwrap
 
@@ -19,6 +23,7 @@ _CLASSES = (
     UV_OT_spectral_unwrap,
     UV_OT_spectral_select_failed,
     UV_OT_spectral_select_defects,
+    UV_OT_spectral_select_distorted,
     UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,
@@ -31,6 +36,7 @@ def before_load() -> None:
     """End the job that is under way, and forget what the file that is about to be left has to do with."""
     job_operator.end_all()
     last_result.forget()
+    island_list.forget()
 
 
 def register() -> None:

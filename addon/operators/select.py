@@ -3,14 +3,47 @@
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
 from ..core import defects, texts
+from ..core.map_view import MapView, worst
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
+from ..edit_mesh.read_map import read_map
 from ..unwrapping import last_result
 from .reporting_operator import ReportingOperator
+
+
+class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
+    """Select the visible faces that the active UV map distorts most."""
+
+    bl_idname = names.SELECT_DISTORTED_OPERATOR
+    bl_label = texts.SELECT_DISTORTED_LABEL
+    bl_description = texts.SELECT_DISTORTED_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    measure: EnumProperty(**texts.MEASURE_PROPERTY, items=texts.MEASURE_ITEMS)
+    amount: FloatProperty(**texts.AMOUNT_PROPERTY, default=5.0, min=0.01, max=100.0, subtype="PERCENTAGE")
+    whole_islands: BoolProperty(**texts.WHOLE_ISLANDS_PROPERTY)
+    extend: BoolProperty(**texts.EXTEND_PROPERTY)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode."""
+        return context.mode == "EDIT_MESH"
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Measure the maps of all meshes in edit mode together and select the worst faces, or islands."""
+        arrays = {each.data: read_map(context, each) for each in context.objects_in_mode_unique_data}
+        views = {mesh: MapView(found) for mesh, found in arrays.items() if found is not None}
+        if not views:
+            self.report({"WARNING"}, texts.NO_UV_MAP)
+            return {"CANCELLED"}
+        chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands)
+        selection.select_shown(context, dict(zip(views, chosen)), self.extend)
+        self.report({"INFO"}, texts.selected_worst(sum(int(faces.sum()) for faces in chosen)))
+        return {"FINISHED"}
 
 
 class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):

@@ -15,7 +15,7 @@ from ..core.seam_suggestion import Options, Preferences, Search, Suggestion
 from ..core.solve import Solution, solve_all
 from ..core.summary import summarize
 from ..live import following
-from ..unwrapping import seams, steps
+from ..unwrapping import island_list, seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
 from .job_operator import Done, Job, JobOperator
@@ -159,7 +159,9 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         self.report({"INFO"}, texts.marked(len(cuts.cuts), length_text(context, cuts.length)))
         self._report_refused(target, cuts)
         if outcome is not None:
-            for level, text in steps.reports(outcome, time.perf_counter() - start):
+            reports = steps.reports(outcome, time.perf_counter() - start)
+            island_list.show(target.edit_meshes, solutions, reports)
+            for level, text in reports:
                 self.report({level}, text)
         return {"FINISHED"}
 

@@ -10,7 +10,8 @@ from .. import names
 from ..core import texts
 from ..extenders.strength import STRENGTH_LIMIT
 from ..live import following
-from ..unwrapping import steps
+from ..ui import unwrap_settings
+from ..unwrapping import island_list, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
 
@@ -67,46 +68,16 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
     correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
     margin_method: EnumProperty(**texts.MARGIN_METHOD_PROPERTY, items=texts.MARGIN_METHOD_ITEMS)
     margin: FloatProperty(**texts.MARGIN_PROPERTY, default=0.001, min=0.0, max=1.0, precision=3, step=0.1)
+    show_advanced: BoolProperty(**texts.SHOW_ADVANCED_PROPERTY)
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        layout.prop(self, "method")
-        layout.prop(self, "weights")
-        row = layout.row()
-        row.active = self.method == "SPECTRAL"
-        row.prop(self, "boundary")
-        layout.prop(self, "fill_holes")
-        row = layout.row()
-        row.active = self.method == "SPECTRAL"
-        row.prop(self, "hole_rigidity")
-        row = layout.row()
-        row.active = self.method == "SPECTRAL" and self.hole_rigidity == 0.0
-        row.prop(self, "automatic_holes")
-        layout.separator()
-        layout.prop(self, "fold_free")
-        layout.prop(self, "polish")
-        layout.prop(self, "area_blend")
-        layout.prop(self, "stretch")
-        layout.separator()
-        layout.prop(self, "use_subsurf_data")
-        layout.separator()
-        column = layout.column()
-        column.active = self.method == "SPECTRAL"
-        column.prop(self, "soft_pins")
-        row = column.row()
-        row.active = self.soft_pins
-        row.prop(self, "soft_pin_strength")
-        layout.separator()
-        layout.prop(self, "correct_aspect")
-        layout.prop(self, "placement")
-        column = layout.column()
-        column.active = self.placement == texts.PACK
-        column.prop(self, "turn_to_pack")
-        column.prop(self, "margin_method")
-        column.prop(self, "margin")
+        unwrap_settings.draw_common(self.layout, self)
+        row = self.layout.row()
+        row.use_property_split = False
+        row.prop(self, "show_advanced", icon="DOWNARROW_HLT" if self.show_advanced else "RIGHTARROW", emboss=False)
+        if self.show_advanced:
+            unwrap_settings.draw_advanced(self.layout, self)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Read, solve, place, write and pack; report the outcome."""
@@ -124,6 +95,8 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
                 self.report({"WARNING"}, texts.MESHES_CHANGED)
                 return {"CANCELLED"}
         outcome = steps.write(done.context, settings, edit_meshes, done.result, following.not_following)
-        for level, text in steps.reports(outcome, time.perf_counter() - start):
+        reports = steps.reports(outcome, time.perf_counter() - start)
+        island_list.show(edit_meshes, done.result, reports)
+        for level, text in reports:
             self.report({level}, text)
         return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}

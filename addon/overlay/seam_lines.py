@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Suggested seams as lines in the 3D viewports, before they are marked."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 
 import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix
 
 from .. import compatibility
 from ..core import seam_suggestion, texts
 from ..core.errors import PrintOnce
 from ..core.seam_suggestion import Suggestion
 from ..edit_mesh.read import EditMesh
+from .in_front import in_front_of_faces
 
 _COLOR = (0.1, 1.0, 0.55)
 # Width in pixels and opacity of the cuts shown, and of those left out.
@@ -22,8 +21,6 @@ _SHOWN = (4.0, 1.0)
 _LEFT_OUT = (1.5, 0.5)
 # What is behind the mesh shines through faintly.
 _THROUGH_MESH = 0.25
-# Lines are drawn this fraction of the distance nearer than they are, or they would sink into the faces.
-_NEARER = 0.003
 
 
 class SeamLines:
@@ -82,7 +79,7 @@ class SeamLines:
         scale = bpy.context.preferences.system.ui_scale
         shader.bind()
         shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        with _in_front_of_faces(bpy.context.region_data):
+        with in_front_of_faces(bpy.context.region_data):
             for depth_test, visibility in (("NONE", _THROUGH_MESH), ("LESS_EQUAL", 1.0)):
                 gpu.state.depth_test_set(depth_test)
                 for batch, width, opacity in self._batches:
@@ -96,24 +93,3 @@ def _redraw(context: bpy.types.Context) -> None:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
-
-
-@contextmanager
-def _in_front_of_faces(view: bpy.types.RegionView3D) -> Iterator[None]:
-    """Within, what is drawn blends, hides nothing, and wins over faces that it lies on."""
-    if view.is_perspective:
-        nearer = Matrix.Scale(1.0 - _NEARER, 4)
-        nearer[3][3] = 1.0
-    else:
-        nearer = Matrix.Translation((0.0, 0.0, _NEARER * view.view_distance))
-    writes_depth = gpu.state.depth_mask_get()
-    gpu.state.blend_set("ALPHA")
-    gpu.state.depth_mask_set(False)
-    try:
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(nearer @ gpu.matrix.get_model_view_matrix())
-            yield
-    finally:
-        gpu.state.depth_test_set("NONE")
-        gpu.state.depth_mask_set(writes_depth)
-        gpu.state.blend_set("NONE")

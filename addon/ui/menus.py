@@ -36,6 +36,13 @@ def _draw_in_select_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> N
     self.layout.separator()
     self.layout.operator(names.SELECT_FAILED_OPERATOR)
     self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
+    self.layout.operator(names.SELECT_DISTORTED_OPERATOR)
+
+
+def _draw_by_trait(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
+    self.layout.operator(names.SELECT_DISTORTED_OPERATOR)
 
 
 def _entries() -> list[tuple[type, Callable]]:
@@ -45,6 +52,7 @@ def _entries() -> list[tuple[type, Callable]]:
         (getattr(bpy.types, names.VIEWPORT_UNWRAP_MENU), _draw_in_viewport),
         (uv_editor, _draw_in_uv_editor),
         (getattr(bpy.types, names.UV_EDITOR_SELECT_MENU), _draw_in_select_menu),
+        (getattr(bpy.types, names.VIEWPORT_SELECT_BY_TRAIT_MENU), _draw_by_trait),
     ]
 
 

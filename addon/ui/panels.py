@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar's tab in the 3D viewport and in the UV editor: unwrapping, and the extenders of the active mesh."""
+"""The sidebar's tab in the 3D viewport and in the UV editor: seams, unwrapping, looking at the map, extenders."""
+
+import textwrap
 
 import bpy
 
 from .. import names
 from ..core import texts
 from ..extenders import storage, tracking
+from ..unwrapping import island_list
+from . import unwrap_settings
 
 
 class MESH_UL_spectral_extenders(bpy.types.UIList):
@@ -44,31 +48,139 @@ def _icon_of(extender: bpy.types.PropertyGroup, is_broken: bool) -> str:
     return "FULLSCREEN_ENTER" if extender.strength >= 0.0 else "FULLSCREEN_EXIT"
 
 
-class _UnwrapPanel:
-    """Unwrapping."""
+class UV_UL_spectral_islands(bpy.types.UIList):
+    """The list of islands."""
+
+    def draw_item(
+        self,
+        _context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        _window_manager: bpy.types.WindowManager,
+        island: bpy.types.PropertyGroup,
+        _icon: int,
+        _active_data: bpy.types.WindowManager,
+        _active_property: str,
+        _index: int = 0,
+        _flag: int = 0,
+    ) -> None:
+        """Draw one island: its distortion, its faces and what is wrong with it."""
+        layout.label(text=island.name, icon="ERROR" if island.is_bad else "UV_ISLANDSEL")
+
+
+class _Panel:
+    """A panel of the tab; each class derived is registered for the 3D viewport and for the UV editor."""
 
     bl_region_type = "UI"
     bl_category = texts.SIDEBAR_TAB
-    bl_label = texts.UNWRAP_LABEL
+    part = ""
+    """The last word of the identifiers of the panels."""
+    parent = ""
+    """That of the panel that it is part of."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Show the panel where a mesh is in edit mode and, in an image editor, its UVs are shown."""
         return context.mode == "EDIT_MESH" and getattr(context.space_data, "show_uvedit", True)
 
+
+class _SeamsPanel(_Panel):
+    """Where the mesh is cut."""
+
+    bl_label = texts.SEAMS_LABEL
+    part = "seams"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw the ways to get seams, and to get rid of them."""
+        column = self.layout.column(align=True)
+        column.operator_context = "INVOKE_REGION_WIN"
+        column.operator(names.SUGGEST_SEAMS_OPERATOR)
+        row = column.row(align=True)
+        row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
+        row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
+
+
+class _UnwrapPanel(_Panel):
+    """Unwrapping."""
+
+    bl_label = texts.UNWRAP_PANEL_LABEL
+    part = "unwrap"
+
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operators and the live toggle."""
+        """Draw the operator and the live toggle."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
         layout.operator(names.UNWRAP_OPERATOR)
-        layout.operator(names.SUGGEST_SEAMS_OPERATOR)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
 
 
-class _ExtendersPanel(_UnwrapPanel):
+class _SettingsPanel(_Panel):
+    """The settings of the next unwrap, those of the last one at first."""
+
+    bl_label = texts.SETTINGS_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "settings", "unwrap"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what artists change."""
+        properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
+        unwrap_settings.draw_common(self.layout, properties)
+
+
+class _AdvancedPanel(_Panel):
+    """The settings that are seldom changed."""
+
+    bl_label = texts.ADVANCED_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "advanced", "settings"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the rest of the settings."""
+        properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
+        unwrap_settings.draw_advanced(self.layout, properties)
+
+
+class _ResultPanel(_Panel):
+    """What became of the last unwrap."""
+
+    bl_label = texts.RESULT_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "result", "unwrap"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what was reported, line by line, and the islands, which select their faces."""
+        layout, window_manager = self.layout, context.window_manager
+        reported = island_list.lines()
+        if not reported:
+            layout.label(text=texts.NO_RESULT_LABEL)
+            return
+        column = layout.column(align=True)
+        column.scale_y = 0.8
+        width = _characters(context)
+        for level, text in reported:
+            for index, line in enumerate(textwrap.wrap(text, width)):
+                column.label(text=line, icon=("INFO" if level == "INFO" else "ERROR") if index == 0 else "BLANK1")
+        layout.template_list(
+            names.ISLAND_LIST,
+            "",
+            window_manager,
+            names.ISLANDS_PROPERTY,
+            window_manager,
+            names.ACTIVE_ISLAND_PROPERTY,
+            rows=4,
+        )
+
+
+def _characters(context: bpy.types.Context) -> int:
+    """Return how many characters fit beside an icon into a line of the region."""
+    scale = context.preferences.system.ui_scale
+    return max(int((context.region.width / scale - 60.0) / 6.2), 12)
+
+
+class _ExtendersPanel(_Panel):
     """The extenders of the active object's mesh."""
 
     bl_label = texts.EXTENDERS_LABEL
+    part = "extenders"
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the list and the operators on it."""
@@ -95,50 +207,78 @@ class _ExtendersPanel(_UnwrapPanel):
             remove.broken = True
 
 
-class VIEW3D_PT_spectral_unwrap(_UnwrapPanel, bpy.types.Panel):
-    """Unwrapping, in the 3D viewport."""
+class _MapOverlayPanel(_Panel):
+    """What the active UV map is like, on the mesh and in the UV editor."""
 
-    bl_idname = names.VIEWPORT_PANEL
-    bl_space_type = "VIEW_3D"
+    bl_label = texts.MAP_OVERLAY_LABEL
+    part = "map_overlay"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Show the panel where a mesh can be shown."""
+        return context.mode in {"EDIT_MESH", "OBJECT"} and getattr(context.space_data, "show_uvedit", True)
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Draw the switch of the overlay."""
+        self.layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what is shown, and how."""
+        layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
+        layout.active = overlay.show
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(overlay, "kind")
+        if overlay.kind == texts.LOOK_CHECKER:
+            layout.prop(overlay, "checks")
+        if overlay.kind == texts.LOOK_DENSITY:
+            layout.prop(overlay, "image_size")
+        if overlay.kind not in (texts.LOOK_CHECKER, texts.LOOK_DEFECTS):
+            layout.prop(overlay, "use_range")
+            column = layout.column(align=True)
+            column.active = overlay.use_range
+            column.prop(overlay, "range_low")
+            column.prop(overlay, "range_high")
+        layout.prop(overlay, "opacity")
+        layout.prop(overlay, "legend")
+        if context.mode == "EDIT_MESH":
+            column = self.layout.column(align=True)
+            column.operator(names.SELECT_DISTORTED_OPERATOR)
+            column.operator(names.SELECT_DEFECTS_OPERATOR)
 
 
-class VIEW3D_PT_spectral_extenders(_ExtendersPanel, bpy.types.Panel):
-    """Extenders, in the 3D viewport."""
+def _panels() -> list[type]:
+    """Return all panels, in the order of work, those with parents after these."""
+    parts = (
+        _SeamsPanel,
+        _UnwrapPanel,
+        _SettingsPanel,
+        _AdvancedPanel,
+        _ResultPanel,
+        _MapOverlayPanel,
+        _ExtendersPanel,
+    )
+    made = []
+    for prefix, space in zip(names.PANEL_PREFIXES, ("VIEW_3D", "IMAGE_EDITOR")):
+        for order, part in enumerate(parts):
+            body = {"bl_idname": prefix + part.part, "bl_space_type": space, "bl_order": order, "__doc__": part.__doc__}
+            if part.parent:
+                body["bl_parent_id"] = prefix + part.parent
+            made.append(type(prefix + part.part, (part, bpy.types.Panel), body))
+    return made
 
-    bl_idname = names.VIEWPORT_EXTENDERS_PANEL
-    bl_space_type = "VIEW_3D"
 
-
-class IMAGE_PT_spectral_unwrap(_UnwrapPanel, bpy.types.Panel):
-    """Unwrapping, in the UV editor."""
-
-    bl_idname = names.UV_EDITOR_PANEL
-    bl_space_type = "IMAGE_EDITOR"
-
-
-class IMAGE_PT_spectral_extenders(_ExtendersPanel, bpy.types.Panel):
-    """Extenders, in the UV editor."""
-
-    bl_idname = names.UV_EDITOR_EXTENDERS_PANEL
-    bl_space_type = "IMAGE_EDITOR"
-
-
-_CLASSES = (
-    MESH_UL_spectral_extenders,
-    VIEW3D_PT_spectral_unwrap,
-    VIEW3D_PT_spectral_extenders,
-    IMAGE_PT_spectral_unwrap,
-    IMAGE_PT_spectral_extenders,
-)
+_CLASSES = (MESH_UL_spectral_extenders, UV_UL_spectral_islands, *_panels())
 
 
 def register() -> None:
-    """Add the list and the panels."""
+    """Add the lists and the panels."""
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
 
 
 def unregister() -> None:
-    """Remove the list and the panels."""
+    """Remove the lists and the panels."""
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

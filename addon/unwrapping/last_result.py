@@ -32,13 +32,13 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
     """Remember what failed. Faces that were not unwrapped this time keep what is remembered of them."""
     for edit_mesh, solution in zip(edit_meshes, solutions):
         polygons = edit_mesh.polygons
-        topology, name = _digest(polygons), edit_mesh.mesh.name_full
+        digest, name = topology(polygons), edit_mesh.mesh.name_full
         failed = solution.failed_islands.copy()
         before = _results.get(name)
-        if before is not None and before.topology == topology:
+        if before is not None and before.topology == digest:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        _results[name] = _Result(failed, topology)
+        _results[name] = _Result(failed, digest)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
@@ -49,7 +49,7 @@ def is_remembered(mesh: bpy.types.Mesh) -> bool:
 def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
     """Return the failed island of every face, (F,) intp, -1 for others; None if the topology was another then."""
     result = _results[edit_mesh.mesh.name_full]
-    return result.failed_islands if result.topology == _digest(edit_mesh.polygons) else None
+    return result.failed_islands if result.topology == topology(edit_mesh.polygons) else None
 
 
 def forget() -> None:
@@ -57,7 +57,8 @@ def forget() -> None:
     _results.clear()
 
 
-def _digest(polygons: PolygonMesh) -> bytes:
+def topology(polygons: PolygonMesh) -> bytes:
+    """Return a digest of the faces of a mesh and of their vertices, without the places of these."""
     digest = hashlib.blake2b(repr(polygons.face_offsets.shape).encode())
     for array in (polygons.face_offsets, polygons.corner_vertices):
         digest.update(np.ascontiguousarray(array).data)

@@ -9,11 +9,8 @@ The screen is drawn by Mesa's software renderer, in the workspace UV Editing, 16
 
 from __future__ import annotations
 
-import os
 import statistics
-import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
@@ -67,39 +64,10 @@ def inside(side: int, result: Path) -> None:
 
 
 def measure(vertices: int) -> str:
-    from tests.blender import blenders
+    from tests.benchmarks import on_screen
 
     side = round(vertices**0.5)
-    with tempfile.TemporaryDirectory() as folder:
-        result = Path(folder) / "result.txt"
-        server = subprocess.Popen(
-            ["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "+extension", "GLX"],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-        )
-        try:
-            display = f":{server.stdout.readline().strip()}"
-            subprocess.run(
-                [
-                    *(blenders.system_blender(), "--factory-startup", "--window-geometry", "0", "0", "1600", "1000"),
-                    *("--python", __file__, "--", "--inside", str(side), str(result)),
-                ],
-                env={
-                    **os.environ,
-                    **blenders.Blender("system").make_profile(Path(folder)),
-                    "DISPLAY": display,
-                    "LIBGL_ALWAYS_SOFTWARE": "1",
-                },
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                check=True,
-                timeout=300,
-            )
-        finally:
-            server.terminate()
-            server.wait()
-        solve, write, draw, still = map(float, result.read_text().split())
+    solve, write, draw, still = map(float, on_screen.run(__file__, side).split())
     rates = f"{1000 / (solve + write + draw):.1f} | {1000 / (solve + write):.1f}"
     return f"| {side * side} | {solve:.1f} | {write:.1f} | {draw:.1f} | {still:.1f} | {rates} |"
 

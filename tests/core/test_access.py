@@ -25,7 +25,20 @@ MODULES = {
         "importlib",
         "itertools",
     ),
-    *("difflib", "inspect", "json", "math", "numbers", "operator", "re", "threading", "time", "types", "typing"),
+    *(
+        "difflib",
+        "inspect",
+        "json",
+        "math",
+        "numbers",
+        "operator",
+        "re",
+        "textwrap",
+        "threading",
+        "time",
+        "types",
+        "typing",
+    ),
     "typing_extensions",  # for type checkers alone
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }

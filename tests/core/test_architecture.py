@@ -19,6 +19,7 @@ STANDARD = {
     "hashlib",
     "itertools",
     "json",
+    "textwrap",
     "threading",
     "time",
     "types",
@@ -33,7 +34,7 @@ BELOW = {
     "unwrapping": {"core", "extenders", "edit_mesh"},
     "live": {"core", "extenders", "edit_mesh", "unwrapping"},
     "overlay": {"core", "extenders", "edit_mesh"},
-    "ui": {"core", "extenders"},
+    "ui": {"core", "extenders", "unwrapping"},
     "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
 }
 # Identifiers, and what differs between versions of Blender: no folder, and below all but core.
@@ -41,7 +42,7 @@ GROUND = {"addon.names", "addon.compatibility"}
 
 IDENTIFIERS = (
     *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),
-    *("VIEW3D_MT_", "VIEW3D_PT_", "IMAGE_MT_", "IMAGE_PT_", "MESH_UL_"),
+    *("VIEW3D_MT_", "VIEW3D_PT_", "IMAGE_MT_", "IMAGE_PT_", "MESH_UL_", "UV_UL_"),
 )
 
 
@@ -160,11 +161,16 @@ def test_identifiers_of_the_add_on_stand_in_names_only():
                 assert not node.value.startswith(IDENTIFIERS), (path, node.value)
 
 
+def assigns_shader(node):
+    """Return whether this is a program for graphics cards, which nobody reads on the screen."""
+    return isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in {"_VERTEX", "_FRAGMENT"}
+
+
 def sentences(path):
     """Return the texts of several words in a file, apart from docstrings, types and what is printed for developers."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     nodes = list(ast.walk(tree))
-    silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr) or assigns_shader(node)}
     found = [node for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
     words = [node.value.strip() for node in found if id(node) not in silent]
     return [text for text in words if " " in text and " | " not in text]

@@ -61,17 +61,17 @@ def test_mean_does_not_overflow(area):
 
 def test_information():
     one = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select")
-    assert one == "Unwrapped 1 island: mean QC 1.0100, maximum QC 1.5000, 0 flipped faces, 0.26 s"
+    assert one == "Unwrapped 1 island: angle distortion 1.010 average, 1.50 worst; no flipped faces; 0.26 s"
     two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0, "Select")
-    assert two == "Unwrapped 2 islands: mean QC 1.0000, maximum QC 1.23e+04, 0 flipped faces, 12.00 s"
+    assert two == "Unwrapped 2 islands: angle distortion 1.000 average, 1.23e+04 worst; no flipped faces; 12.00 s"
 
 
 @pytest.mark.parametrize(
     ("flipped", "overlapping", "said"),
     [
-        (1, 0, ", 1 flipped face (see Select), "),
-        (0, 12, ", 0 flipped faces, 12 overlapping faces (see Select), "),
-        (3, 1, ", 3 flipped faces, 1 overlapping face (see Select), "),
+        (1, 0, "; 1 flipped face (see Select); "),
+        (0, 12, "; 12 overlapping faces (see Select); "),
+        (3, 1, "; 3 flipped faces, 1 overlapping face (see Select); "),
     ],
 )
 def test_information_tells_where_to_see_defects(flipped, overlapping, said):
@@ -99,11 +99,11 @@ def test_unfolding_tells_what_it_cost():
         chart.message = "what the module says"
     result = summary(unfolded, replaced, without_map, solved())
     assert texts.unfolded(result) == (
-        "Fold-free: 6 flipped triangles unfolded, 2 islands replaced by an embedding, relaxed without folding it; "
-        "mean QC of these islands 1.1000 before, 1.3125 after"
+        "No Flip: 6 flipped triangles unfolded, 2 islands needed the slower fallback map; "
+        "their angle distortion 1.10 before, 1.31 after"
     )
     assert texts.repairs(result) == ""
-    assert texts.unfolded(summary(without_map)).endswith("relaxed without folding it")
+    assert texts.unfolded(summary(without_map)).endswith("needed the slower fallback map")
     assert texts.unfolded(summary(solved())) == ""
 
 
@@ -187,9 +187,9 @@ def test_preview_of_cuts():
 def test_expected_gain():
     nan = float("nan")
     gain = texts.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271), 2.0)
-    assert gain == "99 % of the surface within 2 times the median scale, mean QC 1.0271 (now 0 %)"
+    assert gain == "99 % of the surface within 2 times the median scale, angle distortion 1.027 (now 0 %)"
     gain = texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0), 1.25)
-    assert gain == "100 % of the surface within 1.25 times the median scale, mean QC 1.0000 (now 50 %, QC 1.5000)"
+    assert gain == "100 % of the surface within 1.25 times the median scale, angle distortion 1.000 (now 50 %, 1.50)"
 
 
 def test_extenders_without_a_strength_are_named():

@@ -126,7 +126,7 @@ def _addon(name):
 
 def _unwrap(rng, edited):
     properties = {
-        "method": str(rng.choice(["SPECTRAL", "SPECTRAL", "SPECTRAL", "LSCM", "FIEDLER", "AREA"])),
+        "method": str(rng.choice(["SPECTRAL", "SPECTRAL", "SPECTRAL", "LSCM"])),
         "weights": str(rng.choice(["UNIFORM", "INVERSE_AREA"])),
         "boundary": str(rng.choice(["LENGTH", "VERTEX"])),
         "placement": str(rng.choice(["PACK", "PACK", "KEEP"])),

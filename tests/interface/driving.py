@@ -53,7 +53,7 @@ UV_SELECTION_ON_MESH = hasattr(bmesh.types.BMLoop, "uv_select_vert")
 # In the list of placements.
 PACK_TO_KEEP = 47
 # Rows of Adjust Last Operation, counted from 0 at the bottom.
-ROWS = {"margin": 0, "margin_method": 1, "turn_to_pack": 2, "placement": 3}
+ROWS = {"margin": 1, "margin_method": 2, "turn_to_pack": 3, "placement": 4}
 
 
 def window():

@@ -14,16 +14,17 @@ COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = drive.LAYOUT.sidebar_tab
 if drive.LAYOUT.is_wide:
-    SUGGEST_SEAMS = (134, 73)
-    ADD, ADD_TO_ACTIVE = (144, 163), (134, 184)
-    ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (144, 320), (75, 345), (193, 345), (144, 371)
+    SUGGEST_SEAMS = (134, 46)
+    ADD, ADD_TO_ACTIVE = (144, 304), (134, 325)
+    ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (144, 461), (75, 486), (193, 486), (144, 512)
     ICON, NAME, STRENGTH, USE = 38, 73, 184, 231
 else:
-    SUGGEST_SEAMS = (103, 80)
-    ADD, ADD_TO_ACTIVE = (112, 162), (103, 183)
-    ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 317), (58, 339), (147, 339), (103, 363)
+    SUGGEST_SEAMS = (103, 46)
+    ADD, ADD_TO_ACTIVE = (112, 303), (103, 324)
+    ADJUST, SELECT, REMOVE, REMOVE_BROKEN = (103, 458), (58, 480), (147, 480), (103, 504)
     ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
-FIRST_ROW, NEXT_ROW = 215, 21
+FIRST_ROW, NEXT_ROW = 356, 21
+SHOW_MAP = (36, 244)
 
 
 def open_grid():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fold-Free check box, and what single precision cannot hold."""
+"""The No Flip check box, and what single precision cannot hold."""
 
 import re
 
@@ -55,9 +55,9 @@ def test_no_face_is_flipped_in_the_uv_map_and_the_cost_is_told(reports):
         assert bpy.ops.uv.spectral_unwrap(fold_free=True) == {"FINISHED"}
         assert signed_areas(made).min() > 0
         texts = [text for _, text in reports()]
-        (told,) = [text for text in texts if text.startswith("Fold-free: ")]
-        assert re.search(r"mean QC of these islands \S+ before, \S+ after$", told)
-        assert any(", 0 flipped faces" in text for text in texts)
+        (told,) = [text for text in texts if text.startswith("No Flip: ")]
+        assert re.search(r"their angle distortion \S+ before, \S+ after$", told)
+        assert any("; no flipped faces" in text for text in texts)
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects.remove(made)
 
@@ -70,7 +70,7 @@ def test_a_clean_map_is_the_same_with_and_without(reports):
     reports()
     bpy.ops.uv.spectral_unwrap(fold_free=True)
     np.testing.assert_array_equal(scenes.read_uv(grid), plain)
-    assert not any("Fold-free" in text for _, text in reports())
+    assert not any("No Flip" in text for _, text in reports())
 
 
 def test_faces_below_single_precision_are_told(reports):

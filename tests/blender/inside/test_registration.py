@@ -13,7 +13,7 @@ import pytest
 from tests.blender.inside import scenes
 
 ADDON = "spectral_unwrap"
-MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select")
+MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select", "VIEW3D_MT_edit_mesh_select_by_trait")
 
 
 def _entries():
@@ -33,7 +33,7 @@ def test_operator_properties_are_described_as_blender_does():
     assert set(properties) == {
         *("method", "weights", "boundary", "fill_holes", "use_subsurf_data", "soft_pins", "soft_pin_strength"),
         *("correct_aspect", "placement", "margin_method", "margin", "hole_rigidity", "area_blend", "stretch"),
-        *("fold_free", "polish", "automatic_holes", "turn_to_pack"),
+        *("fold_free", "polish", "automatic_holes", "turn_to_pack", "show_advanced"),
     }
     described = [
         *properties.values(),
@@ -103,13 +103,17 @@ def test_menus_and_operator_come_and_go_with_the_add_on():
 
 
 def test_panels_and_extenders_come_and_go_with_the_add_on():
-    panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in ("unwrap", "extenders")]
+    parts = ("seams", "unwrap", "settings", "advanced", "result", "map_overlay", "extenders")
+    panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in parts]
     for _ in range(2):
         assert all(hasattr(bpy.types, panel) for panel in panels)
         assert hasattr(bpy.types.Mesh, "spectral_extenders")
         addon_utils.disable(ADDON)
         assert not any(hasattr(bpy.types, panel) for panel in panels)
-        assert not any(name.startswith("spectral") for name in bpy.types.Mesh.bl_rna.properties.keys())  # noqa: SIM118
+        for owner in (bpy.types.Mesh, bpy.types.Scene, bpy.types.WindowManager):
+            assert not any(name.startswith("spectral") for name in owner.bl_rna.properties.keys())  # noqa: SIM118
+        for kind in ("UV_UL_spectral_islands", "UV_OT_spectral_select_distorted", "SpectralMapOverlay"):
+            assert not hasattr(bpy.types, kind)
         for event in ("depsgraph_update_post", "undo_post", "redo_post", "load_pre", "load_post"):
             assert not any(f.__module__.startswith(ADDON) for f in getattr(bpy.app.handlers, event)), event
         addon_utils.enable(ADDON)

@@ -436,7 +436,7 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     np.testing.assert_array_equal(scenes.read_uv(head), uv)
     total = preview.choice.count
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
-    assert "of the surface within 2 times the median scale, mean QC 1.0" in preview.status[-1]
+    assert "of the surface within 2 times the median scale, angle distortion 1.0" in preview.status[-1]
 
 
 @pytest.mark.parametrize(

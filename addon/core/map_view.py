@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the UV map of a mesh looks like, in numbers and as arrays to draw."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from . import native, texts
+
+# Percentiles of the surface between which an automatic range lies; the rest is seldom of interest, and large.
+_PERCENTILES = (2.0, 98.0)
+# An automatic range is no narrower: differences below are not seen in a texture.
+_LEAST_QC = 0.2
+_LEAST_LOG2_SCALE = 0.25
+# What stands for an infinite or missing value in what is drawn.
+_LARGE = 1e30
+
+
+@dataclass(frozen=True)
+class MapArrays:
+    """A mesh and its UV map as Blender stores them; V vertices, F faces, C corners.
+
+    Attributes:
+        positions: (V, 3) float32 in object space.
+        face_offsets: (F + 1,) int32.
+        corner_vertices: (C,) int32.
+        uv: (C, 2) float32.
+        visible_faces: (F,) bool.
+        uv_faces: (F,) bool, the faces whose UVs the UV editor shows.
+    """
+
+    positions: np.ndarray
+    face_offsets: np.ndarray
+    corner_vertices: np.ndarray
+    uv: np.ndarray
+    visible_faces: np.ndarray
+    uv_faces: np.ndarray
+
+    def mesh(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return positions, face offsets and corner vertices as `spectral_conformal` takes them."""
+        return self.positions.astype(np.float64), self.face_offsets, self.corner_vertices
+
+    def equals(self, other: MapArrays) -> bool:
+        """Return whether everything is the same; NaN equals NaN."""
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(np.array_equal(mine, yours, equal_nan=mine.dtype.kind == "f") for mine, yours in pairs)
+
+
+@dataclass(frozen=True)
+class IslandNumbers:
+    """Numbers of some islands of a map together.
+
+    Attributes:
+        faces: number of visible faces.
+        mean_qc: quasi-conformal distortion averaged over the surface; NaN without surface.
+        max_qc: the largest of a face.
+        log2_scale_deviation: standard deviation over the surface of the binary logarithm of the scale.
+        log2_scale: its median over the surface.
+        flipped: number of faces.
+        overlapping: number of faces.
+    """
+
+    faces: int
+    mean_qc: float
+    max_qc: float
+    log2_scale_deviation: float
+    log2_scale: float
+    flipped: int
+    overlapping: int
+
+
+class MapView:
+    """What is known of the UV map of one mesh; everything is computed when it is first asked for.
+
+    Raises NativeModuleError where `spectral_conformal` cannot be imported, whatever is asked.
+    """
+
+    def __init__(self, arrays: MapArrays) -> None:
+        """Take the arrays as they are."""
+        self.arrays = arrays
+
+    @functools.cached_property
+    def _distortion(self) -> object:
+        arrays = self.arrays
+        return native.spectral_conformal().face_distortion(
+            *arrays.mesh(), arrays.uv.astype(np.float64), selected_faces=arrays.visible_faces
+        )
+
+    @property
+    def qc(self) -> np.ndarray:
+        """Quasi-conformal distortion of every face, (F,) float64, as `spectral_conformal.face_distortion` has it."""
+        return self._distortion.qc
+
+    @property
+    def log2_scale(self) -> np.ndarray:
+        """Binary logarithm of the linear scale of every face, (F,) float64, UVs over object space."""
+        return self._distortion.log2_scale
+
+    @property
+    def area(self) -> np.ndarray:
+        """Area of every face in object space, (F,) float64; 0 where it is not visible or cannot be measured."""
+        return self._distortion.area
+
+    @functools.cached_property
+    def _triangles(self) -> tuple[np.ndarray, np.ndarray]:
+        arrays = self.arrays
+        return native.spectral_conformal().face_triangles(*arrays.mesh(), selected_faces=arrays.visible_faces)
+
+    @functools.cached_property
+    def _defects(self) -> object:
+        arrays = self.arrays
+        finite = np.isfinite(arrays.uv).all(axis=1)
+        faces = arrays.visible_faces.copy()
+        if not finite.all():
+            faces[np.repeat(np.arange(len(faces)), np.diff(arrays.face_offsets))[~finite]] = False
+        return native.spectral_conformal().map_defects(
+            arrays.face_offsets,
+            arrays.corner_vertices,
+            np.where(finite[:, None], arrays.uv, 0.0),
+            selected_faces=faces,
+        )
+
+    @property
+    def flipped(self) -> np.ndarray:
+        """Which faces lie the wrong way round in their island, (F,) bool."""
+        return self._defects.flipped
+
+    @property
+    def overlapping(self) -> np.ndarray:
+        """Which faces cover others of their island, (F,) bool."""
+        return self._defects.overlapping
+
+    @property
+    def island_of_face(self) -> np.ndarray:
+        """Which island every face belongs to, (F,) int32, -1 for none."""
+        return self._defects.island_of_face
+
+    @functools.cached_property
+    def median_log2_scale(self) -> float:
+        """`log2_scale` in the middle of the surface; 0 where nothing is mapped."""
+        return weighted_percentiles(self.log2_scale, self.area, (50.0,))[0] if self._is_measured.any() else 0.0
+
+    @property
+    def _is_measured(self) -> np.ndarray:
+        return (self.area > 0.0) & np.isfinite(self.log2_scale)
+
+    def values(self, kind: str, density: float = 1.0) -> np.ndarray:
+        """Return what is shown of every face, (F,) float64.
+
+        Args:
+            kind: one of `texts.LOOK_ANGLE` (quasi-conformal distortion), `LOOK_SIZE` (binary logarithm of the scale
+                over its median), `LOOK_DENSITY` (pixels per unit of length), `LOOK_DEFECTS` (1 flipped, 0.5
+                overlapping, 0 neither) and `LOOK_CHECKER`, which shows none.
+            density: root of the number of pixels that a UV tile has.
+        """
+        if kind == texts.LOOK_ANGLE:
+            return self.qc
+        if kind == texts.LOOK_SIZE:
+            return self.log2_scale - self.median_log2_scale
+        if kind == texts.LOOK_DENSITY:
+            return density * np.exp2(self.log2_scale)
+        if kind == texts.LOOK_DEFECTS:
+            return np.where(self.flipped, 1.0, np.where(self.overlapping, 0.5, 0.0))
+        return np.zeros(len(self.arrays.visible_faces))
+
+    def vertex_buffers(self, kind: str, density: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return positions (3 T, 3), UVs (3 T, 2) and values (3 T,) of the corners of triangles to draw, float32."""
+        corners, face = self._triangles
+        corners = corners.ravel()
+        with np.errstate(over="ignore"):
+            values = np.nan_to_num(self.values(kind, density), nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
+        # Taking rows is three times as fast as indexing them.
+        return (
+            self.arrays.positions.take(self.arrays.corner_vertices.take(corners), axis=0),
+            self.arrays.uv.take(corners, axis=0),
+            values.astype(np.float32).take(face).repeat(3),
+        )
+
+    def is_in_uv_editor(self) -> np.ndarray:
+        """Return which of the triangles the UV editor shows, (T,) bool."""
+        return self.arrays.uv_faces[self._triangles[1]]
+
+    def numbers(self, islands: Sequence[int] | None = None) -> IslandNumbers:
+        """Return the numbers of some islands, of all visible faces when left out."""
+        chosen = self.arrays.visible_faces if islands is None else np.isin(self.island_of_face, islands)
+        counted = chosen & self._is_measured
+        weights, scale = self.area[counted], self.log2_scale[counted]
+        if not counted.any():
+            nan = float("nan")
+            means = (nan, nan, nan, nan)
+        else:
+            mean_scale = float(np.average(scale, weights=weights))
+            means = (
+                float(np.average(self.qc[counted], weights=weights)),
+                float(self.qc[counted].max()),
+                float(np.sqrt(np.average((scale - mean_scale) ** 2, weights=weights))),
+                float(weighted_percentiles(scale, weights, (50.0,))[0]),
+            )
+        return IslandNumbers(
+            int(chosen.sum()), *means, int(self.flipped[chosen].sum()), int(self.overlapping[chosen].sum())
+        )
+
+
+def weighted_percentiles(values: np.ndarray, weights: np.ndarray, percentiles: Sequence[float]) -> list[float]:
+    """Return the values below which the given percentages of the weights lie; those that are not finite do not count.
+
+    At least one finite value must have a weight.
+    """
+    counted = (weights > 0.0) & np.isfinite(values)
+    order = np.argsort(values[counted])
+    sums = np.cumsum(weights[counted][order])
+    places = np.searchsorted(sums, np.asarray(percentiles) / 100.0 * sums[-1])
+    return values[counted][order][np.minimum(places, len(order) - 1)].tolist()
+
+
+def automatic_range(views: Sequence[MapView], kind: str, density: float = 1.0) -> tuple[float, float]:
+    """Return the values to show as the two ends of the colours: what most of the surface of all meshes has.
+
+    Sizes are centred at the median, angles begin at 1; either range has a least width, so that a good map looks good.
+    """
+    if kind in (texts.LOOK_DEFECTS, texts.LOOK_CHECKER):
+        return 0.0, 1.0
+    values = np.concatenate([view.values(kind, density) for view in views])
+    weights = np.concatenate([view.area for view in views])
+    if not ((weights > 0.0) & np.isfinite(values)).any():
+        return (1.0, 1.0 + _LEAST_QC) if kind == texts.LOOK_ANGLE else (-1.0, 1.0)
+    low, high = weighted_percentiles(values, weights, _PERCENTILES)
+    if kind == texts.LOOK_ANGLE:
+        return 1.0, max(high, 1.0 + _LEAST_QC)
+    if kind == texts.LOOK_SIZE:
+        size = max(-low, high, _LEAST_LOG2_SCALE)
+        return -size, size
+    middle, factor = (low * high) ** 0.5, 2.0**_LEAST_LOG2_SCALE
+    return min(low, middle / factor), max(high, middle * factor)
+
+
+def worst(views: Sequence[MapView], measure: str, percent: float, whole_islands: bool) -> list[np.ndarray]:
+    """Return the faces of each map, (F,) bool, that are the worst part of the surface of all.
+
+    Args:
+        views: at least one.
+        measure: `texts.LOOK_ANGLE` or `texts.LOOK_SIZE`.
+        percent: of the surface, 0 to 100; at least one face or island is chosen.
+        whole_islands: choose islands by their averages.
+    """
+    if measure == texts.LOOK_SIZE:
+        scales, areas = (np.concatenate([getattr(v, name) for v in views]) for name in ("log2_scale", "area"))
+        is_measured = (areas > 0.0) & np.isfinite(scales)
+        median = weighted_percentiles(scales, areas, (50.0,))[0] if is_measured.any() else 0.0
+        badness = [np.abs(view.log2_scale - median) for view in views]
+    else:
+        badness = [view.qc for view in views]
+    if whole_islands:
+        badness = [_island_means(view, values) for view, values in zip(views, badness)]
+    counts = np.cumsum([len(values) for values in badness])[:-1]
+    values, areas = np.concatenate(badness), np.concatenate([view.area for view in views])
+    values = np.nan_to_num(values, nan=_LARGE, posinf=_LARGE)
+    chosen = np.zeros(len(values), dtype=bool)
+    if areas.any():
+        order = np.argsort(-values, kind="stable")
+        order = order[areas[order] > 0.0]
+        before = np.cumsum(areas[order]) - areas[order]
+        last = order[np.flatnonzero(before < percent / 100.0 * areas.sum())[-1]]
+        # With it all that are as bad: of an island every face, of a symmetric mesh both sides.
+        chosen = (areas > 0.0) & (values >= values[last])
+    return np.split(chosen, counts)
+
+
+def _island_means(view: MapView, values: np.ndarray) -> np.ndarray:
+    """Return the mean of the `values` (F,) over the surface of the island of every face."""
+    island = view.island_of_face
+    counted = (island >= 0) & (view.area > 0.0)
+    n = int(island.max(initial=-1)) + 1
+    area = np.bincount(island[counted], view.area[counted], n)
+    total = np.bincount(island[counted], (view.area * np.nan_to_num(values, nan=_LARGE, posinf=_LARGE))[counted], n)
+    means = np.zeros(len(values))
+    means[counted] = (total / np.maximum(area, np.finfo(float).tiny))[island[counted]]
+    return means

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Triangles coloured by a value per face, or by a checker in the UV map, for the 3D viewport and the UV editor."""
+
+import functools
+from dataclasses import dataclass
+
+import gpu
+import numpy as np
+
+Color = tuple[float, float, float]
+
+# Every driver has 128 bytes for constants, of which Blender takes some. So the last components of the colours are other
+# numbers: the value at the lower end, the inverse of the range, and the squares of the checker, 0 for values.
+_CONSTANTS = (
+    ("MAT4", "ModelViewProjectionMatrix"),
+    ("VEC4", "low"),
+    ("VEC4", "middle"),
+    ("VEC4", "high"),
+    ("FLOAT", "opacity"),
+)
+_VERTEX = """
+void main()
+{
+  map_place = uv;
+  face_value = value;
+  gl_Position = ModelViewProjectionMatrix * vec4(PLACE, 1.0);
+}
+"""
+_FRAGMENT = """
+vec3 linear(vec3 color)
+{
+  return mix(color / 12.92, pow((color + 0.055) / 1.055, vec3(2.4)), step(0.04045, color));
+}
+
+void main()
+{
+  vec3 color;
+  if (high.w > 0.0) {
+    vec2 square = floor(map_place * high.w);
+    color = mod(square.x + square.y, 2.0) < 0.5 ? low.xyz : high.xyz;
+  }
+  else {
+    float place = clamp((face_value - low.w) * middle.w, 0.0, 1.0);
+    color = place < 0.5 ? mix(low.xyz, middle.xyz, 2.0 * place) : mix(middle.xyz, high.xyz, 2.0 * place - 1.0);
+  }
+  fragment_color = vec4(CONVERT(color), opacity);
+}
+"""
+_FORMATS = (("position", 3), ("uv", 2), ("value", 1))
+
+
+@dataclass(frozen=True)
+class Colors:
+    """The colours of the lower end, the middle and the upper end of the values, and their common opacity, 0 to 1."""
+
+    low: Color
+    middle: Color
+    high: Color
+    opacity: float = 1.0
+
+
+@functools.cache
+def shader(is_flat: bool, is_displayed: bool = True) -> gpu.types.GPUShader:
+    """Return the shader that places the triangles by their positions, or with `is_flat` by their UVs.
+
+    Blender's editors take linear colours. Not `is_displayed`, they are written as they are, for a framebuffer of one's
+    own.
+    """
+    info = gpu.types.GPUShaderCreateInfo()
+    for kind, name in _CONSTANTS:
+        info.push_constant(kind, name)
+    for index, (name, size) in enumerate(_FORMATS):
+        info.vertex_in(index, "FLOAT" if size == 1 else f"VEC{size}", name)
+    passed = gpu.types.GPUStageInterfaceInfo("spectral_map_overlay")
+    passed.smooth("VEC2", "map_place")
+    passed.flat("FLOAT", "face_value")
+    info.vertex_out(passed)
+    info.fragment_out(0, "VEC4", "fragment_color")
+    info.vertex_source(_VERTEX.replace("PLACE", "vec3(uv,0.0)" if is_flat else "position"))
+    info.fragment_source(_FRAGMENT.replace("CONVERT", "linear" if is_displayed else ""))
+    return gpu.shader.create_from_info(info)
+
+
+def batch(positions: np.ndarray, uv: np.ndarray, values: np.ndarray) -> gpu.types.GPUBatch:
+    """Return triangles to draw: positions (3 T, 3), UVs (3 T, 2) and values (3 T,) of their corners, float32."""
+    vertex_format = gpu.types.GPUVertFormat()
+    for name, size in _FORMATS:
+        vertex_format.attr_add(id=name, comp_type="F32", len=size, fetch_mode="FLOAT")
+    buffer = gpu.types.GPUVertBuf(vertex_format, len(values))
+    for (name, size), array in zip(_FORMATS, (positions, uv, values)):
+        buffer.attr_fill(name, np.ascontiguousarray(array, dtype=np.float32).reshape(-1, size))
+    return gpu.types.GPUBatch(type="TRIS", buf=buffer)
+
+
+def draw(
+    triangles: gpu.types.GPUBatch,
+    bound: gpu.types.GPUShader,
+    colors: Colors,
+    low: float,
+    high: float,
+    checks: float = 0.0,
+) -> None:
+    """Draw the triangles with the current matrices, their values between `low` and `high`, or as a checker."""
+    bound.bind()
+    matrix = gpu.matrix.get_projection_matrix() @ gpu.matrix.get_model_view_matrix()
+    bound.uniform_float("ModelViewProjectionMatrix", matrix)
+    bound.uniform_float("low", (*colors.low, low))
+    bound.uniform_float("middle", (*colors.middle, 1.0 / max(high - low, 1e-12)))
+    bound.uniform_float("high", (*colors.high, checks))
+    bound.uniform_float("opacity", colors.opacity)
+    triangles.draw(bound)

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawing over the faces of a mesh without sinking into them."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import gpu
+from mathutils import Matrix
+
+# What lies on faces is drawn this fraction of the distance nearer than it is.
+_NEARER = 0.003
+
+
+@contextmanager
+def in_front_of_faces(view: bpy.types.RegionView3D, nearer: float = _NEARER) -> Iterator[None]:
+    """Within, what is drawn blends, hides nothing, and wins over faces that it lies on."""
+    if view.is_perspective:
+        shift = Matrix.Scale(1.0 - nearer, 4)
+        shift[3][3] = 1.0
+    else:
+        shift = Matrix.Translation((0.0, 0.0, nearer * view.view_distance))
+    writes_depth = gpu.state.depth_mask_get()
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_mask_set(False)
+    try:
+        with gpu.matrix.push_pop():
+            gpu.matrix.load_matrix(shift @ gpu.matrix.get_model_view_matrix())
+            yield
+    finally:
+        gpu.state.depth_test_set("NONE")
+        gpu.state.depth_mask_set(writes_depth)
+        gpu.state.blend_set("NONE")

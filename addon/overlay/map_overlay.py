@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colours faces by what the active UV map does to them, in the 3D viewport and in the UV editor.
+
+Shown are the meshes in edit mode, and in object mode those of the selected objects as their modifiers leave them. While
+the overlay is off nothing is read, computed or drawn. What is drawn follows every edit at once; the numbers that need
+the islands, which take longer, come when the mesh has been left alone for a moment.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+
+import bpy
+import gpu
+import numpy as np
+
+from .. import names
+from ..core import texts
+from ..core.errors import PrintOnce
+from ..core.map_view import IslandNumbers, MapArrays, MapView, automatic_range
+from ..edit_mesh import read_map
+from . import colored_triangles, legend
+from .colored_triangles import Colors
+from .in_front import in_front_of_faces
+
+# Nearer than this fraction of the distance nothing lies before the faces; edges and vertices are drawn nearer still.
+_NEARER = 0.0003
+# Seconds without an edit after which the islands are looked at.
+_QUIET_SECONDS = 0.3
+_NEEDS_ISLANDS = frozenset({texts.LOOK_DEFECTS})
+
+
+class _ShownMesh:
+    """What is known and drawn of the mesh of one object."""
+
+    def __init__(self) -> None:
+        self._view: MapView | None = None
+        self._is_stale = True
+        self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self.numbers: IslandNumbers | None = None
+        self.islands_known = False
+
+    def edited(self) -> None:
+        self._is_stale = True
+
+    def view(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
+        """Return what the object shows now; None without faces or a UV map."""
+        if self._is_stale:
+            self._is_stale = False
+            arrays = read_map.read_map(context, shown)
+            if self._differs(arrays):
+                self._view = None if arrays is None else MapView(arrays)
+                self._batches.clear()
+                self._in_editor.clear()
+                self.numbers, self.islands_known = None, False
+        return self._view
+
+    def _differs(self, arrays: MapArrays | None) -> bool:
+        if arrays is None or self._view is None:
+            return arrays is not None or self._view is not None
+        return not self._view.arrays.equals(arrays)
+
+    def batch(self, kind: str, density: float, in_editor: bool) -> gpu.types.GPUBatch | None:
+        """Return the triangles to draw for the view that was asked for last; None for none."""
+        known, key = (self._in_editor if in_editor else self._batches), (kind, density)
+        if key not in known:
+            known.clear()
+            buffers = self._view.vertex_buffers(kind, density)
+            if in_editor:
+                chosen = np.repeat(self._view.is_in_uv_editor(), 3)
+                if not chosen.all():
+                    buffers = tuple(buffer[chosen] for buffer in buffers)
+            known[key] = colored_triangles.batch(*buffers) if len(buffers[0]) else None
+        return known[key]
+
+
+_shown: dict[str, _ShownMesh] = {}
+# The automatic range, kept while the mesh is edited: colours that change all the time tell nothing.
+_range: dict[tuple, tuple[float, float]] = {}
+_handles: list[tuple[type, object]] = []
+_print_once = PrintOnce(lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
+_edited_at = 0.0
+
+
+def settings(context: bpy.types.Context) -> bpy.types.PropertyGroup:
+    """Return the properties of the overlay."""
+    return getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
+
+
+def is_on(context: bpy.types.Context) -> bool:
+    """Return whether the overlay is shown."""
+    return settings(context).show
+
+
+def toggled() -> None:
+    """Take up drawing, or end it and forget everything."""
+    context = bpy.context
+    if is_on(context):
+        _add_handlers()
+    else:
+        _remove_handlers()
+    redraw(context)
+
+
+def edited() -> None:
+    """Look at the shown meshes again when they are drawn next."""
+    global _edited_at  # noqa: PLW0603 - the overlay is one, like the list of its handlers
+    if not _handles:
+        return
+    _edited_at = time.monotonic()
+    for shown in _shown.values():
+        shown.edited()
+
+
+def on_update(depsgraph: bpy.types.Depsgraph) -> None:
+    """Look at the shown meshes again if Blender has updated a geometry."""
+    if _handles and any(update.is_updated_geometry for update in depsgraph.updates):
+        edited()
+
+
+def forget() -> None:
+    """Forget all meshes, as names mean others in another file."""
+    _shown.clear()
+    _range.clear()
+
+
+def redraw(context: bpy.types.Context) -> None:
+    """Draw all editors that show the overlay again."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
+                area.tag_redraw()
+
+
+def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Return the objects whose maps are shown, each mesh in edit mode once."""
+    if context.mode == "EDIT_MESH":
+        return list(context.objects_in_mode_unique_data)
+    return [each for each in context.selected_objects if each.type == "MESH"] if context.mode == "OBJECT" else []
+
+
+def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, _ShownMesh, MapView]]:
+    """Return the objects that have a map to show, with it."""
+    objects = shown_objects(context)
+    keys = [each.name_full for each in objects]
+    for gone in set(_shown).difference(keys):
+        del _shown[gone]
+    found = []
+    for key, each in zip(keys, objects):
+        shown = _shown.setdefault(key, _ShownMesh())
+        view = shown.view(context, each)
+        if view is not None:
+            found.append((each, shown, view))
+    return found
+
+
+def automatic(context: bpy.types.Context) -> tuple[float, float]:
+    """Return the range of the colours that follows the shown maps."""
+    found, chosen = views(context), settings(context)
+    key = (chosen.kind, chosen.image_size, *(each.name_full for each, *_ in found))
+    if found and key not in _range:
+        _range.clear()
+        _range[key] = automatic_range([view for *_, view in found], chosen.kind, chosen.image_size)
+    return _range[key] if found else (0.0, 1.0)
+
+
+def shown_range(context: bpy.types.Context) -> tuple[float, float]:
+    """Return the values at the two ends of the colours."""
+    chosen = settings(context)
+    if chosen.use_range and chosen.kind not in (texts.LOOK_DEFECTS, texts.LOOK_CHECKER):
+        return chosen.range_low, max(chosen.range_high, chosen.range_low + 1e-6)
+    return automatic(context)
+
+
+def colors(context: bpy.types.Context) -> Colors:
+    """Return the colours that the overlay has now."""
+    chosen = settings(context)
+    return legend.colors_of(chosen.kind, chosen.opacity)
+
+
+def _guarded(draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
+    """Return a function for Blender to call, which prints an error once instead of with every redraw."""
+
+    def guarded() -> None:
+        try:
+            draw(bpy.context)
+        except Exception as error:  # noqa: BLE001 - it would come again with every redraw
+            _print_once(error)
+
+    return guarded
+
+
+def _draw_in_viewport(context: bpy.types.Context) -> None:
+    space = context.space_data
+    if not space.overlay.show_overlays:
+        return
+    ready = list(_ready(context))
+    if not ready:
+        return
+    chosen, low_high = settings(context), shown_range(context)
+    is_through = space.shading.type == "WIREFRAME" or (space.shading.type == "SOLID" and space.shading.show_xray)
+    shader = colored_triangles.shader(is_flat=False)
+    with in_front_of_faces(context.region_data, _NEARER):
+        gpu.state.depth_test_set("NONE" if is_through else "LESS_EQUAL")
+        for each, shown, _view in ready:
+            triangles = shown.batch(chosen.kind, chosen.image_size, in_editor=False)
+            if triangles is None or not each.visible_in_viewport_get(space):
+                continue
+            with gpu.matrix.push_pop():
+                gpu.matrix.multiply_matrix(each.matrix_world)
+                colored_triangles.draw(triangles, shader, colors(context), *low_high, _checks(chosen))
+
+
+def _draw_in_uv_editor(context: bpy.types.Context) -> None:
+    space = context.space_data
+    if not (space.show_uvedit and space.overlay.show_overlays and context.mode == "EDIT_MESH"):
+        return
+    ready = list(_ready(context))
+    chosen, low_high = settings(context), shown_range(context)
+    gpu.state.blend_set("ALPHA")
+    try:
+        for _each, shown, _view in ready:
+            triangles = shown.batch(chosen.kind, chosen.image_size, in_editor=True)
+            if triangles is not None:
+                shader = colored_triangles.shader(is_flat=True)
+                colored_triangles.draw(triangles, shader, colors(context), *low_high, _checks(chosen))
+    finally:
+        gpu.state.blend_set("NONE")
+
+
+def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, _ShownMesh, MapView]]:
+    """Yield what can be drawn now: flipped and overlapping faces only once they are known."""
+    needs_islands = settings(context).kind in _NEEDS_ISLANDS
+    for found in views(context):
+        if needs_islands and not found[1].islands_known:
+            continue
+        yield found
+    _look_at_islands_later(context)
+
+
+def _checks(chosen: bpy.types.PropertyGroup) -> float:
+    return float(chosen.checks) if chosen.kind == texts.LOOK_CHECKER else 0.0
+
+
+def _draw_legend(context: bpy.types.Context) -> None:
+    space = context.space_data
+    if not (settings(context).legend and space.overlay.show_overlays):
+        return
+    if context.area.type == "IMAGE_EDITOR" and not (space.show_uvedit and context.mode == "EDIT_MESH"):
+        return
+    found = views(context)
+    if not found:
+        return
+    chosen = settings(context)
+    lines: list[str] = []
+    if len(found) == 1 and found[0][1].islands_known:
+        shown, view = found[0][1:]
+        lines.extend(texts.legend_numbers(texts.LEGEND_MESH, shown.numbers))
+        face = read_map.active_face(found[0][0])
+        if 0 <= face < len(view.island_of_face) and view.island_of_face[face] >= 0:
+            island = view.numbers([int(view.island_of_face[face])])
+            lines.extend(texts.legend_numbers(texts.LEGEND_ISLAND, island))
+    legend.draw(context, chosen.kind, colors(context), shown_range(context), lines)
+
+
+def _look_at_islands_later(context: bpy.types.Context) -> None:
+    waits = any(not shown.islands_known for _, shown, _ in views(context))
+    if waits and not bpy.app.timers.is_registered(_look_at_islands):
+        bpy.app.timers.register(_look_at_islands, first_interval=_QUIET_SECONDS)
+
+
+def _look_at_islands() -> float | None:
+    """Look at the islands of the shown meshes, unless an edit was just made; returns when to try again."""
+    if not _handles:
+        return None
+    left = _QUIET_SECONDS - (time.monotonic() - _edited_at)
+    if left > 0.0:
+        return left
+    try:
+        for _each, shown, view in views(bpy.context):
+            if not shown.islands_known:
+                shown.numbers, shown.islands_known = view.numbers(), True
+                _range.clear()
+                redraw(bpy.context)
+    except Exception as error:  # noqa: BLE001 - a timer that fails is lost without a word
+        _print_once(error)
+    return None
+
+
+def _add_handlers() -> None:
+    if _handles or bpy.app.background:
+        return
+    for space, draw, kind in (
+        (bpy.types.SpaceView3D, _draw_in_viewport, "POST_VIEW"),
+        (bpy.types.SpaceView3D, _draw_legend, "POST_PIXEL"),
+        (bpy.types.SpaceImageEditor, _draw_in_uv_editor, "POST_VIEW"),
+        (bpy.types.SpaceImageEditor, _draw_legend, "POST_PIXEL"),
+    ):
+        _handles.append((space, space.draw_handler_add(_guarded(draw), (), "WINDOW", kind)))
+
+
+def _remove_handlers() -> None:
+    for space, handle in _handles:
+        space.draw_handler_remove(handle, "WINDOW")
+    _handles.clear()
+    forget()
+
+
+def register() -> None:
+    """Nothing is drawn before the overlay is turned on."""
+
+
+def unregister() -> None:
+    """Draw nothing any more and forget everything."""
+    _remove_handlers()
+    if bpy.app.timers.is_registered(_look_at_islands):
+        bpy.app.timers.unregister(_look_at_islands)
+    colored_triangles.shader.cache_clear()
+    _print_once.forget()

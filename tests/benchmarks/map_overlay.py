@@ -1,0 +1,85 @@
+"""What the overlay of the UV map takes: the first draw, and the refill after an edit; 3.4.1 on a virtual screen.
+
+    build/venv/bin/python -m tests.benchmarks.map_overlay [faces ...]
+
+Milliseconds, the median of several edits that move one UV, on a wavy grid of triangles, by default 200,000. "Fill"
+is triangles, values and the graphics card's buffer, which Mesa's software renderer copies; "first" the whole first
+time. "Islands" follows when the mesh is left alone: flipped and overlapping faces and the legend's numbers.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from pathlib import Path
+
+ROUNDS = 9
+
+
+def inside(faces: int, result: Path) -> None:
+    """Run in Blender: time the parts of a refill."""
+    import addon_utils
+    import bmesh
+    import bpy
+    import numpy as np
+
+    addon_utils.enable("spectral_unwrap", default_set=True)
+
+    def run() -> None:
+        window = bpy.context.window_manager.windows[0]
+        area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+        region = next(region for region in area.regions if region.type == "WINDOW")
+        with bpy.context.temp_override(window=window, area=area, region=region):
+            bpy.data.objects.remove(bpy.data.objects["Cube"])
+            side = round((faces / 2) ** 0.5)
+            bpy.ops.mesh.primitive_grid_add(x_subdivisions=side, y_subdivisions=side)
+            mesh = bpy.context.object.data
+            position = np.empty(3 * len(mesh.vertices))
+            mesh.vertices.foreach_get("co", position)
+            position[2::3] = 0.1 * np.sin(7.0 * position[::3]) * np.cos(5.0 * position[1::3])
+            mesh.vertices.foreach_set("co", position)
+            bpy.ops.object.mode_set(mode="EDIT")
+            bpy.ops.mesh.select_all(action="SELECT")
+            bpy.ops.mesh.quads_convert_to_tris()
+            overlay = sys.modules["spectral_unwrap.overlay.map_overlay"]
+            bm = bmesh.from_edit_mesh(mesh)
+            layer = bm.loops.layers.uv.active
+            bm.faces.ensure_lookup_table()
+            parts = []
+            for index in range(ROUNDS + 1):
+                bm.faces[index].loops[0][layer].uv.x += 1e-3
+                for shown in overlay._shown.values():  # noqa: SLF001 - the parts are what is measured
+                    shown.edited()
+                start = time.perf_counter()
+                ((_, shown, view),) = overlay.views(bpy.context)
+                read = time.perf_counter()
+                view.qc  # noqa: B018 - computed when it is first asked for
+                measured = time.perf_counter()
+                shown.batch("ANGLE", 1024, in_editor=False)
+                filled = time.perf_counter()
+                view.numbers()
+                known = time.perf_counter()
+                parts.append((read - start, measured - read, filled - measured, filled - start, known - filled))
+            first = parts.pop(0)[3]
+            medians = [statistics.median(part) for part in zip(*parts)]
+            result.write_text(" ".join(f"{1000 * each:.1f}" for each in (*medians[:4], first, medians[4])))
+        bpy.ops.wm.quit_blender()
+
+    bpy.app.timers.register(run, first_interval=3.0)
+
+
+def main() -> None:
+    if "--inside" in sys.argv:
+        inside(int(sys.argv[-2]), Path(sys.argv[-1]))
+        return
+    from tests.benchmarks import on_screen
+
+    print("| faces | read, ms | measure, ms | fill, ms | refill, ms | first, ms | islands, ms |")
+    print("|---|---|---|---|---|---|---|", flush=True)
+    for faces in sys.argv[1:] or ["200000"]:
+        print(f"| {faces} | {' | '.join(on_screen.run(__file__, faces).split())} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Looking at a map: what the overlay shows, the list of islands, and selecting what is distorted."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+native = importlib.import_module("spectral_unwrap.core.native")
+texts = importlib.import_module("spectral_unwrap.core.texts")
+map_overlay = importlib.import_module("spectral_unwrap.overlay.map_overlay")
+read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
+map_view = importlib.import_module("spectral_unwrap.core.map_view")
+island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
+
+
+def stretched_grid(n=6):
+    """A grid whose map is stretched in its last column of faces, in edit mode."""
+    grid = scenes.grid(n, n)
+    scenes.edit(grid)
+    bm = scenes.edit_mesh(grid)
+    layer = bm.loops.layers.uv.active or bm.loops.layers.uv.new("UVMap")
+    right = max(vertex.co.x for vertex in bm.verts)
+    for face in bm.faces:
+        for loop in face.loops:
+            loop[layer].uv = loop.vert.co.xy
+            if abs(loop.vert.co.x - right) < 1e-6:
+                loop[layer].uv.x += 1.0
+    return grid
+
+
+def selected(edit_object):
+    return {face.index for face in scenes.edit_mesh(edit_object).faces if face.select}
+
+
+def of_module(edit_object):
+    """What the module says of the map as Blender stores it."""
+    arrays = read_map.read_map(bpy.context, edit_object)
+    return native.spectral_conformal().face_distortion(
+        arrays.positions, arrays.face_offsets, arrays.corner_vertices, arrays.uv.astype(float)
+    )
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
+def test_values_are_those_of_the_module(mode):
+    grid = stretched_grid()
+    if mode == "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    ((shown, _, view),) = map_overlay.views(bpy.context)
+    assert shown == grid
+    expected = of_module(grid)
+    np.testing.assert_allclose(view.values(texts.LOOK_ANGLE), expected.qc, atol=1e-6)
+    assert view.numbers().max_qc == pytest.approx(expected.qc.max())
+    assert view.vertex_buffers(texts.LOOK_ANGLE)[2].max() == pytest.approx(expected.qc.max(), rel=1e-6)
+    map_overlay.forget()
+
+
+def test_modifiers_count_in_object_mode():
+    grid = stretched_grid()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid.modifiers.new("Mirror", "MIRROR")
+    ((_, _, view),) = map_overlay.views(bpy.context)
+    assert len(view.qc) == 2 * len(grid.data.polygons)
+    map_overlay.forget()
+
+
+def test_hidden_faces_are_not_shown():
+    grid = stretched_grid()
+    scenes.edit_mesh(grid).faces[0].hide_set(True)
+    arrays = read_map.read_map(bpy.context, grid)
+    assert not arrays.visible_faces[0]
+    assert arrays.visible_faces[1:].all()
+
+
+def test_without_a_map_nothing_is_shown():
+    grid = scenes.grid(2, 2)
+    while grid.data.uv_layers:
+        grid.data.uv_layers.remove(grid.data.uv_layers[0])
+    scenes.edit(grid)
+    assert map_overlay.views(bpy.context) == []
+
+
+def test_nothing_is_read_while_it_is_off(monkeypatch):
+    def read(*_arguments):
+        raise AssertionError("read although nothing is shown")
+
+    monkeypatch.setattr(map_overlay.read_map, "read_map", read)
+    grid = stretched_grid()
+    assert not bpy.context.window_manager.spectral_map_overlay.show
+    grid.data.update()
+    bpy.context.view_layer.update()
+    bpy.ops.uv.spectral_unwrap()
+
+
+def test_list_of_islands_selects_their_faces():
+    cube = scenes.cube()
+    scenes.edit(cube)
+    for edge in scenes.edit_mesh(cube).edges:
+        edge.seam = True
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    window_manager = bpy.context.window_manager
+    assert len(window_manager.spectral_islands) == 6
+    assert window_manager.spectral_islands_active == -1
+    assert island_list.lines()[-1][1].startswith("Unwrapped 6 islands: ")
+    chosen = set()
+    for index in range(6):
+        window_manager.spectral_islands_active = index
+        assert len(selected(cube)) == 1
+        chosen |= selected(cube)
+    assert chosen == set(range(6))
+
+
+def test_list_of_islands_says_when_the_mesh_is_another():
+    cube = scenes.cube()
+    scenes.edit(cube)
+    for edge in scenes.edit_mesh(cube).edges:
+        edge.seam = True
+    bpy.ops.uv.spectral_unwrap()
+    bpy.ops.mesh.subdivide()
+    before = selected(cube)
+    bpy.context.window_manager.spectral_islands_active = 2
+    assert selected(cube) == before
+    assert island_list.lines()[-1] == ("WARNING", texts.ISLAND_GONE)
+
+
+def test_failed_islands_come_first():
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    scenes.edit(cube)
+    assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
+    (row,) = bpy.context.window_manager.spectral_islands
+    assert row.is_bad
+    assert row.name == "Not unwrapped   6 f."
+
+
+@pytest.mark.parametrize("measure", ["ANGLE", "SIZE"])
+def test_the_most_distorted_faces_are_selected(measure):
+    grid = stretched_grid()
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    assert bpy.ops.uv.spectral_select_distorted(measure=measure, amount=5.0) == {"FINISHED"}
+    faces = scenes.edit_mesh(grid).faces
+    right = max(face.calc_center_median().x for face in faces)
+    assert selected(grid) == {face.index for face in faces if abs(face.calc_center_median().x - right) < 1e-6}
+
+
+def test_whole_islands_are_selected_by_their_average():
+    grid = stretched_grid()
+    bm = scenes.edit_mesh(grid)
+    layer = bm.loops.layers.uv.active
+    apart = {face.index for face in bm.faces if face.calc_center_median().x < 3.0}
+    for face in bm.faces:
+        if face.index in apart:
+            for loop in face.loops:
+                loop[layer].uv.x -= 50.0
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    assert bpy.ops.uv.spectral_select_distorted(amount=1.0, whole_islands=True) == {"FINISHED"}
+    assert selected(grid) == {face.index for face in scenes.edit_mesh(grid).faces} - apart

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The map of a polygon mesh, face by face, and the triangles to draw it by."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+
+def saddle(n=12):
+    vertices, quads = meshes.saddle_quads(n)
+    return vertices, *meshes.polygons(quads)
+
+
+def test_triangles_are_as_in_distortion():
+    vertices, triangles = meshes.random_disk(300)
+    uv = np.c_[vertices[:, 0] + 0.3 * vertices[:, 1] ** 2, 2.0 * vertices[:, 1]]
+    offsets, corners = meshes.polygons(triangles)
+    faces, whole = sc.face_distortion(vertices, offsets, corners, uv[corners]), sc.distortion(vertices, triangles, uv)
+    np.testing.assert_allclose(faces.qc, whole.qc, rtol=1e-12)
+    np.testing.assert_allclose(faces.log2_scale, whole.log2_scale, atol=1e-12)
+    assert np.average(faces.qc, weights=faces.area) == pytest.approx(whole.mean_qc)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_quads_have_the_mean_that_unwrap_reports(mirrored):
+    mesh = saddle()
+    result = sc.unwrap(*mesh)
+    uv = result.uv * [-1.0, 1.0] if mirrored else result.uv
+    faces = sc.face_distortion(*mesh, uv)
+    assert np.average(faces.qc, weights=faces.area) == pytest.approx(result.charts[0].mean_qc, rel=1e-9)
+    assert faces.area.sum() == pytest.approx(result.charts[0].area)
+    assert (np.sign(faces.image_area) == (-1.0 if mirrored else 1.0)).all()
+
+
+def test_faces_that_are_not_selected_or_not_finite():
+    vertices, offsets, corners = saddle()
+    uv = vertices[corners][:, :2].copy()
+    uv[4 * 7] = np.nan
+    selected = np.arange(len(offsets) - 1) < 100
+    faces = sc.face_distortion(vertices, offsets, corners, uv, selected_faces=selected)
+    assert np.isnan(faces.qc[7])
+    assert faces.area[7] == 0.0
+    assert (faces.area[100:] == 0.0).all()
+    assert (faces.qc[100:] == 1.0).all()
+    assert (np.delete(faces.area[:100], 7) > 0.0).all()
+
+
+def test_the_number_of_threads_does_not_matter():
+    mesh = saddle(150)  # more faces than a thread takes at once
+    uv = mesh[0][mesh[2]][:, :2] * [1.0, 2.0]
+    whole = sc.face_distortion(*mesh, uv)
+    half = np.arange(len(mesh[1]) - 1) % 2 == 0
+    assert np.array_equal(sc.face_distortion(*mesh, uv, selected_faces=half).qc[half], whole.qc[half])
+
+
+def test_triangles_cover_the_selected_faces_in_their_order():
+    vertices, offsets, corners = saddle()
+    selected = np.arange(len(offsets) - 1) % 3 > 0
+    triangles, face = sc.face_triangles(vertices, offsets, corners, selected_faces=selected)
+    assert triangles.shape == (2 * selected.sum(), 3)
+    assert np.array_equal(face, np.repeat(np.flatnonzero(selected), 2))
+    assert np.array_equal(triangles // 4, np.repeat(face, 3).reshape(-1, 3))
+
+
+def test_what_is_no_mesh_is_refused():
+    vertices, offsets, corners = saddle()
+    with pytest.raises(ValueError, match="corner_uv has 3 rows"):
+        sc.face_distortion(vertices, offsets, corners, np.zeros((3, 2)))
+    with pytest.raises(ValueError, match="corner_vertices"):
+        sc.face_triangles(vertices[:5], offsets, corners)
+    with pytest.raises(sc.InvalidMeshError, match="no faces"):
+        sc.face_triangles(vertices, [0], [])
