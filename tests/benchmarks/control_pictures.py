@@ -1,4 +1,4 @@
-"""Draw what hole rigidity and the blend from angles to areas do, for the README.
+"""Draw what hole rigidity and the blend from angles to areas do, for the documents.
 
     build/venv/bin/python -m tests.benchmarks.control_pictures [folder]
 

@@ -38,3 +38,32 @@ def test_the_scan_sees_paths_modules_and_headers():
     assert {"native/src/no.cpp", "tests/benchmarks/none.py", "tests/native/"} <= paths
     assert headers == {"gone.h"}
     assert not is_there("native/src/no.cpp")
+
+
+MESSAGES = re.findall(r'^\| "([^"]+)" \|', (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8"), re.M)
+
+
+def sentences():
+    """Return all sources that have messages, literals that the compiler joins joined."""
+    sources = [ROOT / "addon/core/texts.py", *(ROOT / "native").rglob("*.cpp"), *(ROOT / "native").rglob("*.py")]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in sources)
+    return re.sub(r'"\s*\n\s*f?"', "", text)
+
+
+@pytest.mark.parametrize("message", MESSAGES)
+def test_messages_of_troubleshooting_are_what_is_said(message):
+    assert message in sentences()
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_links_lead_somewhere(document):
+    text = document.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#\s]+)(?:#[\w-]+)?\)", text):
+        assert "://" not in target, "nothing can be fetched here to see whether it is there"
+        assert (document.parent / target).exists(), target
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_python_in_documents_compiles(document):
+    for code in re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL):
+        compile(code, document.name, "exec")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's script for background mode, run as it stands there."""
+"""The documents' script for background mode, run as it stands there."""
 
 import re
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 
 from tests.blender import blenders
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+SCRIPTING = Path(__file__).resolve().parents[2] / "docs" / "scripting.md"
 
 MAKE_SCENE = """
 import bpy
@@ -36,7 +36,7 @@ for mesh in bpy.data.meshes:
 
 
 def script():
-    (code,) = re.findall(r"unwrap_all\.py`:\n\n```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+    (code,) = re.findall(r"unwrap_all\.py`:\n\n```python\n(.*?)```", SCRIPTING.read_text(encoding="utf-8"), re.DOTALL)
     return code
 
 
