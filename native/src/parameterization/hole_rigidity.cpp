@@ -18,11 +18,12 @@ struct Quality {
   int flipped = 0;
   double mean_qc = 0;
   double max_qc = 0;
+  bool may_cover_itself = false;
 };
 
 Quality quality_of(const NormalizedPatch& patch, const ComplexVector& z) {
   const Distortion distortion = chart_distortion(patch, z);
-  return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc};
+  return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc, may_cover_itself(patch, z)};
 }
 
 std::vector<double> lowered_from(double rigidity) {
@@ -74,7 +75,8 @@ class Search {
       // finds.
       const bool is_better =
           found_ ? quality.flipped <= least_.flipped && quality.mean_qc < least_.mean_qc : quality.flipped == 0;
-      if (!is_better || quality.max_qc > worst) continue;
+      if (!is_better || quality.max_qc > worst || (found_ && quality.may_cover_itself && !least_.may_cover_itself))
+        continue;
       if (found_ && best_.rigidity == 0) best_.free = std::move(best_.map);
       take(std::move(map), rigidity, quality);
     }

@@ -24,7 +24,8 @@ struct RigidMap {
 /// every rigidity, 0 included, the map with the fewest is taken, of several that with the highest rigidity.
 ///
 /// Without one (SolveOptions::hole_rigidity), the map of rigidity 0, unless another has a lower mean QC, no more
-/// flipped triangles and not more than twice the worst QC. Where that of rigidity 0 has next to no distortion, no other
+/// flipped triangles, not more than twice the worst QC, and no border that crosses itself where that of rigidity 0 does
+/// not. Where that of rigidity 0 has next to no distortion, no other
 /// is tried.
 ///
 /// options: without extenders. Uses the factor of the solver. Throws what SpectralSolver::solve throws.

@@ -6,6 +6,7 @@
 #include "mesh/boundary_loops.h"
 #include "mesh/chart_checks.h"
 #include "mesh/hole_filling.h"
+#include "quality/map_degree.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -64,6 +65,12 @@ Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z
   const auto triangles = patch.triangles.begin();
   const auto weights = patch.triangle_weights.begin();
   return measure_distortion(patch.surface(), {triangles, triangles + n}, {weights, weights + n}, z);
+}
+
+bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z) {
+  std::vector<BoundaryLoop> loops = patch.inner;
+  loops.push_back(patch.outer);
+  return !has_degree_at_most_one(loops, z);
 }
 
 }  // namespace spectral_conformal

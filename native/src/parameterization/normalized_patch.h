@@ -34,4 +34,8 @@ ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexV
 /// Distortion of a map (chart vertices,) in 3D, without virtual triangles.
 Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z);
 
+/// Whether the border lets parts of a map (chart vertices,) without clockwise triangles lie on each other
+/// (map_degree.h).
+bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z);
+
 }  // namespace spectral_conformal

@@ -167,7 +167,8 @@ SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, cons
       const int steps = spectral.polish(*with_free_holes, progress, result.timings);
       const Distortion rigid = chart_distortion(patch, map.z);
       const Distortion free = chart_distortion(patch, with_free_holes->z);
-      if (free.mean_qc < rigid.mean_qc && free.n_flipped() <= rigid.n_flipped()) {
+      const bool covers_more = may_cover_itself(patch, with_free_holes->z) && !may_cover_itself(patch, map.z);
+      if (free.mean_qc < rigid.mean_qc && free.n_flipped() <= rigid.n_flipped() && !covers_more) {
         map = std::move(*with_free_holes);
         result.hole_rigidity = 0;
         result.polish_steps = steps;

@@ -11,7 +11,6 @@
 #include "conformal/placement.h"
 #include "conformal/start_vector.h"
 #include "injective/polish.h"
-#include "quality/map_degree.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
 
@@ -250,9 +249,7 @@ int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& 
   const int steps = spectral_conformal::polish(*energy_, *factor_.factorization, polished, {}, progress);
   watch.lap("polish");
   if (steps == 0 || !polished.allFinite()) return 0;
-  std::vector<BoundaryLoop> loops = patch_->inner;
-  loops.push_back(patch_->outer);
-  const bool covers_itself = !has_degree_at_most_one(loops, map.z);
+  const bool covers_itself = may_cover_itself(*patch_, map.z);
   const double mean_qc = chart_distortion(*patch_, map.z).mean_qc;
   bool is_sound = false;
   // The border of the polished map may cross itself where that of the map does not; then not the whole way.
@@ -264,8 +261,7 @@ int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& 
     is_sound =
         after.turning_number == map.turning_number &&
         place(moved.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale) &&
-        (covers_itself || has_degree_at_most_one(loops, moved.z)) &&
-        chart_distortion(*patch_, moved.z).mean_qc < mean_qc;
+        (covers_itself || !may_cover_itself(*patch_, moved.z)) && chart_distortion(*patch_, moved.z).mean_qc < mean_qc;
     if (!is_sound) continue;
     map.z = std::move(moved.z);
     map.whole = std::move(moved.whole);

@@ -55,6 +55,24 @@ TEST_CASE("added vertices of a map lie at the mean of their neighbours") {
   CHECK(std::abs(whole[12] - z.head(6).mean()) < 1e-15);
 }
 
+TEST_CASE("a border that goes over itself lets a map cover itself") {
+  // A strip of eleven squares, bent round by somewhat less, and by somewhat more, than a whole turn.
+  const Patch patch(bumpy_grid(12, 2));
+  const NormalizedPatch strip = normalized_patch(patch.chart, patch.positions, false);
+  const auto bent = [&](double turns) {
+    ComplexVector z(patch.positions.rows());
+    const double width = patch.positions.col(0).maxCoeff() - patch.positions.col(0).minCoeff();
+    for (Eigen::Index v = 0; v < z.size(); ++v) {
+      const double along = (patch.positions(v, 0) - patch.positions.col(0).minCoeff()) / width;
+      const double radius = patch.positions(v, 1) > patch.positions.col(1).mean() ? 1 : 2;
+      z[v] = std::polar(radius, 6.283185307179586 * turns * along);
+    }
+    return z;
+  };
+  CHECK_FALSE(may_cover_itself(strip, bent(0.9)));
+  CHECK(may_cover_itself(strip, bent(1.2)));
+}
+
 TEST_CASE("a chart that is no disk is refused") {
   Mesh mesh = bumpy_grid(3, 3);
   const Patch patch(mesh);
