@@ -9,6 +9,21 @@ SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
 
 SELECT_DISTORTED_OPERATOR = "uv.spectral_select_distorted"
 
+INSPECT_OPERATOR = "uv.spectral_inspect"
+
+COMPARE_OPERATOR = "uv.spectral_compare"
+
+STORE_OPERATOR = "mesh.spectral_store_distortion"
+
+# What is stored of a map, by the kind that the overlay shows; colours have a name of their own.
+ATTRIBUTES = {
+    "ANGLE": "spectral_angle_distortion",
+    "SIZE": "spectral_size",
+    "DENSITY": "spectral_texel_density",
+    "DEFECTS": "spectral_defects",
+}
+COLORS_SUFFIX = "_colors"
+
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 
 LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"
@@ -34,6 +49,7 @@ SELECT_EXTENDER_OPERATOR = "mesh.spectral_extender_select"
 
 EXTENDER_LIST = "MESH_UL_spectral_extenders"
 ISLAND_LIST = "UV_UL_spectral_islands"
+SUBMENU = "UV_MT_spectral"
 # The panels of the sidebar, in the order of work; each exists in the 3D viewport and in the UV editor.
 PANEL_PREFIXES = ("VIEW3D_PT_spectral_", "IMAGE_PT_spectral_")
 

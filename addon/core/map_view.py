@@ -31,6 +31,7 @@ class MapArrays:
         uv: (C, 2) float32.
         visible_faces: (F,) bool.
         uv_faces: (F,) bool, the faces whose UVs the UV editor shows.
+        aspect: width over height of the image that the map is for.
     """
 
     positions: np.ndarray
@@ -39,6 +40,7 @@ class MapArrays:
     uv: np.ndarray
     visible_faces: np.ndarray
     uv_faces: np.ndarray
+    aspect: float = 1.0
 
     def mesh(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return positions, face offsets and corner vertices as `spectral_conformal` takes them."""
@@ -46,7 +48,8 @@ class MapArrays:
 
     def equals(self, other: MapArrays) -> bool:
         """Return whether everything is the same; NaN equals NaN."""
-        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        pairs = [(getattr(self, field.name), getattr(other, field.name)) for field in fields(self)]
+        pairs = [(np.asarray(mine), np.asarray(yours)) for mine, yours in pairs]
         return all(np.array_equal(mine, yours, equal_nan=mine.dtype.kind == "f") for mine, yours in pairs)
 
 
@@ -56,6 +59,7 @@ class IslandNumbers:
 
     Attributes:
         faces: number of visible faces.
+        mapped: how many of these have a surface, and one in the map.
         mean_qc: quasi-conformal distortion averaged over the surface; NaN without surface.
         max_qc: the largest of a face.
         log2_scale_deviation: standard deviation over the surface of the binary logarithm of the scale.
@@ -65,6 +69,7 @@ class IslandNumbers:
     """
 
     faces: int
+    mapped: int
     mean_qc: float
     max_qc: float
     log2_scale_deviation: float
@@ -86,9 +91,9 @@ class MapView:
     @functools.cached_property
     def _distortion(self) -> object:
         arrays = self.arrays
-        return native.spectral_conformal().face_distortion(
-            *arrays.mesh(), arrays.uv.astype(np.float64), selected_faces=arrays.visible_faces
-        )
+        # As the image shows it, at the same area.
+        shown = arrays.uv * np.array([arrays.aspect**0.5, arrays.aspect**-0.5])
+        return native.spectral_conformal().face_distortion(*arrays.mesh(), shown, selected_faces=arrays.visible_faces)
 
     @property
     def qc(self) -> np.ndarray:
@@ -106,7 +111,8 @@ class MapView:
         return self._distortion.area
 
     @functools.cached_property
-    def _triangles(self) -> tuple[np.ndarray, np.ndarray]:
+    def triangles(self) -> tuple[np.ndarray, np.ndarray]:
+        """The visible faces as triangles: their corners, (T, 3), and the face of each, (T,), both int32."""
         arrays = self.arrays
         return native.spectral_conformal().face_triangles(*arrays.mesh(), selected_faces=arrays.visible_faces)
 
@@ -142,10 +148,11 @@ class MapView:
     @functools.cached_property
     def median_log2_scale(self) -> float:
         """`log2_scale` in the middle of the surface; 0 where nothing is mapped."""
-        return weighted_percentiles(self.log2_scale, self.area, (50.0,))[0] if self._is_measured.any() else 0.0
+        return weighted_percentiles(self.log2_scale, self.area, (50.0,))[0] if self.is_measured.any() else 0.0
 
     @property
-    def _is_measured(self) -> np.ndarray:
+    def is_measured(self) -> np.ndarray:
+        """Which faces have a surface and a finite size in the map, (F,) bool."""
         return (self.area > 0.0) & np.isfinite(self.log2_scale)
 
     def values(self, kind: str, density: float = 1.0) -> np.ndarray:
@@ -169,7 +176,7 @@ class MapView:
 
     def vertex_buffers(self, kind: str, density: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return positions (3 T, 3), UVs (3 T, 2) and values (3 T,) of the corners of triangles to draw, float32."""
-        corners, face = self._triangles
+        corners, face = self.triangles
         corners = corners.ravel()
         with np.errstate(over="ignore"):
             values = np.nan_to_num(self.values(kind, density), nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
@@ -180,29 +187,57 @@ class MapView:
             values.astype(np.float32).take(face).repeat(3),
         )
 
+    def face_at(self, point: Sequence[float]) -> int:
+        """Return a face that covers a place of the map, (u, v), of those that the UV editor shows; -1 for none."""
+        corners, face = self.triangles
+        arms = self.arrays.uv.take(corners, axis=0) - np.asarray(point, dtype=np.float64)
+        u, v = arms[..., 0], arms[..., 1]
+        with np.errstate(all="ignore"):
+            turns = u * np.roll(v, -1, axis=1) - v * np.roll(u, -1, axis=1)
+            covers = (turns >= 0.0).all(axis=1) | (turns <= 0.0).all(axis=1)
+        covers &= self.is_in_uv_editor() & (turns != 0.0).any(axis=1)
+        return int(face[covers.argmax()]) if covers.any() else -1
+
     def is_in_uv_editor(self) -> np.ndarray:
         """Return which of the triangles the UV editor shows, (T,) bool."""
-        return self.arrays.uv_faces[self._triangles[1]]
+        return self.arrays.uv_faces[self.triangles[1]]
 
     def numbers(self, islands: Sequence[int] | None = None) -> IslandNumbers:
         """Return the numbers of some islands, of all visible faces when left out."""
-        chosen = self.arrays.visible_faces if islands is None else np.isin(self.island_of_face, islands)
-        counted = chosen & self._is_measured
-        weights, scale = self.area[counted], self.log2_scale[counted]
-        if not counted.any():
-            nan = float("nan")
-            means = (nan, nan, nan, nan)
-        else:
-            mean_scale = float(np.average(scale, weights=weights))
-            means = (
-                float(np.average(self.qc[counted], weights=weights)),
-                float(self.qc[counted].max()),
-                float(np.sqrt(np.average((scale - mean_scale) ** 2, weights=weights))),
-                float(weighted_percentiles(scale, weights, (50.0,))[0]),
-            )
-        return IslandNumbers(
-            int(chosen.sum()), *means, int(self.flipped[chosen].sum()), int(self.overlapping[chosen].sum())
+        if islands is None:
+            return joined_numbers([self])
+        return _numbers([(self, np.isin(self.island_of_face, islands))])
+
+
+def joined_numbers(views: Sequence[MapView]) -> IslandNumbers:
+    """Return the numbers of all visible faces of at least one map together."""
+    return _numbers([(view, view.arrays.visible_faces) for view in views])
+
+
+def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
+    """Return the numbers of the chosen faces, (F,) bool, of some maps together."""
+    counted = [(view, chosen & view.is_measured) for view, chosen in parts]
+    weights, scale, qc = (
+        np.concatenate([getattr(view, name)[faces] for view, faces in counted]) for name in ("area", "log2_scale", "qc")
+    )
+    means = (float("nan"),) * 4
+    if len(qc):
+        mean_scale = float(np.average(scale, weights=weights))
+        means = (
+            float(np.average(qc, weights=weights)),
+            float(qc.max()),
+            float(np.sqrt(np.average((scale - mean_scale) ** 2, weights=weights))),
+            weighted_percentiles(scale, weights, (50.0,))[0],
         )
+    faces, flipped, overlapping = (
+        sum(int(flags[chosen].sum()) for flags, chosen in found)
+        for found in (
+            [(chosen, chosen) for _, chosen in parts],
+            [(view.flipped, chosen) for view, chosen in parts],
+            [(view.overlapping, chosen) for view, chosen in parts],
+        )
+    )
+    return IslandNumbers(faces, len(qc), *means, flipped, overlapping)
 
 
 def weighted_percentiles(values: np.ndarray, weights: np.ndarray, percentiles: Sequence[float]) -> list[float]:

@@ -61,6 +61,21 @@ NO_RESULT_LABEL = "Nothing was unwrapped yet"
 SELECT_ISLAND_LABEL = "Select Island"
 SELECT_DISTORTED_LABEL = "Select Most Distorted"
 SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
+INSPECT_LABEL = "Inspect Map"
+INSPECT_DESCRIPTION = "Show the numbers of the face below the mouse; a click selects its island"
+INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
+STORE_LABEL = "Store as Attribute"
+STORE_DESCRIPTION = (
+    "Write what the UV map does to every face into an attribute of the mesh, for rendering, geometry nodes and scripts"
+)
+COMPARE_LABEL = "Compare Methods"
+COMPARE_DESCRIPTION = (
+    "Unwrap the selected faces by this and by Blender's own methods, and show the maps side by side; the UVs stay as "
+    "they are"
+)
+COMPARISON_LABEL = "Compare"
+COMPARISON_KEYS = "Esc, Enter or click: Close"
+SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Extenders"
 ADD_TO_ACTIVE_LABEL = "Add to Active"
 VERTEX_GONE_LABEL = "Vertex gone"
@@ -188,6 +203,11 @@ MEASURE_ITEMS = (
 )
 AMOUNT_PROPERTY = {"name": "Amount", "description": "How much of the surface to select, the worst faces first"}
 WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Compare islands instead of faces, by their average"}
+STORED_PROPERTY = {"name": "Store", "description": "What to write"}
+AS_COLORS_PROPERTY = {
+    "name": "As Colors",
+    "description": "Write the colors of the overlay to the corners of the faces, instead of one number per face",
+}
 # The properties of the overlay that shows the map.
 MAP_OVERLAY_LABEL = "UV Map Overlay"
 SHOW_MAP_PROPERTY = {
@@ -254,6 +274,8 @@ LOOK_ITEMS = (
     (LOOK_DEFECTS, "Flipped and Overlapping", "Faces that lie the wrong way round, or cover others of their island"),
     (LOOK_CHECKER, "Checker", "Squares of the UV map on the surface, without touching materials"),
 )
+# A checker is no value.
+STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != LOOK_CHECKER)
 PACK = "PACK"
 KEEP = "KEEP"
 PLACEMENT_ITEMS = (
@@ -417,9 +439,57 @@ def selected_worst(faces: int) -> str:
     return f"Selected {_count(faces, 'face')}"
 
 
+def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, overlapping: bool) -> tuple[str, ...]:
+    """Return the lines that the legend has on the face below the mouse; `density` is in pixels per unit of length."""
+    lines = [
+        f"{LEGEND_FACE}: angles {_qc(qc)}",
+        f"Size {look_value(LOOK_SIZE, log2_size)}, {look_value(LOOK_DENSITY, density)} px per unit",
+    ]
+    if flipped or overlapping:
+        lines.append(
+            " and ".join(word for word, is_so in (("Flipped", flipped), ("overlapping", overlapping)) if is_so)
+        )
+    return tuple(lines)
+
+
+def stored(name: str) -> str:
+    """Return what Store as Attribute says, given the attribute's name."""
+    return f"Stored as {name}"
+
+
+# The methods that are compared, ours first, by their identifiers in Blender's Unwrap.
+OURS = "SPECTRAL"
+COMPARED_METHODS = {
+    OURS: UNWRAP_LABEL,
+    "CONFORMAL": "Conformal",
+    "ANGLE_BASED": "Angle Based",
+    "MINIMUM_STRETCH": "Minimum Stretch",
+}
+COMPARISON_HEADER = ("", "Angles", "Worst", "Sizes", "Flips", "Overlaps", "Seconds")
+# What of it fits into the sidebar.
+COMPARISON_IN_PANEL = ("Angles", "Worst", "Seconds")
+
+
+def comparison_row(name: str, numbers: IslandNumbers | None, seconds: float) -> tuple[str, ...]:
+    """Return the cells of a method in the table, as `COMPARISON_HEADER` names them."""
+    if numbers is None or not numbers.mapped:
+        return (name, "failed", *[""] * 4, f"{seconds:.2f}")
+    if numbers.mapped < numbers.faces:
+        name = f"{name} ({numbers.faces - numbers.mapped} left out)"
+    spread = 100.0 * (2.0**numbers.log2_scale_deviation - 1.0)
+    cells = (f"{numbers.mean_qc:.3f}", _qc(numbers.max_qc), f"{spread:.1f} %", f"{numbers.flipped}")
+    return (name, *cells, f"{numbers.overlapping}", f"{seconds:.2f}")
+
+
+def compared(best: str, methods: int) -> str:
+    """Return what Compare Methods says."""
+    return f"Compared {methods} methods; least angle distortion: {best}"
+
+
+NOT_COMPARED = "No method could unwrap these faces; Spectral Unwrap says why"
 LEGEND_MESH = "Shown"
 LEGEND_ISLAND = "Active island"
-LEGEND_FACE = "Face below the mouse"
+LEGEND_FACE = "Below the mouse"
 
 
 def unfolded(summary: Summary) -> str:

@@ -12,10 +12,20 @@ _IMAGE_NODES = frozenset({"TEX_IMAGE", "TEX_ENVIRONMENT"})
 def aspect(edit_object: bpy.types.Object, bm: BMesh) -> float:
     """Return width over height of the image of the active face's material; 1 without an image."""
     face = _active_face(bm)
-    slots = edit_object.material_slots
-    if face is None or face.material_index >= len(slots) or slots[face.material_index].material is None:
+    return 1.0 if face is None else _of_slot(edit_object, face.material_index)
+
+
+def aspect_in_object_mode(shown: bpy.types.Object) -> float:
+    """Return the same of an object whose mesh is not in edit mode."""
+    polygons = shown.data.polygons
+    return _of_slot(shown, polygons[polygons.active].material_index) if 0 <= polygons.active < len(polygons) else 1.0
+
+
+def _of_slot(shown: bpy.types.Object, index: int) -> float:
+    slots = shown.material_slots
+    if index >= len(slots) or slots[index].material is None:
         return 1.0
-    tree = slots[face.material_index].material.node_tree
+    tree = slots[index].material.node_tree
     image = _active_image(tree) if tree else None
     if image is None or min(image.size) < 1:
         return 1.0

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes and their active UV maps to arrays, as often as they are drawn."""
 
+from dataclasses import replace
+
 import bmesh
 import bpy
+import numpy as np
 
 from .. import compatibility, names
 from ..core.map_view import MapArrays
+from . import image_aspect
 
 
 def read_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays | None:
@@ -15,16 +19,28 @@ def read_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays |
     """
     if shown.mode != "EDIT":
         evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
-        return _arrays(evaluated, False) if isinstance(evaluated, bpy.types.Mesh) else None
+        if not isinstance(evaluated, bpy.types.Mesh):
+            return None
+        return _arrays(evaluated, False, image_aspect.aspect_in_object_mode(shown))
     copy = bpy.data.meshes.new(names.TEMPORARY_MESH)
     try:
-        bmesh.from_edit_mesh(shown.data).to_mesh(copy)
-        return _arrays(copy, not context.scene.tool_settings.use_uv_select_sync)
+        bm = bmesh.from_edit_mesh(shown.data)
+        bm.to_mesh(copy)
+        return _arrays(copy, not context.scene.tool_settings.use_uv_select_sync, image_aspect.aspect(shown, bm))
     finally:
         bpy.data.meshes.remove(copy, do_unlink=False, do_ui_user=False)
 
 
-def _arrays(mesh: bpy.types.Mesh, only_selected: bool) -> MapArrays | None:
+def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays | None:
+    """Read the mesh of an object without its modifiers, all faces as visible ones; None as `read_map` has it."""
+    if shown.mode == "EDIT":
+        arrays = read_map(context, shown)
+    else:
+        arrays = _arrays(shown.data, False, image_aspect.aspect_in_object_mode(shown))
+    return arrays and replace(arrays, visible_faces=np.ones_like(arrays.visible_faces))
+
+
+def _arrays(mesh: bpy.types.Mesh, only_selected: bool, aspect: float) -> MapArrays | None:
     if mesh.uv_layers.active is None or not len(mesh.polygons):
         return None
     visible = ~compatibility.flags(mesh, "polygons", "hide")
@@ -35,6 +51,7 @@ def _arrays(mesh: bpy.types.Mesh, only_selected: bool) -> MapArrays | None:
         uv=compatibility.corner_uv(mesh),
         visible_faces=visible,
         uv_faces=visible & compatibility.flags(mesh, "polygons", "select") if only_selected else visible,
+        aspect=aspect,
     )
 
 

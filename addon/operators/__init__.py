@@ -3,19 +3,22 @@
 
 import bpy
 
-from ..unwrapping import island_list, last_result
+from ..unwrapping import comparison, island_list, last_result
 from . import extender_adjust, job_operator
+from .compare import UV_OT_spectral_compare
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_remove,
     MESH_OT_spectral_extender_select,
 )
+from .inspect_map import UV_OT_spectral_inspect
 from .select import (
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,
     UV_OT_spectral_select_failed,
 )
+from .store_distortion import MESH_OT_spectral_store_distortion
 from .suggest_seams import UV_OT_spectral_suggest_seams
 from .unwrap import UV_OT_spectral_unwrap
 
@@ -24,7 +27,10 @@ _CLASSES = (
     UV_OT_spectral_select_failed,
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,
+    UV_OT_spectral_inspect,
+    UV_OT_spectral_compare,
     UV_OT_spectral_suggest_seams,
+    MESH_OT_spectral_store_distortion,
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,
     MESH_OT_spectral_extender_remove,
@@ -37,6 +43,7 @@ def before_load() -> None:
     job_operator.end_all()
     last_result.forget()
     island_list.forget()
+    comparison.forget()
 
 
 def register() -> None:

@@ -205,7 +205,16 @@ class JobOperator(ReportingOperator):
         running = self._job
         if running.is_ended:
             return {"CANCELLED"}
-        if context.mode != "EDIT_MESH" or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
+        is_left = context.mode != "EDIT_MESH"
+        if running.choice is not None and not is_left:
+            status = running.choice.handle(context, event)
+            if "FINISHED" in status:
+                answer = running.choice.answer
+                running.hide(context)
+                return self._advance(context, Done(context, answer, running.is_late))
+            if "RUNNING_MODAL" in status:
+                return status
+        if is_left or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
             self.report({"INFO"}, texts.cancelled(self.bl_label))
             return {"CANCELLED"}
         if event.type == "TIMER":
@@ -215,14 +224,6 @@ class JobOperator(ReportingOperator):
                 return self._advance(context, Done(context, worker.result(), running.is_late))
             running.update(context)
             return {"PASS_THROUGH"}
-        if running.choice is not None:
-            status = running.choice.handle(context, event)
-            if "FINISHED" in status:
-                answer = running.choice.answer
-                running.hide(context)
-                return self._advance(context, Done(context, answer, running.is_late))
-            if "RUNNING_MODAL" in status:
-                return status
         return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
 
     def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:

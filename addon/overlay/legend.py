@@ -3,13 +3,11 @@
 
 from collections.abc import Sequence
 
-import blf
 import bpy
-import numpy as np
 
 from ..core import texts
 from .colored_triangles import Colors
-from .fill import fill_triangles
+from .screen_text import LINE, draw_line, fill_box, text_width
 
 # Colours of the values: from good to bad, or from small over even to large.
 _GOOD_TO_BAD = ((0.16, 0.38, 0.85), (0.98, 0.86, 0.25), (0.86, 0.12, 0.10))
@@ -24,9 +22,8 @@ _RAMPS = {
     texts.LOOK_CHECKER: _CHECKER,
 }
 # Pixels at a scale of 1.
-_WIDTH, _BAR_HEIGHT, _LINE, _PADDING, _DISTANCE, _TEXT = 240.0, 12.0, 17.0, 10.0, 20.0, 11
+_WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
 _BACKGROUND = (0.08, 0.08, 0.08, 0.72)
-_TEXT_COLOR = (0.92, 0.92, 0.92, 1.0)
 
 
 def colors_of(kind: str, opacity: float) -> Colors:
@@ -40,30 +37,30 @@ def draw(
     """Draw the legend in the lower right corner of the region, left of the sidebar."""
     scale = context.preferences.system.ui_scale
     has_bar = kind != texts.LOOK_CHECKER
-    height = (_LINE * (1 + len(lines)) + (_BAR_HEIGHT + 1.3 * _LINE if has_bar else 0.0) + 2 * _PADDING) * scale
+    height = (LINE * (1 + len(lines)) + (_BAR_HEIGHT + 1.3 * LINE if has_bar else 0.0) + 2 * _PADDING) * scale
     width = _WIDTH * scale
     right = context.region.width - _sidebar_width(context.area) - _DISTANCE * scale
     bottom = _DISTANCE * scale
     left, top = right - width, bottom + height
     if left < 0.0:
         return
-    _fill((left, bottom, right, top), (_BACKGROUND,) * 4)
+    fill_box((left, bottom, right, top), (_BACKGROUND,) * 4)
     inner, y = left + _PADDING * scale, top - _PADDING * scale
-    y = _line(texts.look(kind), inner, y, scale)
+    y = draw_line(texts.look(kind), inner, y, scale)
     if has_bar:
         inner_right = right - _PADDING * scale
         middle, bar_bottom = 0.5 * (inner + inner_right), y - _BAR_HEIGHT * scale
         ends = [(*color, 1.0) for color in (colors.low, colors.middle, colors.high)]
-        _fill((inner, bar_bottom, middle, y), (ends[0], ends[1], ends[1], ends[0]))
-        _fill((middle, bar_bottom, inner_right, y), (ends[1], ends[2], ends[2], ends[1]))
+        fill_box((inner, bar_bottom, middle, y), (ends[0], ends[1], ends[1], ends[0]))
+        fill_box((middle, bar_bottom, inner_right, y), (ends[1], ends[2], ends[2], ends[1]))
         low, high = low_high
         labels = texts.legend_ends(kind, low, 0.5 * (low + high), high)
         for place, label in zip((0.0, 0.5, 1.0), labels):
-            x = inner + place * (inner_right - inner - _text_width(label, scale))
-            _line(label, x, bar_bottom - 0.1 * _LINE * scale, scale)
-        y = bar_bottom - 1.3 * _LINE * scale
+            x = inner + place * (inner_right - inner - text_width(label, scale))
+            draw_line(label, x, bar_bottom - 0.1 * LINE * scale, scale)
+        y = bar_bottom - 1.3 * LINE * scale
     for line in lines:
-        y = _line(line, inner, y, scale)
+        y = draw_line(line, inner, y, scale)
 
 
 def _sidebar_width(area: bpy.types.Area) -> float:
@@ -71,25 +68,3 @@ def _sidebar_width(area: bpy.types.Area) -> float:
     if not bpy.context.preferences.system.use_region_overlap:
         return 0.0
     return max((region.width for region in area.regions if region.type == "UI" and region.width > 1), default=0.0)
-
-
-def _fill(box: tuple[float, float, float, float], corner_colors: Sequence[tuple[float, ...]]) -> None:
-    """Fill a rectangle, given its left, bottom, right and top, and the colours of its corners counter-clockwise."""
-    left, bottom, right, top = box
-    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
-    order = [0, 1, 2, 0, 2, 3]
-    fill_triangles(corners[order], np.array(corner_colors)[order])
-
-
-def _text_width(text: str, scale: float) -> float:
-    blf.size(0, _TEXT * scale)
-    return blf.dimensions(0, text)[0]
-
-
-def _line(text: str, x: float, top: float, scale: float) -> float:
-    """Write a line below `top` and return where the next one begins."""
-    blf.size(0, _TEXT * scale)
-    blf.color(0, *_TEXT_COLOR)
-    blf.position(0, x, top - 0.75 * _LINE * scale, 0.0)
-    blf.draw(0, text)
-    return top - _LINE * scale

@@ -78,6 +78,8 @@ _shown: dict[str, _ShownMesh] = {}
 # The automatic range, kept while the mesh is edited: colours that change all the time tell nothing.
 _range: dict[tuple, tuple[float, float]] = {}
 _handles: list[tuple[type, object]] = []
+# The face whose numbers the legend has, by the name of its object and its index.
+_pointed_at: tuple[str, int] | None = None
 _print_once = PrintOnce(lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
 _edited_at = 0.0
 
@@ -120,8 +122,18 @@ def on_update(depsgraph: bpy.types.Depsgraph) -> None:
 
 def forget() -> None:
     """Forget all meshes, as names mean others in another file."""
+    global _pointed_at  # noqa: PLW0603 - see point_at
+    _pointed_at = None
     _shown.clear()
     _range.clear()
+
+
+def point_at(context: bpy.types.Context, face: tuple[str, int] | None) -> None:
+    """Let the legend have the numbers of a face, given the full name of its object and its index; None for no face."""
+    global _pointed_at  # noqa: PLW0603 - there is one mouse
+    if face != _pointed_at:
+        _pointed_at = face
+        redraw(context)
 
 
 def redraw(context: bpy.types.Context) -> None:
@@ -260,7 +272,17 @@ def _draw_legend(context: bpy.types.Context) -> None:
         if 0 <= face < len(view.island_of_face) and view.island_of_face[face] >= 0:
             island = view.numbers([int(view.island_of_face[face])])
             lines.extend(texts.legend_numbers(texts.LEGEND_ISLAND, island))
+    for each, shown, view in found:
+        if _pointed_at is not None and each.name_full == _pointed_at[0] and _pointed_at[1] < len(view.qc):
+            lines.extend(_face_lines(shown, view, _pointed_at[1], chosen.image_size))
     legend.draw(context, chosen.kind, colors(context), shown_range(context), lines)
+
+
+def _face_lines(shown: _ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:
+    values = [float(view.values(kind, image_size)[face]) for kind in (texts.LOOK_ANGLE, texts.LOOK_SIZE)]
+    density = float(view.values(texts.LOOK_DENSITY, image_size)[face])
+    defects = [bool(each[face]) for each in (view.flipped, view.overlapping)] if shown.islands_known else [False] * 2
+    return texts.face_numbers(*values, density, *defects)
 
 
 def _look_at_islands_later(context: bpy.types.Context) -> None:

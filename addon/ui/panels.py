@@ -8,7 +8,7 @@ import bpy
 from .. import names
 from ..core import texts
 from ..extenders import storage, tracking
-from ..unwrapping import island_list
+from ..unwrapping import comparison, island_list
 from . import unwrap_settings
 
 
@@ -170,6 +170,35 @@ class _ResultPanel(_Panel):
         )
 
 
+class _ComparisonPanel(_Panel):
+    """What this and Blender's own methods make of the same faces."""
+
+    bl_label = texts.COMPARISON_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "comparison", "map_overlay"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw the operator, and of every method its distortion, worst face and seconds."""
+        layout = self.layout
+        layout.operator_context = "INVOKE_REGION_WIN"
+        layout.operator(names.COMPARE_OPERATOR)
+        candidates = comparison.last()
+        if not candidates:
+            return
+        best = comparison.best(candidates)
+        shown = [texts.COMPARISON_HEADER.index(name) for name in texts.COMPARISON_IN_PANEL]
+        table = layout.split(factor=0.42, align=True)
+        names_column, numbers = table.column(align=True), table.grid_flow(columns=3, row_major=True, align=True)
+        names_column.label(text="")
+        for index in shown:
+            numbers.label(text=texts.COMPARISON_HEADER[index])
+        for each in candidates:
+            name, *_ = row = texts.comparison_row(texts.COMPARED_METHODS[each.method], each.numbers, each.seconds)
+            names_column.label(text=name, icon="CHECKMARK" if each == best else "BLANK1")
+            for index in shown:
+                numbers.label(text=row[index])
+
+
 def _characters(context: bpy.types.Context) -> int:
     """Return how many characters fit beside an icon into a line of the region."""
     scale = context.preferences.system.ui_scale
@@ -244,8 +273,13 @@ class _MapOverlayPanel(_Panel):
         layout.prop(overlay, "legend")
         if context.mode == "EDIT_MESH":
             column = self.layout.column(align=True)
+            column.operator_context = "INVOKE_REGION_WIN"
+            column.operator(names.INSPECT_OPERATOR, icon="EYEDROPPER")
+            column.operator_context = "EXEC_REGION_WIN"
             column.operator(names.SELECT_DISTORTED_OPERATOR)
             column.operator(names.SELECT_DEFECTS_OPERATOR)
+        self.layout.operator_context = "INVOKE_REGION_WIN"
+        self.layout.operator(names.STORE_OPERATOR)
 
 
 def _panels() -> list[type]:
@@ -257,6 +291,7 @@ def _panels() -> list[type]:
         _AdvancedPanel,
         _ResultPanel,
         _MapOverlayPanel,
+        _ComparisonPanel,
         _ExtendersPanel,
     )
     made = []

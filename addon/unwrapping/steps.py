@@ -76,9 +76,33 @@ def write(
         PackingError: Blender's packer did not run; nothing changed.
     """
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
-    if summary.solved == 0:
-        last_result.remember(edit_meshes, solutions)
-        return Outcome(summary, 0, _notes(edit_meshes, settings), _warnings(edit_meshes, settings, solutions))
+    without_bounds, left_tile = 0, False
+    if summary.solved:
+        without_bounds, left_tile = write_maps(context, settings, edit_meshes, solutions, while_writing)
+    last_result.remember(edit_meshes, solutions)
+    warnings = _warnings(edit_meshes, settings, solutions)
+    return Outcome(
+        summary,
+        without_bounds,
+        _notes(edit_meshes, settings),
+        (*warnings, texts.PACKED_BESIDE_FAILED) if left_tile else warnings,
+    )
+
+
+def write_maps(
+    context: bpy.types.Context,
+    settings: Settings,
+    edit_meshes: Sequence[EditMesh],
+    solutions: Sequence[Solution],
+    while_writing: WhileWriting = nullcontext,
+) -> tuple[int, bool]:
+    """Place the solved charts, of which there must be one, and write them.
+
+    Returns how many could not be kept in place, and whether packing had to leave the tile.
+
+    Raises:
+        PackingError: Blender's packer did not run; nothing changed.
+    """
     polygons = [edit_mesh.polygons for edit_mesh in edit_meshes]
     placement = place(polygons, solutions, settings.keep_in_place, settings.turn_to_pack)
     solved = [
@@ -89,14 +113,7 @@ def write(
     with while_writing():
         margin = None if settings.keep_in_place else settings.margin
         left_tile = _write(context, solved, _failed_boxes(edit_meshes, solutions), margin)
-    last_result.remember(edit_meshes, solutions)
-    warnings = _warnings(edit_meshes, settings, solutions)
-    return Outcome(
-        summary,
-        placement.without_bounds,
-        _notes(edit_meshes, settings),
-        (*warnings, texts.PACKED_BESIDE_FAILED) if left_tile else warnings,
-    )
+    return placement.without_bounds, left_tile
 
 
 def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> tuple[str, ...]:

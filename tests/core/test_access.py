@@ -50,7 +50,7 @@ METHODS = {
     *("addon_utils", "script_paths", "user_resource", "online_access", "filepath", "environ", "getenv"),
 }
 # Blender's operators that the add-on calls.
-OPERATORS = {"uv.pack_islands", "view3d.zoom", "ed.undo_push"}
+OPERATORS = {"uv.pack_islands", "uv.unwrap", "view3d.zoom", "ed.undo_push"}
 
 # What the compiled part would need to reach outside the process, and the one file that may, with its reason.
 CALLS = {

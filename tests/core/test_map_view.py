@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 import pytest
 from spectral_unwrap.core import texts
-from spectral_unwrap.core.map_view import MapArrays, MapView, automatic_range, weighted_percentiles
+from spectral_unwrap.core.map_view import MapArrays, MapView, automatic_range, joined_numbers, weighted_percentiles
 
 
 def grid(n=4, scale=(1.0, 1.0)):
@@ -115,3 +115,30 @@ def test_legend_has_a_line_for_what_there_is():
     assert lines == ("Shown: 16 faces", "Angles 1.000 average, 1.000 worst", "Sizes vary by 0.0 %")
     nothing = MapView(changed(grid(), uv=np.full((64, 2), np.nan, np.float32))).numbers()
     assert texts.legend_numbers("Shown", nothing) == ("Shown: 16 faces, nothing to measure",)
+
+
+def test_faces_are_found_by_a_place_of_the_map():
+    arrays = grid()
+    view = MapView(arrays)
+    assert [view.face_at(place) for place in ((0.5, 0.5), (1.5, 0.25), (3.9, 3.9))] == [0, 1, 15]
+    assert view.face_at((-0.1, 0.5)) == -1
+    assert view.face_at((float("nan"), 0.5)) == -1
+    shown = arrays.uv_faces.copy()
+    shown[0] = False
+    assert MapView(changed(arrays, uv_faces=shown)).face_at((0.5, 0.5)) == -1
+
+
+def test_what_an_image_stretches_back_is_not_distorted():
+    # On an image of twice the width.
+    view = MapView(changed(grid(scale=(0.5, 1.0)), aspect=2.0))
+    assert view.qc == pytest.approx(1.0)
+    assert view.values(texts.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
+    assert not view.arrays.equals(changed(view.arrays, aspect=1.0))
+
+
+def test_numbers_of_several_maps_are_weighed_by_their_surface():
+    small, large = MapView(grid(2)), MapView(grid(4, scale=(2.0, 1.0)))
+    joined = joined_numbers([small, large])
+    assert joined.faces == 20
+    assert joined.mean_qc == pytest.approx((4 * 1.0 + 16 * 2.0) / 20)
+    assert joined_numbers([small]) == small.numbers()

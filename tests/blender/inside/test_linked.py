@@ -9,7 +9,10 @@ import pytest
 
 from tests.blender.inside import scenes
 
-OPERATORS = ("spectral_unwrap", "spectral_suggest_seams", "spectral_select_failed", "spectral_select_defects")
+OPERATORS = (
+    *("spectral_unwrap", "spectral_suggest_seams", "spectral_select_failed", "spectral_select_defects"),
+    *("spectral_compare", "spectral_select_distorted"),
+)
 
 
 @pytest.fixture

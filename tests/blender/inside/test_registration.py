@@ -103,7 +103,7 @@ def test_menus_and_operator_come_and_go_with_the_add_on():
 
 
 def test_panels_and_extenders_come_and_go_with_the_add_on():
-    parts = ("seams", "unwrap", "settings", "advanced", "result", "map_overlay", "extenders")
+    parts = ("seams", "unwrap", "settings", "advanced", "result", "comparison", "map_overlay", "extenders")
     panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in parts]
     for _ in range(2):
         assert all(hasattr(bpy.types, panel) for panel in panels)
@@ -112,7 +112,12 @@ def test_panels_and_extenders_come_and_go_with_the_add_on():
         assert not any(hasattr(bpy.types, panel) for panel in panels)
         for owner in (bpy.types.Mesh, bpy.types.Scene, bpy.types.WindowManager):
             assert not any(name.startswith("spectral") for name in owner.bl_rna.properties.keys())  # noqa: SIM118
-        for kind in ("UV_UL_spectral_islands", "UV_OT_spectral_select_distorted", "SpectralMapOverlay"):
+        for kind in (
+            "UV_UL_spectral_islands",
+            "UV_OT_spectral_select_distorted",
+            "SpectralMapOverlay",
+            "UV_MT_spectral",
+        ):
             assert not hasattr(bpy.types, kind)
         for event in ("depsgraph_update_post", "undo_post", "redo_post", "load_pre", "load_post"):
             assert not any(f.__module__.startswith(ADDON) for f in getattr(bpy.app.handlers, event)), event

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values of faces and colours of their corners into attributes of a mesh, in edit mode or not."""
+
+import bmesh
+import bpy
+import numpy as np
+
+
+def store_face_values(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    """Write a number per face, (F,), into the attribute of this name, which is made anew."""
+    if not mesh.is_editmode:
+        _new_attribute(mesh, name, "FLOAT", "FACE").foreach_set("value", values.astype(np.float32))
+        return
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.float.get(name) or bm.faces.layers.float.new(name)
+    for face, value in zip(bm.faces, values.tolist()):
+        face[layer] = value
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def store_corner_colors(mesh: bpy.types.Mesh, name: str, colors: np.ndarray) -> None:
+    """Write a linear colour per face, (F, 4), to its corners, into the colour attribute of this name, made anew."""
+    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+    if not mesh.is_editmode:
+        mesh.polygons.foreach_get("loop_total", sizes)
+        corners = np.repeat(colors.astype(np.float32), sizes, axis=0)
+        _new_attribute(mesh, name, "FLOAT_COLOR", "CORNER").foreach_set("color", corners.ravel())
+        return
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.loops.layers.float_color.get(name) or bm.loops.layers.float_color.new(name)
+    for face, color in zip(bm.faces, colors.tolist()):
+        for loop in face.loops:
+            loop[layer] = color
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def _new_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bpy.types.bpy_prop_collection:
+    old = mesh.attributes.get(name)
+    if old is not None:
+        mesh.attributes.remove(old)
+    return mesh.attributes.new(name, kind, domain).data

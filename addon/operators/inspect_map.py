@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that reads the map below the mouse, and selects islands there."""
+
+import bpy
+
+from .. import names
+from ..core import texts
+from ..edit_mesh import selection
+from ..overlay import map_overlay, under_mouse
+from ..overlay.under_mouse import FaceBelow
+from ..ui import progress
+
+_ENDS = {"ESC", "RIGHTMOUSE", "RET", "NUMPAD_ENTER"}
+
+
+class UV_OT_spectral_inspect(bpy.types.Operator):
+    """Show the numbers of the face below the mouse, and select its island with a click, until Esc."""
+
+    bl_idname = names.INSPECT_OPERATOR
+    bl_label = texts.INSPECT_LABEL
+    bl_description = texts.INSPECT_DESCRIPTION
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where the overlay can be seen."""
+        return context.mode in {"EDIT_MESH", "OBJECT"} and context.window is not None and not bpy.app.background
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Turn the overlay and its legend on, and follow the mouse."""
+        overlay = map_overlay.settings(context)
+        overlay.legend = True
+        if not overlay.show:
+            overlay.show = True
+        context.window_manager.modal_handler_add(self)
+        context.workspace.status_text_set(texts.INSPECT_KEYS)
+        self._follow(context, event)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Follow the mouse; a click outside the meshes is Blender's."""
+        if not map_overlay.is_on(context) or context.mode not in {"EDIT_MESH", "OBJECT"}:
+            return self._end(context)
+        if event.type in _ENDS and event.value == "PRESS":
+            return self._end(context)
+        if event.type == "MOUSEMOVE":
+            self._follow(context, event)
+        if event.type == "LEFTMOUSE" and event.value == "PRESS" and context.mode == "EDIT_MESH":
+            found = self._below(context, event)
+            if found is not None:
+                _select_island(context, found, event.shift)
+                return {"RUNNING_MODAL"}
+            return {"PASS_THROUGH"}
+        # Nothing that changes the mesh, but the view can be moved, and the sidebar used.
+        is_in_view = under_mouse.region_at(context.screen, event.mouse_x, event.mouse_y) is not None
+        return {"RUNNING_MODAL"} if is_in_view and not progress.moves_view(event) else {"PASS_THROUGH"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Leave nothing shown; Blender calls it when the window is closed."""
+        self._end(context)
+
+    def _below(self, context: bpy.types.Context, event: bpy.types.Event) -> FaceBelow | None:
+        place = under_mouse.region_at(context.screen, event.mouse_x, event.mouse_y)
+        if place is None:
+            return None
+        area, region = place
+        return under_mouse.face_below(context, area, region, event.mouse_x - region.x, event.mouse_y - region.y)
+
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        found = self._below(context, event)
+        map_overlay.point_at(context, None if found is None else (found.shown.name_full, found.face))
+
+    def _end(self, context: bpy.types.Context) -> set[str]:
+        map_overlay.point_at(context, None)
+        under_mouse.forget()
+        progress.clear_status(context)
+        return {"FINISHED"}
+
+
+def _select_island(context: bpy.types.Context, found: FaceBelow, extend: bool) -> None:
+    """Select the island of a face, as a step that can be undone."""
+    island = found.view.island_of_face
+    faces = {found.shown.data: (island == island[found.face]) & found.view.arrays.visible_faces}
+    selection.select_only(context, faces, extend)
+    if bpy.ops.ed.undo_push.poll():
+        bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that writes what a UV map does to the faces into attributes."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty
+
+from .. import names
+from ..core import color_ramp, texts
+from ..core.map_view import MapView, automatic_range
+from ..edit_mesh import attributes, read_map
+from ..overlay import legend, map_overlay
+from .reporting_operator import ReportingOperator
+
+
+class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
+    """Write angle distortion, size, texel density or defects of every face into an attribute."""
+
+    bl_idname = names.STORE_OPERATOR
+    bl_label = texts.STORE_LABEL
+    bl_description = texts.STORE_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: EnumProperty(**texts.STORED_PROPERTY, items=texts.STORED_ITEMS)
+    as_colors: BoolProperty(**texts.AS_COLORS_PROPERTY)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where there may be meshes to write to."""
+        return context.mode in {"EDIT_MESH", "OBJECT"}
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Store what the overlay shows, where that is a value."""
+        shown = map_overlay.settings(context).kind
+        if shown in names.ATTRIBUTES:
+            self.kind = shown
+        return self.execute(context)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Measure the maps of the meshes that the overlay shows, hidden faces too, and write."""
+        views = {}
+        for shown in map_overlay.shown_objects(context):
+            arrays = read_map.read_own_map(context, shown)
+            if arrays is not None and shown.data.library is None:
+                views[shown.data] = MapView(arrays)
+        if not views:
+            self.report({"WARNING"}, texts.NO_UV_MAP)
+            return {"CANCELLED"}
+        name, size = names.ATTRIBUTES[self.kind], map_overlay.settings(context).image_size
+        if self.as_colors:
+            name += names.COLORS_SUFFIX
+            low, high = automatic_range(list(views.values()), self.kind, size)
+            colors = legend.colors_of(self.kind, 1.0)
+            ramp = (colors.low, colors.middle, colors.high)
+        for mesh, view in views.items():
+            values = view.values(self.kind, size)
+            if self.as_colors:
+                attributes.store_corner_colors(mesh, name, color_ramp.colors_of(values, low, high, ramp))
+            else:
+                attributes.store_face_values(mesh, name, values)
+        self.report({"INFO"}, texts.stored(name))
+        return {"FINISHED"}

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which face of the shown maps lies below the mouse, in the 3D viewport and in the UV editor."""
+
+from dataclasses import dataclass
+
+import bpy
+from bpy_extras import view3d_utils
+from mathutils.bvhtree import BVHTree
+
+from ..core.map_view import MapView
+from . import map_overlay
+
+# The trees of the maps that were looked at, which take a moment to build.
+_trees: dict[MapView, BVHTree] = {}
+
+
+@dataclass(frozen=True)
+class FaceBelow:
+    """A face of the mesh of an object, and the view of its map."""
+
+    shown: bpy.types.Object
+    view: MapView
+    face: int
+
+
+def region_at(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Area, bpy.types.Region] | None:
+    """Return the editor and its main region at a place of the window, if the overlay can be seen there."""
+    for area in screen.areas:
+        if area.type not in {"VIEW_3D", "IMAGE_EDITOR"}:
+            continue
+        found = None
+        for region in area.regions:
+            if region.x <= x < region.x + region.width and region.y <= y < region.y + region.height:
+                if region.type != "WINDOW":
+                    return None
+                found = found or region
+        if found is not None:
+            return area, found
+    return None
+
+
+def face_below(
+    context: bpy.types.Context, area: bpy.types.Area, region: bpy.types.Region, x: float, y: float
+) -> FaceBelow | None:
+    """Return the face at a place of a region, in pixels from its lower left corner, None for none."""
+    if area.type == "IMAGE_EDITOR":
+        return _in_uv_editor(context, region.view2d.region_to_view(x, y))
+    # Regions of a quad view have a view of their own.
+    view = area.spaces.active.region_3d
+    if area.spaces.active.region_quadviews:
+        quads = [each for each in area.regions if each.type == "WINDOW"]
+        view = area.spaces.active.region_quadviews[quads.index(region)]
+    return _in_viewport(context, area.spaces.active, region, view, (x, y))
+
+
+def _in_uv_editor(context: bpy.types.Context, place: tuple[float, float]) -> FaceBelow | None:
+    for shown, _, view in map_overlay.views(context):
+        face = view.face_at(place)
+        if face >= 0:
+            return FaceBelow(shown, view, face)
+    return None
+
+
+def _in_viewport(
+    context: bpy.types.Context,
+    space: bpy.types.SpaceView3D,
+    region: bpy.types.Region,
+    region_3d: bpy.types.RegionView3D,
+    place: tuple[float, float],
+) -> FaceBelow | None:
+    origin = view3d_utils.region_2d_to_origin_3d(region, region_3d, place)
+    towards = origin + view3d_utils.region_2d_to_vector_3d(region, region_3d, place)
+    nearest, found = float("inf"), None
+    views = map_overlay.views(context)
+    for gone in set(_trees).difference(view for *_, view in views):
+        del _trees[gone]
+    for shown, _, view in views:
+        if not shown.visible_in_viewport_get(space) or abs(shown.matrix_world.determinant()) < 1e-30:
+            continue
+        inverse = shown.matrix_world.inverted()
+        start, end = inverse @ origin, inverse @ towards
+        hit, _, triangle, _ = _tree(view).ray_cast(start, end - start)
+        if hit is None:
+            continue
+        distance = (shown.matrix_world @ hit - origin).length
+        if distance < nearest:
+            nearest, found = distance, FaceBelow(shown, view, int(view.triangles[1][triangle]))
+    return found
+
+
+def _tree(view: MapView) -> BVHTree:
+    if view not in _trees:
+        vertices = view.arrays.corner_vertices.take(view.triangles[0])
+        _trees[view] = BVHTree.FromPolygons(view.arrays.positions.tolist(), vertices.tolist(), all_triangles=True)
+    return _trees[view]
+
+
+def forget() -> None:
+    """Forget all trees."""
+    _trees.clear()

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: an artist compares methods, reads the map below the mouse and clicks an island.
+
+blender --factory-startup --python drive_compare.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import importlib
+
+import bmesh
+import bpy
+import numpy as np
+
+from tests.interface import driving as drive
+from tests.interface import session
+from tests.interface.session import override, point_at, screenshot, xdotool
+
+
+def part_of_addon(name):
+    return importlib.import_module(f"spectral_unwrap.{name}")
+
+
+def open_suzanne():
+    """Suzanne with suggested seams, unwrapped; nothing is selected."""
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_monkey_add()
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.subdivide(smoothness=1.0)
+        bpy.ops.uv.spectral_suggest_seams("EXEC_DEFAULT", True)
+        bpy.ops.mesh.select_mode("EXEC_DEFAULT", True, type="FACE")
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_selected()
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    yield from drive.show_uvs()
+
+
+def search(words):
+    """Start an operator by its name, from Blender's search over all menus."""
+    xdotool("key", "F3")
+    yield
+    yield
+    xdotool("type", words)
+    yield
+    yield
+    xdotool("key", "Return")
+    yield
+
+
+def picture(name):
+    """Take a screenshot; return its pixels, (height, width, 3)."""
+    screenshot(name)
+    image = bpy.data.images.load(str(session.SCREENSHOTS / f"{name}.png"))
+    width, height = image.size
+    pixels = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, 4)[..., :3]
+
+
+def of_viewport(pixels):
+    region = drive.region_of("VIEW_3D")
+    return pixels[region.y : region.y + region.height, region.x : region.x + region.width]
+
+
+def selected():
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    return {face.index for face in bm.faces if face.select}
+
+
+def steps():
+    yield from drive.open_uv_editing()
+    yield from open_suzanne()
+    comparison, job_operator = part_of_addon("unwrapping.comparison"), part_of_addon("operators.job_operator")
+    map_overlay = part_of_addon("overlay.map_overlay")
+    before = session.uv()
+    point_at("VIEW_3D", 0.4, 0.6)
+    without = of_viewport(picture("compare_before"))
+    yield from search("Compare Methods")
+    yield from drive.until(comparison.last)
+    yield
+    yield
+    shown = of_viewport(picture("compare"))
+    assert np.abs(shown - without).mean() > 0.05, "the comparison is not to be seen"
+    np.testing.assert_array_equal(session.uv(), before)
+    # Nothing but closing it does anything.
+    xdotool("key", "x")
+    yield
+    assert job_operator.JobOperator._running is not None
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: job_operator.JobOperator._running is None)
+    yield
+    after = of_viewport(picture("compare_closed"))
+    assert np.abs(after - without).mean() < 0.02, "something is left of the comparison"
+    np.testing.assert_array_equal(session.uv(), before)
+    # The numbers of the face below the mouse, in both editors; a click selects its island.
+    with override("VIEW_3D"):
+        bpy.ops.mesh.select_all(action="DESELECT")
+    point_at("VIEW_3D", 0.5, 0.5)
+    yield from search("Inspect Map")
+    yield from drive.until(lambda: map_overlay.is_on(bpy.context))
+    point_at("VIEW_3D", 0.5, 0.52)
+    yield from drive.until(lambda: map_overlay._pointed_at is not None)
+    yield from drive.until(lambda: all(found.islands_known for _, found, _ in map_overlay.views(bpy.context)))
+    yield
+    screenshot("inspect_viewport")
+    ((_, _, view),) = map_overlay.views(bpy.context)
+    face = map_overlay._pointed_at[1]
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    bm.faces.ensure_lookup_table()
+    assert bm.faces[face].normal.y < 0.0, "the nearest face looks to the front"
+    xdotool("click", 1)
+    yield from drive.until(selected)
+    assert selected() == set(np.flatnonzero(view.island_of_face == view.island_of_face[face]))
+    # The same in the UV editor.
+    corner = view.arrays.face_offsets[0]
+    middle = view.arrays.uv[corner : view.arrays.face_offsets[1]].mean(axis=0)
+    region = drive.region_of("IMAGE_EDITOR")
+    x, y = region.view2d.view_to_region(*map(float, middle), clip=False)
+    drive.move_mouse(region.x + x, region.y + y)
+    yield from drive.until(lambda: map_overlay._pointed_at == (bpy.context.edit_object.name_full, 0))
+    yield
+    screenshot("inspect_uv_editor")
+    xdotool("key", "Escape")
+    yield
+    yield
+    assert map_overlay._pointed_at is None
+    np.testing.assert_array_equal(session.uv(), before)
+
+
+drive.run(steps())
