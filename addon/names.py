@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every identifier by which Blender and scripts know this add-on's parts; what artists read is in core/texts.py."""
 
+# By which Blender knows the add-on: as an extension it has another than before 4.2.
+PACKAGE = __package__
+
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
 
 SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"

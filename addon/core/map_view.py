@@ -273,29 +273,40 @@ def automatic_range(views: Sequence[MapView], kind: str, density: float = 1.0) -
     return min(low, middle / factor), max(high, middle * factor)
 
 
-def worst(views: Sequence[MapView], measure: str, percent: float, whole_islands: bool) -> list[np.ndarray]:
-    """Return the faces of each map, (F,) bool, that are the worst part of the surface of all.
+def worst(
+    views: Sequence[MapView],
+    measure: str,
+    percent: float,
+    whole_islands: bool,
+    limit: float | None = None,
+) -> list[np.ndarray]:
+    """Return the faces of each map, (F,) bool, that are the worst part of the surface of all, or worse than a limit.
 
     Args:
         views: at least one.
         measure: `texts.LOOK_ANGLE` or `texts.LOOK_SIZE`.
         percent: of the surface, 0 to 100; at least one face or island is chosen.
         whole_islands: choose islands by their averages.
+        limit: in place of `percent`, quasi-conformal distortion above which, or factor of the scale over its median, or
+            under it, beyond which faces or islands are chosen.
     """
     if measure == texts.LOOK_SIZE:
         scales, areas = (np.concatenate([getattr(v, name) for v in views]) for name in ("log2_scale", "area"))
         is_measured = (areas > 0.0) & np.isfinite(scales)
         median = weighted_percentiles(scales, areas, (50.0,))[0] if is_measured.any() else 0.0
         badness = [np.abs(view.log2_scale - median) for view in views]
+        least = None if limit is None else float(np.log2(max(limit, 1.0)))
     else:
-        badness = [view.qc for view in views]
+        badness, least = [view.qc for view in views], limit
     if whole_islands:
         badness = [_island_means(view, values) for view, values in zip(views, badness)]
     counts = np.cumsum([len(values) for values in badness])[:-1]
     values, areas = np.concatenate(badness), np.concatenate([view.area for view in views])
     values = np.nan_to_num(values, nan=_LARGE, posinf=_LARGE)
     chosen = np.zeros(len(values), dtype=bool)
-    if areas.any():
+    if least is not None:
+        chosen = (areas > 0.0) & (values > least)
+    elif areas.any():
         order = np.argsort(-values, kind="stable")
         order = order[areas[order] > 0.0]
         before = np.cumsum(areas[order]) - areas[order]

@@ -202,6 +202,14 @@ MEASURE_ITEMS = (
     ("SIZE", "Size", "Faces whose size in the map is farthest from that of most of the surface"),
 )
 AMOUNT_PROPERTY = {"name": "Amount", "description": "How much of the surface to select, the worst faces first"}
+USE_LIMIT_PROPERTY = {
+    "name": "Above Limit",
+    "description": "Select all that is worse than a limit, however much that is",
+}
+LIMIT_PROPERTY = {
+    "name": "Limit",
+    "description": "Angle distortion, 1 where angles are kept; or how many times larger or smaller than most faces are",
+}
 WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Compare islands instead of faces, by their average"}
 STORED_PROPERTY = {"name": "Store", "description": "What to write"}
 AS_COLORS_PROPERTY = {
@@ -229,6 +237,13 @@ IMAGE_SIZE_PROPERTY = {
 CHECKS_PROPERTY = {"name": "Squares", "description": "Squares of the checker along one side of a UV tile"}
 LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colours mean, and the numbers of the map"}
 
+OVERLAY_COLORS_LABEL = "Colors of the UV Map Overlay"
+ANGLE_LOW_PROPERTY = {"name": "Angles Kept", "description": "Color of faces whose angles are kept"}
+ANGLE_MIDDLE_PROPERTY = {"name": "Between", "description": "Color of faces in the middle of the range"}
+ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of faces at the end of the range and beyond"}
+SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces that are smaller in the map than most"}
+SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of the size of most"}
+SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces that are larger in the map than most"}
 PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices make a pair"}
 STRENGTH_PROPERTY = {
     "name": "Strength",
@@ -667,10 +682,12 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
     return f"{count} of {_count(total, 'cut')}, length {length} of {total_length}"
 
 
+PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
+
+
 def preview_status(known: str) -> str:
     """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
-    keys = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
-    return f"{SUGGEST_SEAMS_LABEL}: {known}   {keys}"
+    return f"{SUGGEST_SEAMS_LABEL}: {known}   {PREVIEW_KEYS}"
 
 
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:

@@ -12,10 +12,12 @@ from ..core.map_view import MapArrays
 from . import image_aspect
 
 
-def read_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays | None:
+def read_map(
+    context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
+) -> MapArrays | None:
     """Read the mesh of an object: in edit mode what is edited, else as the modifiers leave it.
 
-    None without faces or without a UV map.
+    In edit mode `other_uv`, (C, 2), takes the place of the active UV map. None without faces or without a UV map.
     """
     if shown.mode != "EDIT":
         evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
@@ -26,7 +28,8 @@ def read_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays |
     try:
         bm = bmesh.from_edit_mesh(shown.data)
         bm.to_mesh(copy)
-        return _arrays(copy, not context.scene.tool_settings.use_uv_select_sync, image_aspect.aspect(shown, bm))
+        only_selected = not context.scene.tool_settings.use_uv_select_sync
+        return _arrays(copy, only_selected, image_aspect.aspect(shown, bm), other_uv)
     finally:
         bpy.data.meshes.remove(copy, do_unlink=False, do_ui_user=False)
 
@@ -40,15 +43,18 @@ def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArra
     return arrays and replace(arrays, visible_faces=np.ones_like(arrays.visible_faces))
 
 
-def _arrays(mesh: bpy.types.Mesh, only_selected: bool, aspect: float) -> MapArrays | None:
-    if mesh.uv_layers.active is None or not len(mesh.polygons):
+def _arrays(
+    mesh: bpy.types.Mesh, only_selected: bool, aspect: float, other_uv: np.ndarray | None = None
+) -> MapArrays | None:
+    is_other = other_uv is not None and len(other_uv) == len(mesh.loops)
+    if (mesh.uv_layers.active is None and not is_other) or not len(mesh.polygons):
         return None
     visible = ~compatibility.flags(mesh, "polygons", "hide")
     return MapArrays(
         positions=compatibility.positions(mesh),
         face_offsets=compatibility.face_offsets(mesh),
         corner_vertices=compatibility.corner_vertices(mesh),
-        uv=compatibility.corner_uv(mesh),
+        uv=other_uv.astype(np.float32) if is_other else compatibility.corner_uv(mesh),
         visible_faces=visible,
         uv_faces=visible & compatibility.flags(mesh, "polygons", "select") if only_selected else visible,
         aspect=aspect,

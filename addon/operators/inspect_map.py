@@ -28,7 +28,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Turn the overlay and its legend on, and follow the mouse."""
-        overlay = map_overlay.settings(context)
+        overlay = map_overlay.settings()
         overlay.legend = True
         if not overlay.show:
             overlay.show = True
@@ -39,7 +39,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Follow the mouse; a click outside the meshes is Blender's."""
-        if not map_overlay.is_on(context) or context.mode not in {"EDIT_MESH", "OBJECT"}:
+        if not map_overlay.is_on() or context.mode not in {"EDIT_MESH", "OBJECT"}:
             return self._end(context)
         if event.type in _ENDS and event.value == "PRESS":
             return self._end(context)

@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Suggested seams before they are marked: how many of them to take, and what they would bring."""
 
+from dataclasses import dataclass
+
 import bpy
+import numpy as np
 
 from ..core import quality, seam_suggestion, texts
+from ..core.placement import place
 from ..core.progress import Progress
 from ..core.quality import MapQuality
 from ..core.seam_suggestion import Suggestion
 from ..core.solve import solve_all
 from ..core.worker import Worker
+from ..overlay import map_overlay
 from ..overlay.seam_lines import SeamLines
-from ..ui.progress import clear_status
+from ..ui.progress import HeaderText, clear_status
 from ..unwrapping.seams import Target
 
 # Keys that change the number of cuts, as in Blender's Loop Cut, by one or by a tenth of all.
@@ -20,6 +25,8 @@ _STEPS = {
 }
 _LEAPS = {"PAGE_UP": 1, "PAGE_DOWN": -1}
 _LEAP = 0.1
+# Maps that are kept for the overlay, beside the one shown: going back is at once, and memory has an end.
+_KEPT_MAPS = 8
 _SIGNS = {"+": 1, "-": -1}
 _APPLY = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
 
@@ -48,7 +55,13 @@ class SeamPreview:
         self._suggestion = suggestion
         self._factor = factor
         self._measured: dict[int, MapQuality] = {}
-        self._measuring: Worker[dict[int, MapQuality]] | None = None
+        # The maps of some of these, by object, for the overlay; and of which of them it shows.
+        self._maps: dict[int, dict[str, np.ndarray]] = {}
+        self._overlaid: int | None = None
+        self._keys: HeaderText | None = None
+        self._measuring: Worker[dict[int, _Measured]] | None = None
+        # Read now: the thread that measures must not touch Blender.
+        self._names = [edit_mesh.edit_object.name_full for edit_mesh in target.edit_meshes]
         self._lines = SeamLines(target.edit_meshes, suggestion)
 
     @property
@@ -57,7 +70,8 @@ class SeamPreview:
         return self.count
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Show the cuts."""
+        """Show the cuts, and the keys in the header of the editor."""
+        self._keys = HeaderText(context, texts.PREVIEW_KEYS)
         self.change(context, 0)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -85,9 +99,14 @@ class SeamPreview:
     def update(self, context: bpy.types.Context) -> None:
         """Show in the status bar what is known by now."""
         if self._measuring is not None and self._measuring.wait(0.0):
-            self._measured.update(self._measuring.result())
+            for count, found in self._measuring.result().items():
+                self._measured[count], self._maps[count] = found.quality, found.maps
             self._measuring = None
+        if map_overlay.is_on():
+            self._overlay(context)
         missing = {0, self.count} - set(self._measured)
+        if map_overlay.is_on() and self.count not in self._maps:
+            missing.add(self.count)
         if missing and self._measuring is None:
             self._measuring = Worker(lambda progress: self._measure(sorted(missing), progress))
         length, total = (
@@ -103,7 +122,19 @@ class SeamPreview:
         if self._measuring is not None:
             self._measuring.cancel()
         self._lines.remove(context)
+        map_overlay.preview(context, {})
+        if self._keys is not None:
+            self._keys.end()
         clear_status(context)
+
+    def _overlay(self, context: bpy.types.Context) -> None:
+        """Let the overlay show the map that the cuts would bring."""
+        for count in list(self._maps)[:-_KEPT_MAPS]:
+            if count != self.count:
+                del self._maps[count]
+        if self.count in self._maps and self._overlaid != self.count:
+            self._overlaid = self.count
+            map_overlay.preview(context, self._maps[self.count])
 
     def _step(self, event: bpy.types.Event) -> int:
         """Return by how many cuts a key changes their number, 0 for other keys."""
@@ -111,14 +142,27 @@ class SeamPreview:
             return _LEAPS[event.type] * max(1, round(_LEAP * len(self._suggestion.cuts)))
         return _STEPS.get(event.type, _SIGNS.get(event.ascii, 0))
 
-    def _measure(self, counts: list[int], progress: Progress) -> dict[int, MapQuality]:
+    def _measure(self, counts: list[int], progress: Progress) -> dict[int, "_Measured"]:
         """Return what the map is like after the first so many cuts; any thread may call it."""
         measured = {}
         for count in counts:
             meshes = seam_suggestion.cut_open(self._target.polygons, self._suggestion.part(0, count))
             solutions = solve_all(meshes, self._target.settings.options, progress)
-            measured[count] = quality.measure(meshes, solutions, self._factor)
+            placed = place(self._target.polygons, solutions, False, False).uv
+            maps = {
+                name: np.where(solution.solved_corners[:, None], uv, 0.0)
+                for name, uv, solution in zip(self._names, placed, solutions)
+            }
+            measured[count] = _Measured(quality.measure(meshes, solutions, self._factor), maps)
         return measured
+
+
+@dataclass(frozen=True)
+class _Measured:
+    """The quality of a map, and its UVs, (C, 2), by the full names of the objects."""
+
+    quality: MapQuality
+    maps: dict[str, np.ndarray]
 
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:

@@ -25,6 +25,8 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
 
     measure: EnumProperty(**texts.MEASURE_PROPERTY, items=texts.MEASURE_ITEMS)
     amount: FloatProperty(**texts.AMOUNT_PROPERTY, default=5.0, min=0.01, max=100.0, subtype="PERCENTAGE")
+    use_limit: BoolProperty(**texts.USE_LIMIT_PROPERTY)
+    limit: FloatProperty(**texts.LIMIT_PROPERTY, default=1.5, min=1.0, soft_max=10.0)
     whole_islands: BoolProperty(**texts.WHOLE_ISLANDS_PROPERTY)
     extend: BoolProperty(**texts.EXTEND_PROPERTY)
 
@@ -33,6 +35,14 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         """Allow the operator where a mesh is in edit mode."""
         return context.mode == "EDIT_MESH"
 
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw the amount or the limit, whichever counts."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in ("measure", "use_limit", "limit" if self.use_limit else "amount", "whole_islands", "extend"):
+            layout.prop(self, name)
+
     def run(self, context: bpy.types.Context) -> set[str]:
         """Measure the maps of all meshes in edit mode together and select the worst faces, or islands."""
         arrays = {each.data: read_map(context, each) for each in context.objects_in_mode_unique_data}
@@ -40,7 +50,8 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         if not views:
             self.report({"WARNING"}, texts.NO_UV_MAP)
             return {"CANCELLED"}
-        chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands)
+        limit = self.limit if self.use_limit else None
+        chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands, limit)
         selection.select_shown(context, dict(zip(views, chosen)), self.extend)
         self.report({"INFO"}, texts.selected_worst(sum(int(faces.sum()) for faces in chosen)))
         return {"FINISHED"}

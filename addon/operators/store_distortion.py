@@ -30,7 +30,7 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Store what the overlay shows, where that is a value."""
-        shown = map_overlay.settings(context).kind
+        shown = map_overlay.settings().kind
         if shown in names.ATTRIBUTES:
             self.kind = shown
         return self.execute(context)
@@ -45,7 +45,7 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
         if not views:
             self.report({"WARNING"}, texts.NO_UV_MAP)
             return {"CANCELLED"}
-        name, size = names.ATTRIBUTES[self.kind], map_overlay.settings(context).image_size
+        name, size = names.ATTRIBUTES[self.kind], map_overlay.settings().image_size
         if self.as_colors:
             name += names.COLORS_SUFFIX
             low, high = automatic_range(list(views.values()), self.kind, size)

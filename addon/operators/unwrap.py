@@ -22,7 +22,7 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
     bl_idname = names.UNWRAP_OPERATOR
     bl_label = texts.UNWRAP_LABEL
     bl_description = texts.UNWRAP_DESCRIPTION
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     method: EnumProperty(**texts.METHOD_PROPERTY, items=texts.METHOD_ITEMS)
     weights: EnumProperty(**texts.WEIGHTS_PROPERTY, items=texts.WEIGHTS_ITEMS)

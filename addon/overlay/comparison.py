@@ -14,7 +14,7 @@ from ..core.map_view import MapView, automatic_range
 from . import colored_triangles, legend
 from .screen_text import LINE, draw_line, fill_box
 
-_BACKGROUND = (0.08, 0.08, 0.08, 0.96)
+_BACKGROUND = (0.08, 0.08, 0.08, 1.0)
 _TILE = (0.17, 0.17, 0.17, 1.0)
 _BEST = (0.55, 0.85, 1.0, 1.0)
 _TEXT = (0.92, 0.92, 0.92, 1.0)

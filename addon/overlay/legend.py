@@ -5,21 +5,19 @@ from collections.abc import Sequence
 
 import bpy
 
-from ..core import texts
+from .. import names
+from ..core import color_ramp, texts
 from .colored_triangles import Colors
 from .screen_text import LINE, draw_line, fill_box, text_width
 
-# Colours of the values: from good to bad, or from small over even to large.
-_GOOD_TO_BAD = ((0.16, 0.38, 0.85), (0.98, 0.86, 0.25), (0.86, 0.12, 0.10))
-_SMALL_TO_LARGE = ((0.13, 0.40, 0.80), (0.93, 0.93, 0.93), (0.85, 0.25, 0.14))
 _SOUND_TO_FLIPPED = ((0.45, 0.45, 0.45), (1.0, 0.62, 0.05), (0.90, 0.05, 0.65))
 _CHECKER = ((0.12, 0.12, 0.12), (0.5, 0.5, 0.5), (0.92, 0.92, 0.92))
-_RAMPS = {
-    texts.LOOK_ANGLE: _GOOD_TO_BAD,
-    texts.LOOK_SIZE: _SMALL_TO_LARGE,
-    texts.LOOK_DENSITY: _SMALL_TO_LARGE,
-    texts.LOOK_DEFECTS: _SOUND_TO_FLIPPED,
-    texts.LOOK_CHECKER: _CHECKER,
+_FIXED = {texts.LOOK_DEFECTS: _SOUND_TO_FLIPPED, texts.LOOK_CHECKER: _CHECKER}
+# The other kinds: where the preferences have their colours, and what these are without preferences.
+_CHOSEN = {
+    texts.LOOK_ANGLE: ("angle", color_ramp.GOOD_TO_BAD),
+    texts.LOOK_SIZE: ("size", color_ramp.SMALL_TO_LARGE),
+    texts.LOOK_DENSITY: ("size", color_ramp.SMALL_TO_LARGE),
 }
 # Pixels at a scale of 1.
 _WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
@@ -28,7 +26,13 @@ _BACKGROUND = (0.08, 0.08, 0.08, 0.72)
 
 def colors_of(kind: str, opacity: float) -> Colors:
     """Return the colours that stand for what is shown."""
-    return Colors(*_RAMPS[kind], opacity)
+    if kind in _FIXED:
+        return Colors(*_FIXED[kind], opacity)
+    scale, colors = _CHOSEN[kind]
+    addon = bpy.context.preferences.addons.get(names.PACKAGE)
+    if addon is not None and addon.preferences is not None:
+        colors = [tuple(getattr(addon.preferences, f"{scale}_{place}")) for place in ("low", "middle", "high")]
+    return Colors(*colors, opacity)
 
 
 def draw(

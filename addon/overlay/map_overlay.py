@@ -7,7 +7,7 @@ the islands, which take longer, come when the mesh has been left alone for a mom
 """
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 import bpy
 import gpu
@@ -47,7 +47,7 @@ class _ShownMesh:
         """Return what the object shows now; None without faces or a UV map."""
         if self._is_stale:
             self._is_stale = False
-            arrays = read_map.read_map(context, shown)
+            arrays = read_map.read_map(context, shown, _preview.get(shown.name_full))
             if self._differs(arrays):
                 self._view = None if arrays is None else MapView(arrays)
                 self._batches.clear()
@@ -78,26 +78,28 @@ _shown: dict[str, _ShownMesh] = {}
 # The automatic range, kept while the mesh is edited: colours that change all the time tell nothing.
 _range: dict[tuple, tuple[float, float]] = {}
 _handles: list[tuple[type, object]] = []
+# UVs shown in place of those of objects, by their full names: a map that an artist may choose.
+_preview: dict[str, np.ndarray] = {}
 # The face whose numbers the legend has, by the name of its object and its index.
 _pointed_at: tuple[str, int] | None = None
 _print_once = PrintOnce(lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
 _edited_at = 0.0
 
 
-def settings(context: bpy.types.Context) -> bpy.types.PropertyGroup:
+def settings() -> bpy.types.PropertyGroup:
     """Return the properties of the overlay."""
-    return getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
+    return getattr(bpy.context.window_manager, names.MAP_OVERLAY_PROPERTY)
 
 
-def is_on(context: bpy.types.Context) -> bool:
+def is_on() -> bool:
     """Return whether the overlay is shown."""
-    return settings(context).show
+    return settings().show
 
 
 def toggled() -> None:
     """Take up drawing, or end it and forget everything."""
     context = bpy.context
-    if is_on(context):
+    if is_on():
         _add_handlers()
     else:
         _remove_handlers()
@@ -124,8 +126,18 @@ def forget() -> None:
     """Forget all meshes, as names mean others in another file."""
     global _pointed_at  # noqa: PLW0603 - see point_at
     _pointed_at = None
+    _preview.clear()
     _shown.clear()
     _range.clear()
+
+
+def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
+    """Show these UVs, (C, 2), of objects in edit mode by their full names, in place of their own; none to end that."""
+    if maps or _preview:
+        _preview.clear()
+        _preview.update(maps)
+        edited()
+        redraw(context)
 
 
 def point_at(context: bpy.types.Context, face: tuple[str, int] | None) -> None:
@@ -168,7 +180,7 @@ def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, _ShownMesh
 
 def automatic(context: bpy.types.Context) -> tuple[float, float]:
     """Return the range of the colours that follows the shown maps."""
-    found, chosen = views(context), settings(context)
+    found, chosen = views(context), settings()
     key = (chosen.kind, chosen.image_size, *(each.name_full for each, *_ in found))
     if found and key not in _range:
         _range.clear()
@@ -178,15 +190,15 @@ def automatic(context: bpy.types.Context) -> tuple[float, float]:
 
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
     """Return the values at the two ends of the colours."""
-    chosen = settings(context)
+    chosen = settings()
     if chosen.use_range and chosen.kind not in (texts.LOOK_DEFECTS, texts.LOOK_CHECKER):
         return chosen.range_low, max(chosen.range_high, chosen.range_low + 1e-6)
     return automatic(context)
 
 
-def colors(context: bpy.types.Context) -> Colors:
+def colors() -> Colors:
     """Return the colours that the overlay has now."""
-    chosen = settings(context)
+    chosen = settings()
     return legend.colors_of(chosen.kind, chosen.opacity)
 
 
@@ -209,7 +221,7 @@ def _draw_in_viewport(context: bpy.types.Context) -> None:
     ready = list(_ready(context))
     if not ready:
         return
-    chosen, low_high = settings(context), shown_range(context)
+    chosen, low_high = settings(), shown_range(context)
     is_through = space.shading.type == "WIREFRAME" or (space.shading.type == "SOLID" and space.shading.show_xray)
     shader = colored_triangles.shader(is_flat=False)
     with in_front_of_faces(context.region_data, _NEARER):
@@ -220,29 +232,32 @@ def _draw_in_viewport(context: bpy.types.Context) -> None:
                 continue
             with gpu.matrix.push_pop():
                 gpu.matrix.multiply_matrix(each.matrix_world)
-                colored_triangles.draw(triangles, shader, colors(context), *low_high, _checks(chosen))
+                colored_triangles.draw(triangles, shader, colors(), *low_high, _checks(chosen))
 
 
 def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     space = context.space_data
     if not (space.show_uvedit and space.overlay.show_overlays and context.mode == "EDIT_MESH"):
         return
+    if _preview:
+        # It would lie among the UVs that there are.
+        return
     ready = list(_ready(context))
-    chosen, low_high = settings(context), shown_range(context)
+    chosen, low_high = settings(), shown_range(context)
     gpu.state.blend_set("ALPHA")
     try:
         for _each, shown, _view in ready:
             triangles = shown.batch(chosen.kind, chosen.image_size, in_editor=True)
             if triangles is not None:
                 shader = colored_triangles.shader(is_flat=True)
-                colored_triangles.draw(triangles, shader, colors(context), *low_high, _checks(chosen))
+                colored_triangles.draw(triangles, shader, colors(), *low_high, _checks(chosen))
     finally:
         gpu.state.blend_set("NONE")
 
 
 def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, _ShownMesh, MapView]]:
     """Yield what can be drawn now: flipped and overlapping faces only once they are known."""
-    needs_islands = settings(context).kind in _NEEDS_ISLANDS
+    needs_islands = settings().kind in _NEEDS_ISLANDS
     for found in views(context):
         if needs_islands and not found[1].islands_known:
             continue
@@ -256,14 +271,14 @@ def _checks(chosen: bpy.types.PropertyGroup) -> float:
 
 def _draw_legend(context: bpy.types.Context) -> None:
     space = context.space_data
-    if not (settings(context).legend and space.overlay.show_overlays):
+    if not (settings().legend and space.overlay.show_overlays):
         return
     if context.area.type == "IMAGE_EDITOR" and not (space.show_uvedit and context.mode == "EDIT_MESH"):
         return
     found = views(context)
     if not found:
         return
-    chosen = settings(context)
+    chosen = settings()
     lines: list[str] = []
     if len(found) == 1 and found[0][1].islands_known:
         shown, view = found[0][1:]
@@ -275,7 +290,7 @@ def _draw_legend(context: bpy.types.Context) -> None:
     for each, shown, view in found:
         if _pointed_at is not None and each.name_full == _pointed_at[0] and _pointed_at[1] < len(view.qc):
             lines.extend(_face_lines(shown, view, _pointed_at[1], chosen.image_size))
-    legend.draw(context, chosen.kind, colors(context), shown_range(context), lines)
+    legend.draw(context, chosen.kind, colors(), shown_range(context), lines)
 
 
 def _face_lines(shown: _ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:

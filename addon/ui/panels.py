@@ -123,7 +123,7 @@ class _SettingsPanel(_Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw what artists change."""
         properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-        unwrap_settings.draw_common(self.layout, properties)
+        unwrap_settings.draw_common(self.layout, properties, is_narrow=True)
 
 
 class _AdvancedPanel(_Panel):
@@ -136,7 +136,7 @@ class _AdvancedPanel(_Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the rest of the settings."""
         properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
-        unwrap_settings.draw_advanced(self.layout, properties)
+        unwrap_settings.draw_advanced(self.layout, properties, is_narrow=True)
 
 
 class _ResultPanel(_Panel):
@@ -256,9 +256,7 @@ class _MapOverlayPanel(_Panel):
         """Draw what is shown, and how."""
         layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
         layout.active = overlay.show
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        layout.prop(overlay, "kind")
+        layout.prop(overlay, "kind", text="")
         if overlay.kind == texts.LOOK_CHECKER:
             layout.prop(overlay, "checks")
         if overlay.kind == texts.LOOK_DENSITY:

@@ -8,26 +8,34 @@ import bpy
 from ..core import texts
 
 
-def draw_common(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401 - the operator or its record
-    """Draw what artists change."""
-    _split(layout)
+def draw_common(
+    layout: bpy.types.UILayout,
+    properties: Any,  # noqa: ANN401 - the operator or its record
+    is_narrow: bool = False,
+) -> None:
+    """Draw what artists change; where it `is_narrow`, with the names of settings inside of their fields."""
+    _split(layout, is_narrow)
     layout.prop(properties, "area_blend")
     layout.prop(properties, "fold_free")
-    layout.prop(properties, "placement")
+    _enumeration(layout, properties, "placement", texts.PLACEMENT_PROPERTY, is_narrow)
     column = layout.column()
     column.active = properties.placement == texts.PACK
     column.prop(properties, "turn_to_pack")
-    column.prop(properties, "margin_method")
+    _enumeration(column, properties, "margin_method", texts.MARGIN_METHOD_PROPERTY, is_narrow)
     column.prop(properties, "margin")
 
 
-def draw_advanced(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401 - the operator or its record
+def draw_advanced(
+    layout: bpy.types.UILayout,
+    properties: Any,  # noqa: ANN401 - the operator or its record
+    is_narrow: bool = False,
+) -> None:
     """Draw the rest."""
-    _split(layout)
+    _split(layout, is_narrow)
     is_spectral = properties.method == "SPECTRAL"
-    layout.prop(properties, "method")
-    layout.prop(properties, "weights")
-    _row(layout, is_spectral).prop(properties, "boundary")
+    _enumeration(layout, properties, "method", texts.METHOD_PROPERTY, is_narrow)
+    _enumeration(layout, properties, "weights", texts.WEIGHTS_PROPERTY, is_narrow)
+    _enumeration(_row(layout, is_spectral), properties, "boundary", texts.BOUNDARY_PROPERTY, is_narrow)
     layout.prop(properties, "polish")
     layout.prop(properties, "stretch")
     layout.separator()
@@ -42,9 +50,25 @@ def draw_advanced(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa:
     layout.prop(properties, "use_subsurf_data")
 
 
-def _split(layout: bpy.types.UILayout) -> None:
-    layout.use_property_split = True
+def _split(layout: bpy.types.UILayout, is_narrow: bool) -> None:
+    layout.use_property_split = not is_narrow
     layout.use_property_decorate = False
+
+
+def _enumeration(
+    layout: bpy.types.UILayout,
+    properties: Any,  # noqa: ANN401 - the operator or its record
+    identifier: str,
+    words: dict[str, str],
+    is_narrow: bool,
+) -> None:
+    if not is_narrow:
+        layout.prop(properties, identifier)
+        return
+    # By itself Blender leaves too little room for the name.
+    split = layout.split(factor=0.53)
+    split.label(text=words["name"])
+    split.prop(properties, identifier, text="")
 
 
 def _row(layout: bpy.types.UILayout, active: bool) -> bpy.types.UILayout:

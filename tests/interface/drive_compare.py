@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist compares methods, reads the map below the mouse and clicks an island.
+"""Runs inside Blender with a window: an artist looks at maps before deciding for one, and reads it below the mouse.
 
 blender --factory-startup --python drive_compare.py -- <folder for the screenshots> <file for the verdict>
 """
@@ -67,6 +67,43 @@ def selected():
     return {face.index for face in bm.faces if face.select}
 
 
+def look_at_suggestions():
+    """Suggest seams with the overlay on, take fewer, and leave everything as it was."""
+    job_operator, overlay = part_of_addon("operators.job_operator"), part_of_addon("overlay.map_overlay")
+
+    def shown():
+        ((_, _, view),) = overlay.views(bpy.context)
+        return view
+
+    before, settings = session.uv(), bpy.context.window_manager.spectral_map_overlay
+    settings.show = True
+    own = shown().qc
+    with override("VIEW_3D"):
+        bpy.ops.mesh.mark_seam(clear=True)
+        bpy.ops.uv.spectral_suggest_seams("INVOKE_DEFAULT")
+    running = job_operator.JobOperator
+    yield from drive.until(lambda: running._running is not None and running._running.choice is not None)
+    choice = running._running.choice
+    total = choice.count
+    yield from drive.until(lambda: choice._overlaid == total)
+    yield
+    screenshot("preview_of_all_seams")
+    all_cuts = shown().qc
+    assert all_cuts.mean() < own.mean()
+    point_at("VIEW_3D", 0.5, 0.5)
+    xdotool("key", "Next")
+    yield from drive.until(lambda: choice._overlaid == choice.count < total)
+    yield
+    screenshot("preview_of_fewer_seams")
+    assert not np.array_equal(shown().qc, all_cuts)
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: running._running is None)
+    yield
+    np.testing.assert_array_equal(shown().qc, own)
+    np.testing.assert_array_equal(session.uv(), before)
+    settings.show = False
+
+
 def steps():
     yield from drive.open_uv_editing()
     yield from open_suzanne()
@@ -97,7 +134,7 @@ def steps():
         bpy.ops.mesh.select_all(action="DESELECT")
     point_at("VIEW_3D", 0.5, 0.5)
     yield from search("Inspect Map")
-    yield from drive.until(lambda: map_overlay.is_on(bpy.context))
+    yield from drive.until(lambda: map_overlay.is_on())
     point_at("VIEW_3D", 0.5, 0.52)
     yield from drive.until(lambda: map_overlay._pointed_at is not None)
     yield from drive.until(lambda: all(found.islands_known for _, found, _ in map_overlay.views(bpy.context)))
@@ -125,6 +162,10 @@ def steps():
     yield
     assert map_overlay._pointed_at is None
     np.testing.assert_array_equal(session.uv(), before)
+    with override("VIEW_3D"):
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.uv.smart_project()
+    yield from look_at_suggestions()
 
 
 drive.run(steps())

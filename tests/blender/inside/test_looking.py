@@ -158,3 +158,52 @@ def test_whole_islands_are_selected_by_their_average():
     bpy.context.scene.tool_settings.use_uv_select_sync = True
     assert bpy.ops.uv.spectral_select_distorted(amount=1.0, whole_islands=True) == {"FINISHED"}
     assert selected(grid) == {face.index for face in scenes.edit_mesh(grid).faces} - apart
+
+
+def test_islands_above_a_limit_are_selected():
+    grid = stretched_grid()
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    assert bpy.ops.uv.spectral_select_distorted(use_limit=True, limit=1.9) == {"FINISHED"}
+    stretched = selected(grid)
+    assert len(stretched) == 6
+    assert bpy.ops.uv.spectral_select_distorted(use_limit=True, limit=2.1) == {"FINISHED"}
+    assert selected(grid) == set()
+    # On average the island is distorted by a sixth.
+    for limit, count in ((1.1, 36), (1.2, 0)):
+        bpy.ops.uv.spectral_select_distorted(use_limit=True, limit=limit, whole_islands=True)
+        assert len(selected(grid)) == count
+
+
+def test_another_map_can_be_shown_in_place_of_the_mesh_s_own():
+    grid = stretched_grid()
+    ((_, _, own),) = map_overlay.views(bpy.context)
+    assert own.qc.max() > 1.9
+    even = np.array([vertex.co.xy for face in scenes.edit_mesh(grid).faces for vertex in face.verts])
+    before = scenes.state(grid)
+    window_manager = bpy.context.window_manager
+    try:
+        map_overlay._handles.append(None)  # as if it were drawn
+        map_overlay.preview(bpy.context, {grid.name_full: even})
+        ((_, _, other),) = map_overlay.views(bpy.context)
+        assert other.qc == pytest.approx(1.0, abs=1e-6)
+        map_overlay.preview(bpy.context, {})
+        ((_, _, again),) = map_overlay.views(bpy.context)
+        assert again.qc == pytest.approx(own.qc)
+    finally:
+        map_overlay._handles.clear()
+        map_overlay.forget()
+    assert scenes.state(grid) == before
+    assert not window_manager.spectral_map_overlay.show
+
+
+def test_colors_are_those_of_the_preferences():
+    legend = importlib.import_module("spectral_unwrap.overlay.legend")
+    color_ramp = importlib.import_module("spectral_unwrap.core.color_ramp")
+    preferences = bpy.context.preferences.addons["spectral_unwrap"].preferences
+    assert legend.colors_of("ANGLE", 1.0).low == pytest.approx(color_ramp.GOOD_TO_BAD[0])
+    preferences.angle_low = (0.5, 0.25, 0.75)
+    try:
+        assert legend.colors_of("ANGLE", 1.0).low == pytest.approx((0.5, 0.25, 0.75))
+        assert legend.colors_of("SIZE", 1.0).low == pytest.approx(color_ramp.SMALL_TO_LARGE[0])
+    finally:
+        preferences.property_unset("angle_low")
