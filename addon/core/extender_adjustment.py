@@ -10,6 +10,7 @@ from . import charts, native, placement, solve, texts
 from .errors import ReadableError
 from .mesh import PolygonMesh
 from .options import Options
+from .translation import translate
 
 # Relative residual that the map on screen needs, of which a pixel is about a thousandth.
 _TOLERANCE = 1e-4
@@ -43,7 +44,7 @@ class ExtenderAdjustment:
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
         if not faces.any():
-            raise AdjustmentError(texts.NO_COMMON_ISLAND)
+            raise AdjustmentError(translate(texts.NO_COMMON_ISLAND))
         self._mesh = replace(mesh, selected_faces=faces)
         self._options = replace(options, method="spectral")
         self._pairs = list(pairs)
@@ -82,7 +83,7 @@ class ExtenderAdjustment:
             raise AdjustmentError(failed[0])
         self.unused = int(np.count_nonzero(result.unused_extenders[len(self._others) :]))
         if self.unused == len(self._pairs):
-            raise AdjustmentError(texts.HELD_BY_PINS)
+            raise AdjustmentError(translate(texts.HELD_BY_PINS))
         if self._shown is None:
             self._chart = result.chart_of_face[self._mesh.face_of_corner()]
             self._shown, self._scale = self._start(result.uv, self._chart, np.array([c.area for c in result.charts]))

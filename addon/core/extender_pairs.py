@@ -14,6 +14,7 @@ import numpy as np
 
 from . import texts
 from .errors import ReadableError
+from .translation import translate
 
 # Identifiers lie below: Blender interpolates the integers of vertices in single precision, which holds these exactly.
 ID_LIMIT = 1 << 24
@@ -84,7 +85,7 @@ def pairs_in_order(selected: Sequence[int], ordered: Sequence[int]) -> list[tupl
         SelectionError: the vertices make no pairs.
     """
     if len(selected) < 2:
-        raise SelectionError(texts.SELECT_PAIR)
+        raise SelectionError(translate(texts.SELECT_PAIR))
     if len(selected) == 2:
         vertices = ordered if len(ordered) == 2 else selected
     elif len(ordered) < len(selected):
@@ -103,9 +104,9 @@ def pairs_to_active(selected: Sequence[int], active: int | None) -> list[tuple[i
         SelectionError: no vertex is active, or it is the only one selected.
     """
     if len(selected) < 2:
-        raise SelectionError(texts.SELECT_WITH_ACTIVE)
+        raise SelectionError(translate(texts.SELECT_WITH_ACTIVE))
     if active is None:
-        raise SelectionError(texts.NO_ACTIVE_VERTEX)
+        raise SelectionError(translate(texts.NO_ACTIVE_VERTEX))
     return [(vertex, active) for vertex in selected if vertex != active]
 
 

@@ -16,6 +16,10 @@ _BUNDLED = f"{__package__.rpartition('.')[0]}.{_TOP_LEVEL}"
 class NativeModuleError(ReadableError, ImportError):
     """The compiled module is missing or does not fit this Blender; the message says what to do."""
 
+    def __str__(self) -> str:
+        """Return the message, worded now: a thread may raise this, and Blender translates in the main thread only."""
+        return texts.no_module(self.__cause__) if self.__cause__ is not None else super().__str__()
+
 
 def spectral_conformal() -> ModuleType:
     """Return the module `spectral_conformal`.
@@ -28,7 +32,7 @@ def spectral_conformal() -> ModuleType:
     try:
         return import_module(_name())
     except ImportError as error:
-        raise NativeModuleError(texts.no_module(error)) from error
+        raise NativeModuleError from error
 
 
 @cache

@@ -3,6 +3,12 @@
 
 Without bpy, so that both the Blender layer and the rest of core can import it. Blender calls a chart an island; so do
 these sentences. A function that returns an empty text has nothing to say.
+
+Everything here is a key of the tables in addon/locale/: a constant, with named fields where values go. The functions
+look their sentences up when they are called, and the labels that they are given; they return what is to be shown. The
+constants are plain English: Blender translates what it gets as labels and descriptions, and whoever shows a constant
+otherwise looks it up with `translation.translate`. What the solver returns, reasons and names of phases, stays English
+within our sentences.
 """
 
 from __future__ import annotations
@@ -10,6 +16,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
+
+from .translation import translate
 
 if TYPE_CHECKING:
     from .defects import Defects
@@ -21,7 +29,7 @@ UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
 SELECT_FAILED_LABEL = "Select Failed Islands"
 SELECT_FAILED_DESCRIPTION = (
-    f"Select the visible faces of the islands that {UNWRAP_LABEL} could not solve when they were unwrapped last"
+    "Select the visible faces of the islands that Spectral Unwrap could not solve when they were unwrapped last"
 )
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
 SELECT_DEFECTS_DESCRIPTION = (
@@ -178,7 +186,7 @@ CUTS_PROPERTY = {
 }
 UNWRAP_PROPERTY = {
     "name": "Unwrap",
-    "description": f"Unwrap the faces afterwards, with the settings with which {UNWRAP_LABEL} was used last",
+    "description": "Unwrap the faces afterwards, with the settings with which Spectral Unwrap was used last",
 }
 FLIPPED_PROPERTY = {
     "name": "Flipped",
@@ -344,36 +352,47 @@ NO_UV_MAP = "There is no UV map to look at; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+# Numbers with what they count: for one, and for any other number.
+_CUTS = ("{n} cut", "{n} cuts")
+_EXTENDERS = ("{n} extender", "{n} extenders")
+_FACES = ("{n} face", "{n} faces")
+_ISLANDS = ("{n} island", "{n} islands")
 
 
 def is_running(label: str) -> str:
     """Return why an operator is not available while the one with this label runs."""
-    return f"{label} is running; Esc cancels it"
+    return translate("{operator} is running; Esc cancels it").format(operator=translate(label))
 
 
 def cancelled(label: str) -> str:
     """Return what the operator with this label says when it is cancelled."""
-    return f"{label}: Cancelled"
+    return translate("{operator}: Cancelled").format(operator=translate(label))
 
 
 def progress(label: str, percent: int, phase: str) -> str:
     """Return what the status bar shows while the operator with this label runs."""
-    return " ".join(part for part in (f"{label}: {percent} %", phase, "  Esc: Cancel") if part)
+    operator = translate(label)
+    if not phase:
+        return translate("{operator}: {percent} %   Esc: Cancel").format(operator=operator, percent=percent)
+    sentence = translate("{operator}: {percent} % {phase}   Esc: Cancel")
+    return sentence.format(operator=operator, percent=percent, phase=phase)
 
 
 def printed_progress(label: str, percent: int, phase: str) -> str:
     """Return the line that tells on a terminal how far the operator with this label is."""
-    return f"{label}: {percent} % ({phase})"
+    sentence = translate("{operator}: {percent} % ({phase})")
+    return sentence.format(operator=translate(label), percent=percent, phase=phase)
 
 
 def could_not_follow(problem: str) -> str:
     """Return the line that tells on a terminal that live unwrapping could not follow."""
-    return f"{LIVE_UNWRAP_LABEL} could not follow: {problem}"
+    sentence = translate("{operator} could not follow: {problem}")
+    return sentence.format(operator=translate(LIVE_UNWRAP_LABEL), problem=problem)
 
 
 def not_drawn(label: str, problem: str) -> str:
     """Return the line that tells on a terminal that something could not be drawn."""
-    return f"{label} could not be drawn: {problem}"
+    return translate("{name} could not be drawn: {problem}").format(name=translate(label), problem=problem)
 
 
 def information(summary: Summary, seconds: float, where_to_see: str) -> str:
@@ -381,69 +400,82 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
 
     `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
     """
+    unwrapped = translate("Unwrapped {islands}: angle distortion {mean} average, {worst} worst")
     parts = [
-        f"Unwrapped {_count(summary.solved, 'island')}: angle distortion {_qc(summary.mean_qc)} average, "
-        f"{_qc(summary.max_qc)} worst",
+        unwrapped.format(
+            islands=_count(summary.solved, _ISLANDS), mean=_qc(summary.mean_qc), worst=_qc(summary.max_qc)
+        ),
         _defects(summary.flipped, summary.overlapping, where_to_see),
-        f"{seconds:.2f} s",
+        translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
 
 
 def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
     if not flipped and not overlapping:
-        return "no flipped faces"
-    kinds = [(flipped, "flipped face"), (overlapping, "overlapping face")]
-    return f"{', '.join(_count(count, noun) for count, noun in kinds if count)} (see {where_to_see})"
+        return translate("no flipped faces")
+    kinds = []
+    if flipped:
+        kinds.append(_count(flipped, ("{n} flipped face", "{n} flipped faces")))
+    if overlapping:
+        kinds.append(_count(overlapping, ("{n} overlapping face", "{n} overlapping faces")))
+    return translate("{faces} (see {operator})").format(faces=", ".join(kinds), operator=translate(where_to_see))
 
 
 def look(kind: str) -> str:
     """Return the label of what the overlay shows."""
-    return next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind)
+    return translate(next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind))
 
 
 def look_value(kind: str, value: float) -> str:
     """Return a value of what the overlay shows, as the legend has it."""
     if kind == LOOK_SIZE:
-        return f"{2.0**value:.2f} x"
-    return f"{value:.3g}" if kind == LOOK_DENSITY else f"{value:.2f}"
+        return translate("{factor} x").format(factor=format(2.0**value, ".2f"))
+    return format(value, ".3g" if kind == LOOK_DENSITY else ".2f")
 
 
 def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
     """Return what stands at the lower end, the middle and the upper end of the legend's colours."""
     if kind == LOOK_DEFECTS:
-        return ("sound", "overlapping", "flipped")
+        return (translate("sound"), translate("overlapping"), translate("flipped"))
     return tuple(look_value(kind, value) for value in (low, middle, high))
 
 
-def legend_numbers(name: str, numbers: IslandNumbers) -> tuple[str, ...]:
-    """Return the lines that the legend has on a part of the map."""
+def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
+    """Return the lines that the legend has on the part of the map with this label."""
+    name, faces = translate(label), _count(numbers.faces, _FACES)
     if numbers.mean_qc != numbers.mean_qc:
-        return (f"{name}: {_count(numbers.faces, 'face')}, nothing to measure",)
-    spread = 100.0 * (2.0**numbers.log2_scale_deviation - 1.0)
+        return (translate("{name}: {faces}, nothing to measure").format(name=name, faces=faces),)
+    angles = translate("Angles {mean} average, {worst} worst")
     lines = [
-        f"{name}: {_count(numbers.faces, 'face')}",
-        f"Angles {_qc(numbers.mean_qc)} average, {_qc(numbers.max_qc)} worst",
-        f"Sizes vary by {spread:.1f} %",
+        translate("{name}: {faces}").format(name=name, faces=faces),
+        angles.format(mean=_qc(numbers.mean_qc), worst=_qc(numbers.max_qc)),
+        translate("Sizes vary by {percent} %").format(percent=_spread(numbers)),
     ]
     if numbers.flipped or numbers.overlapping:
-        lines.append(f"{numbers.flipped} flipped, {numbers.overlapping} overlapping")
+        defects = translate("{flipped} flipped, {overlapping} overlapping")
+        lines.append(defects.format(flipped=numbers.flipped, overlapping=numbers.overlapping))
     return tuple(lines)
+
+
+def _spread(numbers: IslandNumbers) -> str:
+    """Return by how many percent the scale deviates."""
+    return format(100.0 * (2.0**numbers.log2_scale_deviation - 1.0), ".1f")
 
 
 def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapping: int) -> str:
     """Return the line of an island in the list of the last result."""
-    parts = [f"{mean_qc:.3f} / {_qc(max_qc)}", f"{faces} f."]
+    parts = [" / ".join((format(mean_qc, ".3f"), _qc(max_qc))), translate("{n} f.").format(n=faces)]
     if flipped:
-        parts.append(f"{flipped} flipped")
+        parts.append(translate("{n} flipped").format(n=flipped))
     if overlapping:
-        parts.append(f"{overlapping} overlap")
+        parts.append(translate("{n} overlap").format(n=overlapping))
     return "   ".join(parts)
 
 
 def island_failed(faces: int) -> str:
     """Return the line of an island that could not be unwrapped."""
-    return f"Not unwrapped   {faces} f."
+    return translate("Not unwrapped   {n} f.").format(n=faces)
 
 
 ISLAND_GONE = "The faces of this island have changed since; unwrap again"
@@ -451,25 +483,26 @@ ISLAND_GONE = "The faces of this island have changed since; unwrap again"
 
 def selected_worst(faces: int) -> str:
     """Return what Select Most Distorted says."""
-    return f"Selected {_count(faces, 'face')}"
+    return translate("Selected {faces}").format(faces=_count(faces, _FACES))
 
 
 def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, overlapping: bool) -> tuple[str, ...]:
     """Return the lines that the legend has on the face below the mouse; `density` is in pixels per unit of length."""
+    size = translate("Size {size}, {density} px per unit")
     lines = [
-        f"{LEGEND_FACE}: angles {_qc(qc)}",
-        f"Size {look_value(LOOK_SIZE, log2_size)}, {look_value(LOOK_DENSITY, density)} px per unit",
+        translate("{name}: angles {qc}").format(name=translate(LEGEND_FACE), qc=_qc(qc)),
+        size.format(size=look_value(LOOK_SIZE, log2_size), density=look_value(LOOK_DENSITY, density)),
     ]
-    if flipped or overlapping:
-        lines.append(
-            " and ".join(word for word, is_so in (("Flipped", flipped), ("overlapping", overlapping)) if is_so)
-        )
+    if flipped and overlapping:
+        lines.append(translate("Flipped and overlapping"))
+    elif flipped or overlapping:
+        lines.append(translate("Flipped" if flipped else "overlapping"))
     return tuple(lines)
 
 
 def stored(name: str) -> str:
     """Return what Store as Attribute says, given the attribute's name."""
-    return f"Stored as {name}"
+    return translate("Stored as {name}").format(name=name)
 
 
 # The methods that are compared, ours first, by their identifiers in Blender's Unwrap.
@@ -485,20 +518,27 @@ COMPARISON_HEADER = ("", "Angles", "Worst", "Sizes", "Flips", "Overlaps", "Secon
 COMPARISON_IN_PANEL = ("Angles", "Worst", "Seconds")
 
 
-def comparison_row(name: str, numbers: IslandNumbers | None, seconds: float) -> tuple[str, ...]:
-    """Return the cells of a method in the table, as `COMPARISON_HEADER` names them."""
+def comparison_header() -> tuple[str, ...]:
+    """Return the cells of `COMPARISON_HEADER` for who draws them without Blender's layouts."""
+    return tuple(translate(cell) for cell in COMPARISON_HEADER)
+
+
+def comparison_row(label: str, numbers: IslandNumbers | None, seconds: float) -> tuple[str, ...]:
+    """Return the cells of the method with this label in the table, as `COMPARISON_HEADER` names them."""
+    name, took = translate(label), format(seconds, ".2f")
     if numbers is None or not numbers.mapped:
-        return (name, "failed", *[""] * 4, f"{seconds:.2f}")
+        return (name, translate("failed"), *[""] * 4, took)
     if numbers.mapped < numbers.faces:
-        name = f"{name} ({numbers.faces - numbers.mapped} left out)"
-    spread = 100.0 * (2.0**numbers.log2_scale_deviation - 1.0)
-    cells = (f"{numbers.mean_qc:.3f}", _qc(numbers.max_qc), f"{spread:.1f} %", f"{numbers.flipped}")
-    return (name, *cells, f"{numbers.overlapping}", f"{seconds:.2f}")
+        name = translate("{name} ({n} left out)").format(name=name, n=numbers.faces - numbers.mapped)
+    spread = translate("{percent} %").format(percent=_spread(numbers))
+    cells = (format(numbers.mean_qc, ".3f"), _qc(numbers.max_qc), spread, str(numbers.flipped))
+    return (name, *cells, str(numbers.overlapping), took)
 
 
 def compared(best: str, methods: int) -> str:
-    """Return what Compare Methods says."""
-    return f"Compared {methods} methods; least angle distortion: {best}"
+    """Return what Compare Methods says, given the label of the best one."""
+    sentence = translate("Compared {methods} methods; least angle distortion: {best}")
+    return sentence.format(methods=methods, best=translate(best))
 
 
 NOT_COMPARED = "No method could unwrap these faces; Spectral Unwrap says why"
@@ -511,38 +551,43 @@ def unfolded(summary: Summary) -> str:
     """Return what was unfolded on request and what it cost; empty if nothing was."""
     parts = []
     if summary.unfolded:
-        parts.append(f"{_count(summary.unfolded, 'flipped triangle')} unfolded")
+        forms = ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")
+        parts.append(_count(summary.unfolded, forms))
     if summary.embedded:
-        parts.append(f"{_count(summary.embedded, 'island')} needed the slower fallback map")
+        forms = ("{n} island needed the slower fallback map", "{n} islands needed the slower fallback map")
+        parts.append(_count(summary.embedded, forms))
     if not parts:
         return ""
-    cost = ""
-    if summary.mean_qc_change is not None:
-        before, after = summary.mean_qc_change
-        cost = f"; their angle distortion {_qc(before)} before, {_qc(after)} after"
-    return f"No Flip: {', '.join(parts)}{cost}"
+    changes = ", ".join(parts)
+    if summary.mean_qc_change is None:
+        return translate("No Flip: {changes}").format(changes=changes)
+    before, after = summary.mean_qc_change
+    sentence = translate("No Flip: {changes}; their angle distortion {before} before, {after} after")
+    return sentence.format(changes=changes, before=_qc(before), after=_qc(after))
 
 
 def too_small(faces: int) -> str:
     """Return the warning for faces that Blender's single precision cannot hold; empty for none."""
     if not faces:
         return ""
-    return (
-        f"{_count(faces, 'face')} {'shrinks' if faces == 1 else 'shrink'} below what Blender's UV coordinates resolve; "
-        "add seams that make the island flatter, or raise Angle to Area"
+    forms = (
+        "{n} face shrinks below what Blender's UV coordinates resolve; add seams that make the island flatter, or "
+        "raise Angle to Area",
+        "{n} faces shrink below what Blender's UV coordinates resolve; add seams that make the island flatter, or "
+        "raise Angle to Area",
     )
+    return _count(faces, forms)
 
 
 def failures(summary: Summary) -> str:
     """Return why charts or whole meshes were left as they were; empty if none was."""
     parts = []
     if summary.failed:
-        total = summary.solved + summary.failed
-        parts.append(
-            f"{summary.failed} of {_count(total, 'island')} failed, UVs unchanged: {_grouped(summary.failures)}"
-        )
+        sentence = translate("{failed} of {islands} failed, UVs unchanged: {reasons}")
+        islands, reasons = _count(summary.solved + summary.failed, _ISLANDS), _grouped(summary.failures)
+        parts.append(sentence.format(failed=summary.failed, islands=islands, reasons=reasons))
     if summary.refused:
-        parts.append(f"Not unwrapped: {'; '.join(summary.refused)}")
+        parts.append(translate("Not unwrapped: {reasons}").format(reasons="; ".join(summary.refused)))
     return ". ".join(parts)
 
 
@@ -550,22 +595,29 @@ def repairs(summary: Summary) -> str:
     """Return what was repaired or done differently to solve some charts; empty if nothing was."""
     if not summary.repairs:
         return ""
-    return f"{_count(sum(summary.repairs.values()), 'island')} needed a repair or fallback: {_grouped(summary.repairs)}"
+    forms = (
+        "{n} island needed a repair or fallback: {reasons}",
+        "{n} islands needed a repair or fallback: {reasons}",
+    )
+    return _count(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
 
 
 def pinned(summary: Summary) -> str:
     """Return how charts with two or more pins were solved; empty if there were none."""
-    ways = Counter({_PINNED_METHODS.get(method, method): count for method, count in summary.pinned.items()})
-    return f"{_count(sum(summary.pinned.values()), 'island')} with pins: solved by {_grouped(ways)}" if ways else ""
+    if not summary.pinned:
+        return ""
+    ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})
+    forms = ("{n} island with pins: solved by {ways}", "{n} islands with pins: solved by {ways}")
+    return _count(sum(summary.pinned.values()), forms, ways=_grouped(ways))
 
 
 def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequence[bool]) -> str:
     """Return Blender's own sentence about the first object whose scale along its axes is uneven or negative."""
     for (x, y, z), is_negative in zip(scales, negative):
         if abs(x - y) >= _EVEN_SCALE or abs(y - z) >= _EVEN_SCALE:
-            return "Object has non-uniform scale, unwrap will operate on a non-scaled version of the mesh"
+            return translate("Object has non-uniform scale, unwrap will operate on a non-scaled version of the mesh")
         if is_negative:
-            return "Object has negative scale, unwrap will operate on a non-flipped version of the mesh"
+            return translate("Object has negative scale, unwrap will operate on a non-flipped version of the mesh")
     return ""
 
 
@@ -573,49 +625,60 @@ def broken_extenders(names: Sequence[str]) -> str:
     """Return the sentence for extenders that lack a vertex; empty for none."""
     if not names:
         return ""
-    return f"Skipped {_count(len(names), 'extender')} whose vertex is gone: {', '.join(names)}"
+    forms = (
+        "Skipped {n} extender whose vertex is gone: {names}",
+        "Skipped {n} extenders whose vertex is gone: {names}",
+    )
+    return _count(len(names), forms, names=", ".join(names))
 
 
 def extenders_without_strength(names: Sequence[str]) -> str:
     """Return the sentence for extenders whose strength is no number within its limit; empty for none."""
     if not names:
         return ""
-    return f"Skipped {_count(len(names), 'extender')} whose strength is no number that it can have: {', '.join(names)}"
+    forms = (
+        "Skipped {n} extender whose strength is no number that it can have: {names}",
+        "Skipped {n} extenders whose strength is no number that it can have: {names}",
+    )
+    return _count(len(names), forms, names=", ".join(names))
 
 
 def broken_extender(name: str) -> str:
     """Return why an extender that lacks a vertex cannot be adjusted."""
-    return f"{name} is broken: a vertex of it is gone; remove it and add another"
+    return translate("{name} is broken: a vertex of it is gone; remove it and add another").format(name=name)
 
 
 def adjusting(strength: str, note: str) -> str:
     """Return what the status bar shows while a strength is dragged."""
-    return f"{ADJUST_EXTENDER_LABEL}: strength {strength}   {note}"
+    sentence = translate("{operator}: strength {strength}   {note}")
+    return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), strength=strength, note=note)
 
 
 def removed_broken(count: int) -> str:
     """Return what Remove Broken says."""
-    return f"Removed broken extenders: {count}"
+    return translate("Removed broken extenders: {n}").format(n=count)
 
 
 def broken_extender_selected(name: str, gone: int) -> str:
     """Return the warning that an extender lacks vertices that were to be selected."""
-    return f"{name} is broken: {gone} of its vertices gone; remove it"
+    return translate("{name} is broken: {n} of its vertices gone; remove it").format(name=name, n=gone)
 
 
 def hidden_vertices(name: str, hidden: int) -> str:
     """Return the warning that vertices of an extender are hidden, which are not selected."""
-    return f"{name} has hidden vertices: {hidden}; reveal them to select them"
+    return translate("{name} has hidden vertices: {n}; reveal them to select them").format(name=name, n=hidden)
 
 
 def added_extenders(count: int, existing: int, follows: bool) -> str:
     """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
-    parts = []
-    if count:
-        acts = "" if follows else f", which will act on the next unwrap; {ADJUST_EXTENDER_LABEL} acts at once"
-        parts.append(f"Added {_count(count, 'extender')}{acts}")
+    parts, extenders = [], _count(count, _EXTENDERS)
+    if count and follows:
+        parts.append(translate("Added {extenders}").format(extenders=extenders))
+    elif count:
+        sentence = translate("Added {extenders}, which will act on the next unwrap; {operator} acts at once")
+        parts.append(sentence.format(extenders=extenders, operator=translate(ADJUST_EXTENDER_LABEL)))
     if existing:
-        parts.append(f"Pairs that have an extender already: {existing}")
+        parts.append(translate("Pairs that have an extender already: {n}").format(n=existing))
     return ". ".join(parts)
 
 
@@ -623,63 +686,73 @@ def unused_extenders(count: int) -> str:
     """Return the sentence for extenders that no island could use; empty for none."""
     if count == 0:
         return ""
-    return (
-        f"{_count(count, 'extender')} had no effect: both vertices must lie in one unwrapped island, "
-        "which pins must not hold"
+    forms = (
+        "{n} extender had no effect: both vertices must lie in one unwrapped island, which pins must not hold",
+        "{n} extenders had no effect: both vertices must lie in one unwrapped island, which pins must not hold",
     )
+    return _count(count, forms)
 
 
 def selected_failed(islands: int, faces: int) -> str:
     """Return what Select Failed Islands says."""
     if faces == 0:
-        return "No islands failed, selection unchanged"
-    return f"Selected {_count(faces, 'face')} of {_count(islands, 'failed island')}"
+        return translate("No islands failed, selection unchanged")
+    of_islands = _count(islands, ("{n} failed island", "{n} failed islands"))
+    return translate("Selected {faces} of {islands}").format(faces=_count(faces, _FACES), islands=of_islands)
 
 
 def changed_since_unwrapped(names: Sequence[str]) -> str:
     """Return the warning for meshes that have other faces than when they were unwrapped."""
-    return f"Faces were added, removed or reordered since the last unwrap of {', '.join(names)}; unwrap again"
+    sentence = translate("Faces were added, removed or reordered since the last unwrap of {names}; unwrap again")
+    return sentence.format(names=", ".join(names))
 
 
 def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
     """Return what Select Flipped and Overlapping says of the defects of each mesh, given which kinds were chosen."""
-    kinds = [
-        ("flipped", sum(int(found.flipped.sum()) for found in defects) if flipped else 0),
-        ("overlapping", sum(int(found.overlapping.sum()) for found in defects) if overlapping else 0),
-        ("with UVs that are not finite", sum(int(found.not_finite.sum()) for found in defects)),
-    ]
     total = sum(int(found.chosen(flipped, overlapping).sum()) for found in defects)
     if total == 0:
-        wanted = " or ".join(
-            name for name, is_wanted in (("flipped", flipped), ("overlapping", overlapping)) if is_wanted
-        )
-        return f"No {wanted} faces, selection unchanged"
-    counts = ", ".join(f"{count} {name}" for name, count in kinds if count)
-    return f"Selected {_count(total, 'face')}: {counts}"
+        if flipped and overlapping:
+            return translate("No flipped or overlapping faces, selection unchanged")
+        if flipped:
+            return translate("No flipped faces, selection unchanged")
+        return translate("No overlapping faces, selection unchanged")
+    kinds = (
+        ("{n} flipped", sum(int(found.flipped.sum()) for found in defects) if flipped else 0),
+        ("{n} overlapping", sum(int(found.overlapping.sum()) for found in defects) if overlapping else 0),
+        ("{n} with UVs that are not finite", sum(int(found.not_finite.sum()) for found in defects)),
+    )
+    counts = ", ".join(translate(text).format(n=count) for text, count in kinds if count)
+    return translate("Selected {faces}: {kinds}").format(faces=_count(total, _FACES), kinds=counts)
 
 
 def marked(count: int, length: str) -> str:
     """Return what Suggest Seams says once `count` cuts are marked, of a length that is given with its unit."""
-    return f"Marked {_count(count, 'cut')} of length {length}"
+    return translate("Marked {cuts} of length {length}").format(cuts=_count(count, _CUTS), length=length)
 
 
 def nothing_to_suggest(is_limited: bool) -> str:
     """Return the sentence for no suggested seams; `is_limited` where the user gave a greatest length."""
-    reasons = "the islands are even enough already, or no cut makes them better"
-    return f"No seams to suggest: {reasons}{', or none within the length' if is_limited else ''}"
+    if is_limited:
+        return translate(
+            "No seams to suggest: the islands are even enough already, or no cut makes them better, or none within "
+            "the length"
+        )
+    return translate("No seams to suggest: the islands are even enough already, or no cut makes them better")
 
 
 def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
     """Return why meshes got no suggestion, given one text for each, empty where there is nothing to tell."""
-    refused = [f"{name}: {error.rstrip('.')}" for name, error in zip(names, errors) if error]
-    return f"No seams suggested for {'; '.join(refused)}" if refused else ""
+    refused = [": ".join((name, error.rstrip("."))) for name, error in zip(names, errors) if error]
+    return translate("No seams suggested for {meshes}").format(meshes="; ".join(refused)) if refused else ""
 
 
 def preview(count: int, total: int, length: str, total_length: str) -> str:
     """Return which of the suggested cuts are shown, with lengths that are given with their unit."""
+    cuts = _count(total, _CUTS)
     if count == total:
-        return f"{_count(total, 'cut')}, length {length}"
-    return f"{count} of {_count(total, 'cut')}, length {length} of {total_length}"
+        return translate("{cuts}, length {length}").format(cuts=cuts, length=length)
+    sentence = translate("{n} of {cuts}, length {length} of {total}")
+    return sentence.format(n=count, cuts=cuts, length=length, total=total_length)
 
 
 PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
@@ -687,79 +760,96 @@ PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   E
 
 def preview_status(known: str) -> str:
     """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
-    return f"{SUGGEST_SEAMS_LABEL}: {known}   {PREVIEW_KEYS}"
+    sentence = translate("{operator}: {known}   {keys}")
+    return sentence.format(operator=translate(SUGGEST_SEAMS_LABEL), known=known, keys=translate(PREVIEW_KEYS))
 
 
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
     """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
-    even = f"{_percent(after.even)} of the surface within {factor:.3g} times the median scale"
-    qc = f", angle distortion {_qc(after.mean_qc)}" if after.mean_qc == after.mean_qc else ""
-    now = _percent(before.even) + (f", {_qc(before.mean_qc)}" if before.mean_qc == before.mean_qc else "")
-    return f"{even}{qc} (now {now})"
+    now = [_percent(before.even)]
+    if before.mean_qc == before.mean_qc:
+        now.append(_qc(before.mean_qc))
+    fields = {"percent": _percent(after.even), "factor": format(factor, ".3g"), "now": ", ".join(now)}
+    if after.mean_qc != after.mean_qc:
+        return translate("{percent} of the surface within {factor} times the median scale (now {now})").format(**fields)
+    sentence = translate(
+        "{percent} of the surface within {factor} times the median scale, angle distortion {qc} (now {now})"
+    )
+    return sentence.format(qc=_qc(after.mean_qc), **fields)
 
 
 def _percent(part: float) -> str:
     # Rounded down, so that only the whole is 100 %.
-    return f"{int(100.0 * part + 1e-9)} %"
+    return translate("{percent} %").format(percent=int(100.0 * part + 1e-9))
 
 
 def no_module(reason: object) -> str:
     """Return what to do where the compiled module cannot be imported."""
-    return (
+    sentence = translate(
         "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made for "
-        f"this platform and this version of Blender ({reason})"
+        "this platform and this version of Blender ({reason})"
     )
+    return sentence.format(reason=reason)
 
 
 def not_packed(reason: str) -> str:
     """Return what to do where Blender's packer did not run."""
-    return f"Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand"
+    sentence = translate(
+        "Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand"
+    )
+    return sentence.format(reason=reason)
 
 
 def no_margin(margin: float) -> str:
     """Return what is wrong with a margin that is not finite."""
-    return f"The margin must be a number, not {margin}"
+    return translate("The margin must be a number, not {margin}").format(margin=margin)
 
 
 def unnamed_extender() -> str:
     """Return what to call an extender without a name."""
-    return f"{EXTENDER_NAME} without a name"
+    return translate("Extender without a name")
 
 
 def without_order(selected: int, ordered: int) -> str:
     """Return what to do where the order of only some of the selected vertices is known."""
-    return (
-        f"{selected} vertices are selected, {selected - ordered} of them in no order; select them one after the other "
-        f"with Shift and click, or use {ADD_TO_ACTIVE_LABEL}"
+    sentence = translate(
+        "{n} vertices are selected, {unordered} of them in no order; select them one after the other with Shift and "
+        "click, or use {operator}"
     )
+    return sentence.format(n=selected, unordered=selected - ordered, operator=translate(ADD_TO_ACTIVE_LABEL))
 
 
 def without_partner(selected: int) -> str:
     """Return what to do where an odd number of vertices is selected."""
-    return f"{selected} vertices are selected, so one has no partner; select an even number"
+    return translate("{n} vertices are selected, so one has no partner; select an even number").format(n=selected)
 
 
 def without_bounds(count: int) -> str:
     """Return the sentence for `count` charts that could not be kept in place; empty for none."""
     if count == 0:
         return ""
-    return f"{_count(count, 'island')} had no UV bounds to keep and were laid out side by side in the unit square"
+    forms = (
+        "{n} island had no UV bounds to keep and was laid out in the unit square",
+        "{n} islands had no UV bounds to keep and were laid out side by side in the unit square",
+    )
+    return _count(count, forms)
 
 
 def _grouped(messages: Counter[str]) -> str:
     """Join the messages, each with its number if there are several."""
     return "; ".join(
-        message.rstrip(".") if len(messages) == 1 else f"{count}: {message.rstrip('.')}"
+        message.rstrip(".") if len(messages) == 1 else ": ".join((str(count), message.rstrip(".")))
         for message, count in messages.most_common()
     )
 
 
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
+    """Return the first of two sentences where `n` is one, the second for any other number, with the `fields` filled."""
+    return translate(forms[0] if number == 1 else forms[1]).format(n=number, **fields)
 
 
 def _qc(value: float) -> str:
     """Return a distortion as artists read it: 1.003 is not 1.00, and of large ones no digit counts but the first."""
     if value < 1.1:
-        return f"{value:.3f}"
-    return f"{value:.2f}" if value < 100.0 else f"{value:.3g}"
+        return format(value, ".3f")
+    return format(value, ".2f" if value < 100.0 else ".3g")

@@ -12,6 +12,7 @@ from .. import compatibility
 from ..core import texts
 from ..core.errors import ReadableError
 from ..core.options import Margin
+from ..core.translation import translate
 from .read import EditMesh, active_uv_layer
 
 
@@ -51,7 +52,7 @@ def _run_packer(margin: Margin) -> None:
         status = bpy.ops.uv.pack_islands(
             "EXEC_DEFAULT", margin=margin.size, rotate=False, **compatibility.packing_options(margin.method)
         )
-        reason = texts.PACKER_WAS_CANCELLED
+        reason = translate(texts.PACKER_WAS_CANCELLED)
     except (RuntimeError, TypeError) as error:
         status, reason = set(), str(error).strip()
     if "FINISHED" not in status:

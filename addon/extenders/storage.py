@@ -84,7 +84,7 @@ def renamed(extender: bpy.types.PropertyGroup) -> None:
     path = extender.path_from_id()
     others = [other.name for other in of(extender.id_data) if other.path_from_id() != path]
     with _writing():
-        extender.name = core.unique_name(extender.name or texts.EXTENDER_NAME, others)
+        extender.name = core.unique_name(extender.name or _new_name(), others)
     _mark(extender.id_data)
 
 
@@ -130,6 +130,11 @@ def label(extender: bpy.types.PropertyGroup) -> str:
     return extender.name or texts.unnamed_extender()
 
 
+def _new_name() -> str:
+    """Return the name of a new extender, in the user's language where Blender is to name new data in it."""
+    return bpy.app.translations.pgettext_data(texts.EXTENDER_NAME)
+
+
 def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float) -> list[tuple[int, int]]:
     """Add an extender for every pair of vertices of a mesh in edit mode that has none yet; return these pairs.
 
@@ -145,7 +150,7 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
     taken = {extender.name for extender in of(mesh)}
     extenders = _read(mesh)
     for pair in fresh:
-        name = core.unique_name(texts.EXTENDER_NAME, taken)
+        name = core.unique_name(_new_name(), taken)
         taken.add(name)
         extenders.append(Extender(name, strength, True, *(vertex_ids[vertex] for vertex in pair)))
     _write(mesh, extenders)

@@ -9,6 +9,7 @@ import numpy as np
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
 from ..core.options import Settings
+from ..core.translation import translate
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import write_uv
@@ -27,9 +28,9 @@ def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], fl
     """
     settings = last_settings()
     if settings.options.method != "spectral":
-        raise AdjustmentError(texts.EXTENDERS_NEED_SPECTRAL)
+        raise AdjustmentError(translate(texts.EXTENDERS_NEED_SPECTRAL))
     if not edit_object.data.uv_layers:
-        raise AdjustmentError(texts.NO_UV_MAP)
+        raise AdjustmentError(translate(texts.NO_UV_MAP))
     edit_mesh = read_mesh(edit_object, all_visible=True, correct_aspect=settings.correct_aspect)
     adjustment = ExtenderAdjustment(edit_mesh.polygons, settings.options, list(strengths))
     corners = np.zeros(len(edit_mesh.polygons.corner_vertices), dtype=bool)
@@ -43,4 +44,4 @@ def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], fl
 def note_on_subsurf(settings: Settings, edit_object: bpy.types.Object) -> str:
     """Return what to say where `settings` are to subdivide the object's mesh, which adjusting does not."""
     is_subdivided = settings.use_subsurf and subsurf.leading_modifier(edit_object) is not None
-    return texts.ADJUSTED_WITHOUT_SUBSURF if is_subdivided else ""
+    return translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""

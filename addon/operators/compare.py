@@ -8,6 +8,7 @@ import bpy
 
 from .. import names
 from ..core import texts
+from ..core.translation import translate
 from ..live import following
 from ..overlay.comparison import ComparisonView
 from ..ui import progress
@@ -32,7 +33,7 @@ class UV_OT_spectral_compare(JobOperator, bpy.types.Operator):
         settings, start = last_settings(), time.perf_counter()
         edit_meshes = steps.read(context, settings)
         if not edit_meshes:
-            self.report({"WARNING"}, texts.NOTHING_SELECTED)
+            self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
         read = edit_meshes
         done = yield lambda report_progress: steps.solve(read, settings, report_progress)
@@ -40,12 +41,12 @@ class UV_OT_spectral_compare(JobOperator, bpy.types.Operator):
         if done.is_late:
             edit_meshes = steps.read_again(done.context, settings, edit_meshes)
             if edit_meshes is None:
-                self.report({"WARNING"}, texts.MESHES_CHANGED)
+                self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
         found = comparison.compare(done.context, settings, edit_meshes, done.result, seconds, following.not_following)
         best = comparison.best(found)
         if best is None:
-            self.report({"WARNING"}, texts.NOT_COMPARED)
+            self.report({"WARNING"}, translate(texts.NOT_COMPARED))
             return {"CANCELLED"}
         self.report({"INFO"}, texts.compared(texts.COMPARED_METHODS[best.method], len(found)))
         area = done.context.area
@@ -67,7 +68,7 @@ class _Shown:
     def begin(self, context: bpy.types.Context) -> None:
         """Draw it."""
         self._view.show(self._area)
-        context.workspace.status_text_set(texts.COMPARISON_KEYS)
+        context.workspace.status_text_set(translate(texts.COMPARISON_KEYS))
 
     def handle(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """End it by Esc, Enter or a click."""

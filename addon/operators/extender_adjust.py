@@ -10,6 +10,7 @@ from bpy.props import FloatProperty, IntProperty
 from .. import names
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError
+from ..core.translation import translate
 from ..core.typed_number import TypedNumber
 from ..extenders.strength import STRENGTH, STRENGTH_LIMIT
 from ..live import adjusted_map
@@ -128,7 +129,8 @@ class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
         except AdjustmentError as error:
             self._problem = str(error)
         number = f"[{self._typed.text}|]" if self._typed.text else f"{self.strength:.3f}"
-        context.workspace.status_text_set(texts.adjusting(number, self._problem or texts.ADJUST_EXTENDER_KEYS))
+        note = self._problem or translate(texts.ADJUST_EXTENDER_KEYS)
+        context.workspace.status_text_set(texts.adjusting(number, note))
         for area in context.screen.areas:
             if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
                 area.tag_redraw()

@@ -11,6 +11,7 @@ from .. import names
 from ..core import texts
 from ..core.errors import ReadableError
 from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
+from ..core.translation import translate
 from ..edit_mesh import selection
 from ..extenders import storage
 from ..extenders.strength import STRENGTH
@@ -44,7 +45,7 @@ class ExtenderOperator(ReportingOperator):
         """
         index = storage.active_index(mesh) if self.index < 0 else self.index
         if not 0 <= index < len(storage.of(mesh)):
-            raise SelectionError(texts.NO_SUCH_EXTENDER)
+            raise SelectionError(translate(texts.NO_SUCH_EXTENDER))
         return index
 
     def let_follow(self, edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]) -> bool:
@@ -61,7 +62,7 @@ class ExtenderOperator(ReportingOperator):
         except ReadableError as error:
             note = str(error)
         except MemoryError:
-            note = texts.OUT_OF_MEMORY_TO_FOLLOW
+            note = translate(texts.OUT_OF_MEMORY_TO_FOLLOW)
         if note:
             self.report({"WARNING"}, note)
         return follows
@@ -81,7 +82,8 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Return what one of the two ways to make pairs does."""
-        return next(text for identifier, _, text in texts.EXTENDER_PAIRS_ITEMS if identifier == properties.pairs)
+        chosen = next(text for identifier, _, text in texts.EXTENDER_PAIRS_ITEMS if identifier == properties.pairs)
+        return translate(chosen)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -91,7 +93,7 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Make the pairs of all meshes before any is added."""
         if self.strength != self.strength:
-            raise SelectionError(texts.STRENGTH_IS_NO_NUMBER)
+            raise SelectionError(translate(texts.STRENGTH_IS_NO_NUMBER))
         pairs = self._pairs(context)
         added = {edit_object: storage.add(edit_object.data, made, self.strength) for edit_object, made in pairs.items()}
         count = sum(map(len, added.values()))
@@ -124,7 +126,7 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
                 raise SelectionError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
             pairs[edit_object] = made
         if not pairs:
-            raise SelectionError(texts.NO_VERTICES_SELECTED)
+            raise SelectionError(translate(texts.NO_VERTICES_SELECTED))
         return pairs
 
 
@@ -142,7 +144,9 @@ class MESH_OT_spectral_extender_remove(ExtenderOperator, bpy.types.Operator):
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Return what is removed."""
-        return texts.REMOVE_BROKEN_EXTENDERS_DESCRIPTION if properties.broken else texts.REMOVE_EXTENDER_DESCRIPTION
+        if properties.broken:
+            return translate(texts.REMOVE_BROKEN_EXTENDERS_DESCRIPTION)
+        return translate(texts.REMOVE_EXTENDER_DESCRIPTION)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Remove from the list of the active object's mesh."""

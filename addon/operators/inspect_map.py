@@ -5,6 +5,7 @@ import bpy
 
 from .. import names
 from ..core import texts
+from ..core.translation import translate
 from ..edit_mesh import selection
 from ..overlay import map_overlay, under_mouse
 from ..overlay.under_mouse import FaceBelow
@@ -33,7 +34,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         if not overlay.show:
             overlay.show = True
         context.window_manager.modal_handler_add(self)
-        context.workspace.status_text_set(texts.INSPECT_KEYS)
+        context.workspace.status_text_set(translate(texts.INSPECT_KEYS))
         self._follow(context, event)
         return {"RUNNING_MODAL"}
 

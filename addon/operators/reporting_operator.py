@@ -7,6 +7,7 @@ import bpy
 
 from ..core import texts
 from ..core.errors import ReadableError
+from ..core.translation import translate
 
 
 class ReportingOperator:
@@ -31,5 +32,5 @@ class ReportingOperator:
         except ReadableError as error:
             self.report({"ERROR"}, str(error))
         except MemoryError:
-            self.report({"ERROR"}, texts.OUT_OF_MEMORY)
+            self.report({"ERROR"}, translate(texts.OUT_OF_MEMORY))
         return {"CANCELLED"}

@@ -12,6 +12,7 @@ from ..core.progress import Progress
 from ..core.quality import MapQuality
 from ..core.seam_suggestion import Suggestion
 from ..core.solve import solve_all
+from ..core.translation import translate
 from ..core.worker import Worker
 from ..overlay import map_overlay
 from ..overlay.seam_lines import SeamLines
@@ -71,7 +72,7 @@ class SeamPreview:
 
     def begin(self, context: bpy.types.Context) -> None:
         """Show the cuts, and the keys in the header of the editor."""
-        self._keys = HeaderText(context, texts.PREVIEW_KEYS)
+        self._keys = HeaderText(context, translate(texts.PREVIEW_KEYS))
         self.change(context, 0)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

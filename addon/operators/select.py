@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 from .. import names
 from ..core import defects, texts
 from ..core.map_view import MapView, worst
+from ..core.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.read_map import read_map
@@ -48,7 +49,7 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         arrays = {each.data: read_map(context, each) for each in context.objects_in_mode_unique_data}
         views = {mesh: MapView(found) for mesh, found in arrays.items() if found is not None}
         if not views:
-            self.report({"WARNING"}, texts.NO_UV_MAP)
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
         limit = self.limit if self.use_limit else None
         chosen = worst(list(views.values()), self.measure, self.amount, self.whole_islands, limit)
@@ -74,7 +75,7 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
         """Select what is remembered; nothing is solved and nothing written."""
         edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
         if not edited:
-            self.report({"WARNING"}, texts.NO_RESULT_REMEMBERED)
+            self.report({"WARNING"}, translate(texts.NO_RESULT_REMEMBERED))
             return {"CANCELLED"}
         faces, islands, changed = {}, 0, []
         for edit_object in edited:
@@ -136,7 +137,7 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Look at the visible faces, in the UV editor at those shown there, and select the ones with defects."""
         if not (self.flipped or self.overlapping):
-            self.report({"WARNING"}, texts.NO_DEFECT_CHOSEN)
+            self.report({"WARNING"}, translate(texts.NO_DEFECT_CHOSEN))
             return {"CANCELLED"}
         shows_selected = selection.selects_uvs(context)
         edit_meshes = [
@@ -145,7 +146,7 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
         ]
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
         if not edit_meshes:
-            self.report({"WARNING"}, texts.NO_UV_MAP)
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
         found = defects.find([edit_mesh.polygons for edit_mesh in edit_meshes], self.between_islands)
         chosen = [each.chosen(self.flipped, self.overlapping) for each in found]

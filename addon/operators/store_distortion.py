@@ -7,6 +7,7 @@ from bpy.props import BoolProperty, EnumProperty
 from .. import names
 from ..core import color_ramp, texts
 from ..core.map_view import MapView, automatic_range
+from ..core.translation import translate
 from ..edit_mesh import attributes, read_map
 from ..overlay import legend, map_overlay
 from .reporting_operator import ReportingOperator
@@ -43,7 +44,7 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
             if arrays is not None and shown.data.library is None:
                 views[shown.data] = MapView(arrays)
         if not views:
-            self.report({"WARNING"}, texts.NO_UV_MAP)
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
         name, size = names.ATTRIBUTES[self.kind], map_overlay.settings().image_size
         if self.as_colors:

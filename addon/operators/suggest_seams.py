@@ -14,6 +14,7 @@ from ..core.progress import Progress
 from ..core.seam_suggestion import Options, Preferences, Search, Suggestion
 from ..core.solve import Solution, solve_all
 from ..core.summary import summarize
+from ..core.translation import translate
 from ..live import following
 from ..unwrapping import island_list, seams, steps
 from ..unwrapping.last_settings import last_settings
@@ -99,7 +100,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         """Search, let the artist choose how many cuts to take, solve with them, mark and write."""
         target = seams.read(context, last_settings())
         if target is None:
-            self.report({"WARNING"}, texts.NO_VISIBLE_FACES)
+            self.report({"WARNING"}, translate(texts.NO_VISIBLE_FACES))
             return {"CANCELLED"}
         options = self._options(target)
         preferences = ()
@@ -135,7 +136,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             return target
         current = seams.read_again(context, target)
         if current is None:
-            self.report({"WARNING"}, texts.MESHES_CHANGED_UNMARKED)
+            self.report({"WARNING"}, translate(texts.MESHES_CHANGED_UNMARKED))
         return current
 
     def _write(

@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
 from ..core import texts
+from ..core.translation import translate
 from ..extenders.strength import STRENGTH_LIMIT
 from ..live import following
 from ..ui import unwrap_settings
@@ -85,14 +86,14 @@ class UV_OT_spectral_unwrap(JobOperator, bpy.types.Operator):
         settings = settings_of(self)
         edit_meshes = steps.read(context, settings)
         if not edit_meshes:
-            self.report({"WARNING"}, texts.NOTHING_SELECTED)
+            self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
         read = edit_meshes
         done = yield lambda report_progress: steps.solve(read, settings, report_progress)
         if done.is_late:
             edit_meshes = steps.read_again(done.context, settings, edit_meshes)
             if edit_meshes is None:
-                self.report({"WARNING"}, texts.MESHES_CHANGED)
+                self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
         outcome = steps.write(done.context, settings, edit_meshes, done.result, following.not_following)
         reports = steps.reports(outcome, time.perf_counter() - start)

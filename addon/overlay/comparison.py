@@ -73,7 +73,7 @@ class ComparisonView:
 
     def _table(self, left: float, top: float, width: float, scale: float) -> float:
         """Draw the table and return where it ends."""
-        for index, row in enumerate((texts.COMPARISON_HEADER, *self._rows)):
+        for index, row in enumerate((texts.comparison_header(), *self._rows)):
             color = _BEST if index == self._best + 1 else _TEXT
             for place, cell in zip(_COLUMNS, row):
                 draw_line(cell, left + place * width, top, scale, color)

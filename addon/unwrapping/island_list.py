@@ -10,6 +10,7 @@ import numpy as np
 from .. import names
 from ..core import texts
 from ..core.solve import Solution
+from ..core.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_mesh
 from . import last_result
@@ -80,7 +81,7 @@ def select(context: bpy.types.Context, index: int) -> None:
         if bpy.ops.ed.undo_push.poll():
             bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
         return
-    gone = ("WARNING", texts.ISLAND_GONE)
+    gone = ("WARNING", translate(texts.ISLAND_GONE))
     if gone not in _lines:
         _lines.append(gone)
 

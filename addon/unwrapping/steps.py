@@ -14,6 +14,7 @@ from ..core.placement import place
 from ..core.progress import Progress
 from ..core.solve import Solution, solve_all, too_small_faces
 from ..core.summary import Summary, summarize
+from ..core.translation import translate
 from ..edit_mesh import packing, selection
 from ..edit_mesh.read import EditMesh, read_mesh, read_uv
 from ..edit_mesh.write import ensure_uv_map, write_uv
@@ -85,7 +86,7 @@ def write(
         summary,
         without_bounds,
         _notes(edit_meshes, settings),
-        (*warnings, texts.PACKED_BESIDE_FAILED) if left_tile else warnings,
+        (*warnings, translate(texts.PACKED_BESIDE_FAILED)) if left_tile else warnings,
     )
 
 
@@ -125,7 +126,7 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
         texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
-        warnings.append(texts.NO_ACTIVE_EDGE)
+        warnings.append(translate(texts.NO_ACTIVE_EDGE))
     return tuple(filter(None, warnings))
 
 
@@ -135,7 +136,7 @@ def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ..
     scales = [tuple(world.to_3x3().col[axis].length for axis in range(3)) for world in worlds]
     notes = [texts.object_scale(scales, [world.is_negative for world in worlds])]
     if settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes):
-        notes.append(texts.NO_LEADING_SUBSURF)
+        notes.append(translate(texts.NO_LEADING_SUBSURF))
     return tuple(filter(None, notes))
 
 
