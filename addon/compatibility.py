@@ -21,6 +21,14 @@ SMOOTH_COLOR_SHADER = "SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SM
 LINE_SHADER = "POLYLINE_UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_POLYLINE_UNIFORM_COLOR"
 
 
+def translated(text: str) -> str:
+    """Return a text in the user's language where Blender is to translate what it reports, else as it is."""
+    # Before 4.1 reports went by the switch of the tooltips. Asked for each time: a function of Blender's that a module
+    # keeps would be let go of only when Python ends.
+    translations = bpy.app.translations
+    return (getattr(translations, "pgettext_rpt", None) or translations.pgettext_tip)(text)
+
+
 @dataclass(frozen=True)
 class UVSelection:
     """The UV selection of a mesh: flags per corner, in the order of faces and their corners, and per face."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that artists read can be translated, and is looked up where it is shown."""
+"""Everything that artists read can be translated, is looked up where it is shown, and stands in every table."""
 
 import ast
 import inspect
@@ -15,6 +15,7 @@ from spectral_unwrap.core.defects import Defects
 from spectral_unwrap.core.map_view import IslandNumbers
 from spectral_unwrap.core.quality import MapQuality
 from spectral_unwrap.core.summary import Summary
+from spectral_unwrap.locale import TABLES
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 TEXTS = (ADDON / "core" / "texts.py").read_text(encoding="utf-8")
@@ -74,6 +75,39 @@ def test_sentences_are_whole():
 def test_the_scan_sees_pieces(line):
     assert in_pieces(f"pass\n{line}\n") == [2]
     assert in_pieces('", ".join(names)\ntranslate("{n} islands").format(n=2)\n') == []
+
+
+def fields(text):
+    """Return the names of the fields of a text, sorted, having found nothing but a name in each."""
+    found = []
+    for _, field, spec, conversion in Formatter().parse(text):
+        if field is not None:
+            assert field.isidentifier() and not spec and not conversion, text
+            found.append(field)
+    return sorted(found)
+
+
+@pytest.mark.parametrize("language", TABLES)
+def test_tables_have_what_is_said_and_nothing_else(language):
+    said = messages(ast.parse(TEXTS))
+    assert len(said) > 300
+    assert sorted(said - set(TABLES[language])) == [], "not translated"
+    assert sorted(set(TABLES[language]) - said) == [], "said no more"
+
+
+@pytest.mark.parametrize("language", TABLES)
+def test_translations_have_the_fields_of_their_sources(language):
+    for source, translated in TABLES[language].items():
+        assert translated and translated == translated.strip(), source
+        assert fields(translated) == fields(source)
+
+
+def test_no_table_says_a_thing_twice():
+    for path in (ADDON / "locale").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Dict):
+                keys = Counter(key.value for key in node.keys)
+                assert [key for key, count in keys.items() if count > 1] == []
 
 
 @pytest.fixture

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hands the tables of `locale` to Blender, and Blender's way to look texts up to `core`."""
+
+import bpy
+
+from . import compatibility, names
+from .core import translation
+from .locale import TABLES
+
+# Blender looks up labels of operators, and of buttons and undo steps that stand for them, in a context of their own,
+# everything else in that of all texts ("*"). Most labels appear in both.
+_CONTEXTS = ("*", "Operator")
+
+
+def register() -> None:
+    """Let Blender and the add-on find the translations."""
+    entries = {
+        language: {(context, text): translated for text, translated in table.items() for context in _CONTEXTS}
+        for language, table in TABLES.items()
+    }
+    bpy.app.translations.register(names.PACKAGE, entries)
+    translation.use(compatibility.translated)
+
+
+def unregister() -> None:
+    """Leave texts in English."""
+    translation.use(None)
+    bpy.app.translations.unregister(names.PACKAGE)
