@@ -48,6 +48,11 @@ class Summary:
         """Number of failed charts."""
         return sum(self.failures.values())
 
+    @property
+    def lacks_seams(self) -> bool:
+        """Whether charts failed that seams would cut open, as the solver's reasons say in these words."""
+        return any({"mark", "seams"} <= set(reason.lower().split()) for reason in self.failures)
+
 
 def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""

@@ -13,6 +13,7 @@ within our sentences.
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -401,6 +402,8 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
     `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
     """
     unwrapped = translate("Unwrapped {islands}: angle distortion {mean} average, {worst} worst")
+    if math.isinf(summary.mean_qc):
+        unwrapped = translate("Unwrapped {islands}: angle distortion beyond measure, as faces shrink to nothing")
     parts = [
         unwrapped.format(
             islands=_count(summary.solved, _ISLANDS), mean=_qc(summary.mean_qc), worst=_qc(summary.max_qc)
@@ -586,6 +589,9 @@ def failures(summary: Summary) -> str:
         sentence = translate("{failed} of {islands} failed, UVs unchanged: {reasons}")
         islands, reasons = _count(summary.solved + summary.failed, _ISLANDS), _grouped(summary.failures)
         parts.append(sentence.format(failed=summary.failed, islands=islands, reasons=reasons))
+        if summary.lacks_seams:
+            hint = translate("{operator} finds where to cut")
+            parts.append(hint.format(operator=translate(SUGGEST_SEAMS_LABEL)))
     if summary.refused:
         parts.append(translate("Not unwrapped: {reasons}").format(reasons="; ".join(summary.refused)))
     return ". ".join(parts)

@@ -460,6 +460,10 @@ TEXTS = {
     "{operator}: {percent} % ({phase})": "{operator}: {percent} % ({phase})",
     "{operator} could not follow: {problem}": "„{operator}“ konnte nicht folgen: {problem}",
     "{name} could not be drawn: {problem}": "„{name}“ konnte nicht gezeichnet werden: {problem}",
+    "Unwrapped {islands}: angle distortion beyond measure, as faces shrink to nothing": (
+        "{islands} abgewickelt: Winkelverzerrung nicht messbar, da Flächen verschwinden"
+    ),
+    "{operator} finds where to cut": "{operator} findet Schnitte dafür",
     "Unwrapped {islands}: angle distortion {mean} average, {worst} worst": (
         "{islands} abgewickelt: Winkelverzerrung im Mittel {mean}, höchstens {worst}"
     ),

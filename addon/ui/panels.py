@@ -103,6 +103,8 @@ class _UnwrapPanel(_Panel):
     """Unwrapping."""
 
     bl_label = texts.UNWRAP_PANEL_LABEL
+    # Elsewhere Blender takes this word for unpacking.
+    bl_translation_context = "Operator"
     part = "unwrap"
 
     def draw(self, context: bpy.types.Context) -> None:

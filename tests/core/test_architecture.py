@@ -19,6 +19,7 @@ STANDARD = {
     "hashlib",
     "itertools",
     "json",
+    "math",
     "textwrap",
     "threading",
     "time",

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import spectral_conformal
 from spectral_unwrap.core import texts
 from spectral_unwrap.core.defects import Defects
 from spectral_unwrap.core.quality import MapQuality
@@ -127,8 +128,8 @@ def test_no_failures_no_warning():
 
 
 def test_equal_reasons_are_grouped():
-    one = texts.failures(summary(solved(), failed("closed; mark seams"), failed("closed; mark seams")))
-    assert one == "2 of 3 islands failed, UVs unchanged: closed; mark seams"
+    one = texts.failures(summary(solved(), failed("closed; cut"), failed("closed; cut")))
+    assert one == "2 of 3 islands failed, UVs unchanged: closed; cut"
     two = texts.failures(summary(failed("flat"), failed("closed"), failed("closed")))
     assert two == "3 of 3 islands failed, UVs unchanged: 2: closed; 1: flat"
 
@@ -196,3 +197,19 @@ def test_extenders_without_a_strength_are_named():
     assert texts.extenders_without_strength([]) == ""
     assert texts.extenders_without_strength(["A", "B"]).startswith("Skipped 2 extenders")
     assert texts.extenders_without_strength(["A", "B"]).endswith(": A, B")
+
+
+def test_where_seams_are_missing_suggest_seams_is_named():
+    cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    offsets, corners = np.arange(0, 25, 4), np.concatenate(faces)
+    (chart,) = spectral_conformal.unwrap(cube, offsets, corners).charts
+    text = texts.failures(summary(failed(chart.message)))
+    assert "closed" in text
+    assert text.endswith("Suggest Seams finds where to cut")
+    assert "Suggest Seams" not in texts.failures(summary(failed("The map winds.")))
+
+
+def test_what_is_infinite_is_said_in_words():
+    text = texts.information(summary(solved(mean_qc=float("inf"), max_qc=float("inf"))), 0.5, "There")
+    assert text.startswith("Unwrapped 1 island: angle distortion beyond measure, as faces shrink to nothing; ")
