@@ -53,7 +53,7 @@ def steps():
     before = uv()
 
     point_at("VIEW_3D")
-    yield from choose_from_menu("menu_in_viewport", from_the_end=4)
+    yield from choose_from_menu("menu_in_viewport", from_the_end=5)
     yield from driving.until(lambda: not np.array_equal(uv(), before))
     assert last_operator().properties.placement == "PACK"
     unwrapped = uv()
@@ -83,7 +83,7 @@ def steps():
     xdotool("key", "a")
     yield
     done = len(bpy.context.window_manager.operators)
-    yield from choose_from_menu("menu_in_uv_editor", from_the_end=2)
+    yield from choose_from_menu("menu_in_uv_editor", from_the_end=3)
     yield from driving.until(lambda: len(bpy.context.window_manager.operators) > done)
     # The settings are remembered, and in place a second unwrap stays within the same bounds.
     assert last_operator().properties.placement == "KEEP"
