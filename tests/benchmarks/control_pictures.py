@@ -1,4 +1,5 @@
-"""Draw what hole rigidity and the blend from angles to areas do, for the documents.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draw for the guide what each option does to the map of one mesh, and print what is said of it there.
 
     build/venv/bin/python -m tests.benchmarks.control_pictures [folder]
 
@@ -7,81 +8,288 @@ The folder is docs/images by default.
 
 from __future__ import annotations
 
+import io
 import sys
+import textwrap
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
+import numpy as np
+import spectral_conformal as sc
 
-mpl.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 - the backend comes first
-import numpy as np  # noqa: E402
-import spectral_conformal as sc  # noqa: E402
-
-from tests.module import meshes  # noqa: E402
+from tests.module import meshes
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "images"
+DPI = 80
+PANEL_INCHES = 2.8
+# A surface of shades and maps of one colour scale need no more.
+COLOURS = 128
 
 
-def draw_hole_rigidity(folder: Path) -> None:
-    """Draw the torn hat, and its map without and with rigidity."""
-    vertices, triangles = meshes.torn_hat()
-    brim = np.r_[np.arange(64), 0]
-    solver = sc.Solver(vertices, triangles)
-    figure = plt.figure(figsize=(12, 4.4))
-    axes = figure.add_subplot(1, 3, 1, projection="3d")
-    axes.plot_trisurf(*vertices.T, triangles=triangles, color="lightsteelblue", edgecolor="slategrey", linewidth=0.2)
-    axes.plot(*vertices[brim].T, color="darkorange", linewidth=2)
-    axes.set_axis_off()
-    axes.set_title("The torn edge is the longest border")
-    for place, rigidity in ((2, 0.0), (3, 1.0)):
-        solution = solver.solve(hole_rigidity=rigidity)
-        measured = sc.distortion(vertices, triangles, solution.uv)
-        axes = figure.add_subplot(1, 3, place)
-        axes.triplot(*solution.uv.T, triangles, linewidth=0.2, color="slategrey")
-        axes.plot(*solution.uv[brim].T, color="darkorange", linewidth=2)
-        axes.set_aspect("equal")
-        axes.set_axis_off()
-        spread = measured.log2_scale_deviation
-        axes.set_title(f"rigidity {rigidity:g}: brim {_length(solution.uv[brim]):.2f}, spread {spread:.2f}")
-        print(
-            f"hole rigidity {rigidity:g}: the brim's border is {_length(solution.uv[brim]):.2f} long instead of "
-            f"{_length(vertices[brim]):.2f}, spread of log2 scale {spread:.2f}, mean QC {measured.mean_qc:.3f}"
-        )
-    figure.tight_layout(rect=(0, 0, 1, 0.96))
-    figure.savefig(folder / "hole_rigidity.png", dpi=70)
+@dataclass(frozen=True)
+class Map:
+    """One map of an example, what it was made with and what the module measures of it."""
+
+    title: str
+    uv: np.ndarray
+    measured: sc.Distortion
+    hole_rigidity: float
+    line_length: float
+
+    @property
+    def mean_qc(self) -> float:
+        """Mean quasi-conformal distortion."""
+        return self.measured.mean_qc
+
+    @property
+    def max_qc(self) -> float:
+        """Quasi-conformal distortion of the worst triangle."""
+        return self.measured.max_qc
+
+    @property
+    def spread(self) -> float:
+        """Standard deviation of log2 of the scale."""
+        return self.measured.log2_scale_deviation
+
+    @property
+    def flips(self) -> int:
+        """Flipped triangles."""
+        return int(self.measured.flipped.sum())
+
+    @property
+    def overlaps(self) -> int:
+        """Triangles that cover others."""
+        return int(self.measured.overlapping.sum())
+
+    @property
+    def oblongness(self) -> float:
+        """Width of the map over its height."""
+        width, height = np.ptp(self.uv, axis=0)
+        return float(width / height)
 
 
-def draw_area_blend(folder: Path) -> None:
-    """Draw the maps of the bulge from keeping angles to keeping areas, coloured by scale."""
-    vertices, quads = meshes.bulge(61, 1.8)
-    triangles = np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4.2))
-    for panel, amount in zip(axes, (0.0, 0.5, 1.0)):
-        solution = sc.parameterize(vertices, triangles, area_blend=amount)
-        measured = sc.distortion(vertices, triangles, solution.uv)
-        colors = panel.tripcolor(*solution.uv.T, triangles, measured.log2_scale, cmap="coolwarm", vmin=-2, vmax=2)
-        panel.set_aspect("equal")
+@dataclass(frozen=True)
+class Example:
+    """A mesh, the maps that are drawn of it, and the sentence below them, with fields of its maps."""
+
+    name: str
+    mesh: Callable[[], tuple[np.ndarray, np.ndarray]]
+    choices: dict[str, dict[str, object]]
+    colours: str
+    caption: str
+    line: tuple[int, ...] = ()
+
+    def maps(self) -> list[Map]:
+        """Solve and measure."""
+        vertices, triangles = self.mesh()
+        maps = []
+        for title, choice in self.choices.items():
+            keywords = dict(choice)
+            if "stretch" in keywords:
+                keywords["metric"] = sc.metric_from_direction(vertices, triangles, [1, 0, 0], keywords.pop("stretch"))
+            solution = sc.parameterize(vertices, triangles, **keywords)
+            uv = turned_as_seen_from_above(solution.uv, vertices)
+            measured = sc.distortion(vertices, triangles, uv)
+            maps.append(Map(title, uv, measured, solution.hole_rigidity, _length(uv[list(self.line)])))
+        return maps
+
+    @property
+    def shown(self) -> str:
+        """What the picture shows, for those who do not see it."""
+        option = self.caption.split("**")[1].rstrip(".")
+        return f"{option}: the surface and its maps, {', '.join(self.choices)}"
+
+    def written(self, maps: list[Map]) -> str:
+        """Return the caption with the numbers."""
+        vertices, _ = self.mesh()
+        return self.caption.format(*maps, line_in_space=_length(vertices[list(self.line)]))
+
+
+def triangulated(polygons: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Split the quads of a mesh, in mirror images of each other on the two sides of x = 0 and of y = 0."""
+    vertices, quads = polygons
+    x, y, _ = vertices[quads].mean(axis=1).T
+    quads = np.where((x * y > 0)[:, None], quads, np.roll(quads, 1, axis=1))
+    return vertices, np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
+
+
+def graded_saddle() -> tuple[np.ndarray, np.ndarray]:
+    """Return a saddle whose quads are ever narrower towards one side."""
+    vertices, triangles = triangulated(meshes.saddle_quads(31))
+    x = 2 * ((vertices[:, 0] + 1) / 2) ** 3 - 1
+    return np.c_[x, vertices[:, 1], x**2 - vertices[:, 1] ** 2], triangles
+
+
+def saddle_with_a_fine_side() -> tuple[np.ndarray, np.ndarray]:
+    """Return a saddle, each edge of one of whose sides is cut into 21: the surface is the same."""
+    vertices, triangles = triangulated(meshes.saddle_quads(21))
+    return meshes.with_fine_border(vertices, triangles, lambda middle: middle[0] > 0.999, 20)
+
+
+def open_bulge() -> tuple[np.ndarray, np.ndarray]:
+    """Return a bulge with a square hole in place of its top."""
+    vertices, quads = meshes.bulge(41, 1.8)
+    kept = (np.abs(vertices[quads].mean(axis=1)[:, :2]) > 0.3).any(axis=1)
+    return meshes.without_unused(*triangulated((vertices, quads[kept])))
+
+
+BULGE = 31
+EXAMPLES = (
+    Example(
+        "weights",
+        graded_saddle,
+        {"Uniform": {}, "Inverse Area": {"weights": "inverse_area"}},
+        "log2_scale",
+        "**Weights.** A saddle whose faces get narrower towards one side. *Uniform* shrinks that side; with "
+        "*Inverse Area* the spread of the sizes (standard deviation of log2 of the scale) falls from {0.spread:.2f} "
+        "to {1.spread:.2f}, while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+    ),
+    Example(
+        "boundary",
+        saddle_with_a_fine_side,
+        {"Vertex": {"boundary": "vertex"}, "Length": {}},
+        "log2_scale",
+        "**Boundary.** A saddle that has 21 times as many vertices along one side. *Vertex* gives that side 21 "
+        "times the weight: spread {0.spread:.2f}, mean QC {0.mean_qc:.3f}. To *Length* it is the same surface as "
+        "without them: {1.spread:.2f} and {1.mean_qc:.3f}.",
+    ),
+    Example(
+        "hole_rigidity",
+        meshes.torn_hat,
+        {
+            "off": {},
+            "Automatic Holes": {"hole_rigidity": "automatic"},
+            "Hole Rigidity 1": {"hole_rigidity": 1.0},
+        },
+        "log2_scale",
+        "**Hole Rigidity.** The torn edge of this hat is its longest border, so the brim (orange) counts as a hole. "
+        "Without rigidity its length shrinks from {line_in_space:.2f} on the surface to {0.line_length:.2f}: spread "
+        "{0.spread:.2f}, mean QC {0.mean_qc:.3f}. *Automatic Holes* takes a rigidity of {1.hole_rigidity:.1f}: "
+        "length {1.line_length:.2f}, spread {1.spread:.2f}, mean QC {1.mean_qc:.3f}. *Hole Rigidity* 1: "
+        "{2.line_length:.2f}, {2.spread:.2f} and {2.mean_qc:.3f}.",
+        (*range(64), 0),
+    ),
+    Example(
+        "area_blend",
+        lambda: triangulated(meshes.bulge(41, 1.8)),
+        {"Angle to Area 0": {}, "0.5": {"area_blend": 0.5}, "1": {"area_blend": 1.0}},
+        "log2_scale",
+        "**Angle to Area.** A square with a deep bulge at 0, 0.5 and 1: spread {0.spread:.2f}, {1.spread:.2f} and "
+        "{2.spread:.2f}, mean QC {0.mean_qc:.2f}, {1.mean_qc:.2f} and {2.mean_qc:.2f}.",
+    ),
+    Example(
+        "fold_free",
+        lambda: triangulated(meshes.spiral_ramp(1.3)),
+        {"off": {}, "No Flip": {"fold_free": True}},
+        "overlapping",
+        "**No Flip.** The map of a ramp of 1.3 turns covers itself with {0.overlaps} triangles (red), and with "
+        "{1.overlaps} where *No Flip* is on, for a mean QC of {1.mean_qc:.4f} instead of {0.mean_qc:.4f}.",
+    ),
+    Example(
+        "polish",
+        lambda: meshes.rough_grid(14, 0.8, 1, 0.05),
+        {"off": {}, "Polish": {"polish": True}},
+        "log2_scale",
+        "**Polish.** A rough sheet with gaps: mean QC falls from {0.mean_qc:.3f} to {1.mean_qc:.3f}, the worst QC "
+        "from {0.max_qc:.2f} to {1.max_qc:.2f}, the spread from {0.spread:.2f} to {1.spread:.2f}.",
+    ),
+    Example(
+        "edge_stretch",
+        lambda: triangulated(meshes.saddle_quads(31)),
+        {"Edge Stretch 1": {}, "2": {"stretch": 2.0}},
+        "log2_scale",
+        "**Edge Stretch.** A saddle at 1 and 2, along an edge that runs from left to right: the map is "
+        "{0.oblongness:.2f} times as wide as high, then {1.oblongness:.2f} times. Mean QC {0.mean_qc:.2f} and "
+        "{1.mean_qc:.2f}, since the stretch counts as distortion.",
+    ),
+    Example(
+        "extenders",
+        lambda: triangulated(meshes.bulge(BULGE, 1.5)),
+        {"none": {}, "strength 2": {"extenders": [(0, BULGE**2 - 1, 2.0)]}},
+        "log2_scale",
+        "**Extenders.** One of strength 2 pushes two corners of the bulge apart (orange), from a distance of "
+        "{0.line_length:.2f} to {1.line_length:.2f}, while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+        (0, BULGE**2 - 1),
+    ),
+    Example(
+        "fill_holes",
+        open_bulge,
+        {"off": {}, "Fill Holes": {"fill_holes": True}},
+        "log2_scale",
+        "**Fill Holes.** A bulge without its top, whose hole shrinks until {0.overlaps} triangles overlap; filled, "
+        "it stays open ({1.overlaps} overlap), while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+    ),
+)
+
+
+def turned_as_seen_from_above(uv: np.ndarray, vertices: np.ndarray) -> np.ndarray:
+    """Turn a map so that it lies as nearly as possible like its mesh does."""
+    turn = np.vdot(uv @ [1, 1j], vertices[:, :2] @ [1, 1j])
+    z = (uv @ [1, 1j]) * turn / abs(turn)
+    return np.c_[z.real, z.imag]
+
+
+def draw(example: Example, maps: list[Map], folder: Path) -> None:
+    """Draw the surface and its maps, on one scale and with one range of colours."""
+    # Only here, so that the tests of the captions load no drawing.
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+    from PIL import Image
+
+    vertices, triangles = example.mesh()
+    line = list(example.line)
+    figure = plt.figure(figsize=(PANEL_INCHES * (1 + len(maps)), PANEL_INCHES), layout="constrained")
+    surface = figure.add_subplot(1, 1 + len(maps), 1, projection="3d")
+    surface.plot_trisurf(*vertices.T, triangles=triangles, color="lightsteelblue", edgecolor="slategrey", linewidth=0.2)
+    if len(line) > 2:
+        surface.plot(*vertices[line].T, color="darkorange", linewidth=2)
+    surface.set_aspect("equal")
+    surface.set_axis_off()
+    values = [getattr(each.measured, example.colours).astype(float) for each in maps]
+    reach = {"overlapping": 1.0}.get(example.colours) or np.percentile(np.abs(np.concatenate(values)), 98)
+    panels, (low, high) = [], _common_frame(maps)
+    for place, (each, value) in enumerate(zip(maps, values), 2):
+        panel = figure.add_subplot(1, 1 + len(maps), place)
+        shades = {"cmap": "coolwarm", "vmin": -reach, "vmax": reach}
+        colours = panel.tripcolor(*each.uv.T, triangles, value, edgecolors="face", linewidth=0.2, **shades)
+        panel.triplot(*each.uv.T, triangles, color="#00000048", linewidth=0.3)
+        if line:
+            panel.plot(*each.uv[line].T, color="darkorange", linewidth=2)
+        panel.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         panel.set_axis_off()
-        spread = measured.log2_scale_deviation
-        panel.set_title(f"{amount:g}: spread {spread:.2f}, mean QC {measured.mean_qc:.2f}")
-        print(
-            f"area blend {amount:g}: spread of log2 scale {spread:.2f}, mean QC {measured.mean_qc:.2f}, "
-            f"flips {measured.flipped.sum()}"
-        )
-    figure.tight_layout()
-    figure.colorbar(colors, ax=axes, label="log2 scale", shrink=0.7)
-    figure.savefig(folder / "area_blend.png", dpi=70)
+        panel.set_title(f"{each.title}\nmean QC {each.mean_qc:.3f}", fontsize=11)
+        panels.append(panel)
+    if example.colours != "overlapping":
+        figure.colorbar(colours, ax=panels, label="log2 of the scale", shrink=0.7)
+    figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=DPI)
+    plt.close(figure)
+    picture = Image.open(drawn).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    picture.save(folder / f"{example.name}.png", optimize=True)
 
 
-def _length(loop: np.ndarray) -> float:
-    return float(np.linalg.norm(np.diff(loop, axis=0), axis=1).sum())
+def _common_frame(maps: list[Map]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the corners of a box that holds all maps."""
+    points = np.concatenate([each.uv for each in maps])
+    margin = 0.02 * np.ptp(points, axis=0).max()
+    return points.min(axis=0) - margin, points.max(axis=0) + margin
+
+
+def _length(points: np.ndarray) -> float:
+    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
 def main() -> None:
-    """Draw both pictures."""
+    """Draw all pictures and print what the guide says of them."""
     folder = Path(sys.argv[1]) if sys.argv[1:] else IMAGES
-    draw_hole_rigidity(folder)
-    draw_area_blend(folder)
+    for example in EXAMPLES:
+        maps = example.maps()
+        draw(example, maps, folder)
+        print(f"{textwrap.fill(example.written(maps), 120)}\n\n![{example.shown}](images/{example.name}.png)\n")
 
 
 if __name__ == "__main__":

@@ -183,3 +183,21 @@ def limbs(n, count, seed):
     for direction in towards:
         radius = radius + rng.uniform(1.0, 3.0) * np.exp(rng.uniform(15.0, 40.0) * (sphere @ direction - 1.0))
     return sphere * radius[:, None], *polygons(faces)
+
+
+def with_fine_border(vertices, triangles, chosen, points):
+    """Puts this many points on the border edges whose middle is chosen; the surface stays as it is."""
+    tail, head = triangles, np.roll(triangles, -1, axis=1)
+    n = len(vertices)
+    on_border = ~np.isin(tail * n + head, head * n + tail)
+    middles = (vertices[tail] + vertices[head]) / 2
+    cut = on_border & np.apply_along_axis(chosen, 2, middles)
+    assert cut.sum(axis=1).max() <= 1
+    part = np.arange(1, points + 1)[:, None] / (points + 1)
+    faces, added = list(triangles[~cut.any(axis=1)]), []
+    for face, side in zip(*np.nonzero(cut)):
+        first, last, apex = np.roll(triangles[face], -side)
+        row = [first, *range(n + points * len(added), n + points * (len(added) + 1)), last]
+        added.append((1 - part) * vertices[first] + part * vertices[last])
+        faces += [(a, b, apex) for a, b in zip(row, row[1:])]
+    return np.vstack([vertices, *added]), np.array(faces)

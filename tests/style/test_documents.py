@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md and docs/ name exists."""
+"""What README.md and docs/ name exists, and the numbers of their pictures are those of today."""
 
 import re
 from pathlib import Path
 
 import pytest
+
+from tests.benchmarks import control_pictures
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -67,3 +69,11 @@ def test_links_lead_somewhere(document):
 def test_python_in_documents_compiles(document):
     for code in re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL):
         compile(code, document.name, "exec")
+
+
+@pytest.mark.parametrize("example", control_pictures.EXAMPLES, ids=lambda example: example.name)
+def test_the_guide_has_each_picture_with_the_numbers_of_today(example):
+    guide = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
+    assert example.written(example.maps()) in " ".join(guide.split())
+    assert f"![{example.shown}](images/{example.name}.png)" in guide
+    assert (control_pictures.IMAGES / f"{example.name}.png").stat().st_size < 60_000
