@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md and docs/ name exists, and the numbers of their pictures are those of today."""
+"""What README.md and docs/ name exists, their code runs, and their pictures' numbers are those of today."""
 
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.benchmarks import control_pictures
+from tests.module import meshes
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -69,6 +71,41 @@ def test_links_lead_somewhere(document):
 def test_python_in_documents_compiles(document):
     for code in re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL):
         compile(code, document.name, "exec")
+
+
+def module_code():
+    """Return the blocks of docs/scripting.md for the module alone; tests/blender/test_scripting.py runs the others."""
+    text = (ROOT / "docs" / "scripting.md").read_text(encoding="utf-8")
+    return [code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "bpy" not in code]
+
+
+@pytest.mark.parametrize("code", module_code(), ids=lambda code: code.split()[1])
+@pytest.mark.parametrize(
+    ("vertices", "faces"), [meshes.saddle_quads(13), meshes.bulge(15, 0.8), meshes.bumpy_disk(300)], ids=len
+)
+def test_code_for_the_module_runs(code, vertices, faces):
+    _, triangles = control_pictures.triangulated((vertices, faces)) if faces.shape[1] == 4 else (vertices, faces)
+    face_offsets, corner_vertices = meshes.polygons(faces)
+    names = {
+        "vertices": vertices,
+        "triangles": triangles,
+        "face_offsets": face_offsets,
+        "corner_vertices": corner_vertices,
+        "seams": faces[:3, :2],
+    }
+    exec(compile(code, "scripting.md", "exec"), names)
+    for name in ("solution", "result", "lower", "flat", "strict", "even", "grain"):
+        uv = names[name].uv
+        assert np.isfinite(uv).all(), name
+        assert np.ptp(uv, axis=0).min() > 0.1, name
+    assert names["seams"].shape[1:] == (2,)
+    assert names["lower"].polish_steps
+    assert 1 < names["measured"].mean_qc < 1.2
+    assert names["defects"].overlapping.shape == (len(faces),)
+
+
+def test_code_for_the_module_is_there():
+    assert len(module_code()) == 1
 
 
 @pytest.mark.parametrize("example", control_pictures.EXAMPLES, ids=lambda example: example.name)
