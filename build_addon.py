@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Set up, demonstrate, test and package Spectral Unwrap.
+"""Set up, demonstrate, test, document and package Spectral Unwrap.
 
 Runs with a bare Python 3.9 or newer on Debian and Ubuntu; everything built goes under build/.
 """
@@ -13,6 +13,7 @@ from pathlib import Path
 
 from tools import demo, environment, other_pythons, packaging
 from tools.cross import command as cross
+from tools.site import command as site
 from tools.steps import StepError
 
 
@@ -33,6 +34,7 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     commands.add_parser(
         "fuzz-scenes", help="random scenes through the operators; --help tells what else", add_help=False
     )
+    commands.add_parser("docs", help="make a site of the documents, with a reference of the module, in build/site/")
     command = commands.add_parser("package", help="write the installable zips to build/packages/")
     command.add_argument(
         "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
@@ -58,9 +60,9 @@ def main() -> int:
             return demo.run(mesh)
         if options.command == "test":
             if options.quick:
-                environment.set_up("build", "quick")
+                environment.set_up("build", "docs", "quick")
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
-            environment.set_up("build", "bpy", "demo", "package", "fuzz", "quick", "test")
+            environment.set_up("build", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
             other_pythons.set_up()
             if cross.made():
                 environment.set_up("cross", "wine", native=False)
@@ -71,6 +73,10 @@ def main() -> int:
         if options.command == "fuzz-scenes":
             environment.set_up("build", "bpy", "quick", "test")
             return environment.run_python("-m", "tests.fuzz.scenes_run", *options.further_arguments)
+        if options.command == "docs":
+            # The reference reads the sources, so that nothing is compiled.
+            environment.set_up("docs", native=False)
+            return site.run()
         if options.platforms:
             return cross.run(options.platforms)
         if options.wheels:

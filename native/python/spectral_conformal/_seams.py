@@ -51,7 +51,7 @@ def suggest_seams(
         progress: as in `parameterize`.
 
     Returns:
-        (S, 2) int32 vertex pairs, the smaller vertex first, cut after cut in the order in which they were found: first
+        (S, 2) int32 vertex pairs, the smaller vertex first, cut after cut in the order in which they were found, first
         what topology needs, then what lowers the distortion most.
 
     Raises:
