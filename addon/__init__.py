@@ -17,7 +17,7 @@ bl_info = {
 }
 
 # Each may use those before it: they come in this order and go in the reverse one.
-_PARTS = (translations, properties, preferences, handlers, operators, menus, panels, extender_arrows, map_overlay)
+_PARTS = (translations, properties, handlers, operators, preferences, menus, panels, extender_arrows, map_overlay)
 
 
 def register() -> None:

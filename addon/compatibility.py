@@ -21,6 +21,11 @@ SMOOTH_COLOR_SHADER = "SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SM
 LINE_SHADER = "POLYLINE_UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_POLYLINE_UNIFORM_COLOR"
 
 
+# Whether the 3D viewport's menu of unwraps shows the UV editor's, entries of add-ons included. In 4.3 it opens it; no
+# 4.4 was tried.
+VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)
+
+
 def translated(text: str) -> str:
     """Return a text in the user's language where Blender is to translate what it reports, else as it is."""
     # Before 4.1 reports went by the switch of the tooltips. Asked for each time: a function of Blender's that a module

@@ -63,10 +63,11 @@ OPERATORS_THAT_MARK_SEAMS_OF_A_MAP = (
     "UV_OT_spectral_suggest_seams",
 )
 
-# Blender's menus that list the unwrap operators: 3D viewport, UV editor.
+# Blender's menus that get entries. The first two list its unwrap operators.
 VIEWPORT_UNWRAP_MENU = "VIEW3D_MT_uv_map"
 UV_EDITOR_UNWRAP_MENU = "IMAGE_MT_uvs_unwrap"
 UV_EDITOR_MENU = "IMAGE_MT_uvs"
+VIEWPORT_EDGE_MENU = "VIEW3D_MT_edit_mesh_edges"
 UV_EDITOR_SELECT_MENU = "IMAGE_MT_select"
 VIEWPORT_SELECT_BY_TRAIT_MENU = "VIEW3D_MT_edit_mesh_select_by_trait"
 

@@ -1,17 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: the colours of the overlay."""
+"""The add-on's preferences: defaults of the operator, limits, the colours of the overlay."""
 
-from bpy.props import FloatVectorProperty
-from bpy.types import AddonPreferences, Context
+import bpy
+from bpy.props import FloatVectorProperty, IntProperty, PointerProperty
+from bpy.types import AddonPreferences, Context, PropertyGroup, UILayout
 from bpy.utils import register_class, unregister_class
 
-from . import names
-from .core import color_ramp, texts
+from . import names, user_preferences
+from .core import color_ramp, native, texts
+from .operators.unwrap_properties import UnwrapProperties, take_as_last
 from .overlay import map_overlay
+from .ui import unwrap_settings
+
+
+class SpectralUnwrapDefaults(UnwrapProperties, PropertyGroup):
+    """The settings with which Spectral Unwrap begins in a new session."""
 
 
 def _on_color(_preferences: AddonPreferences, context: Context) -> None:
     map_overlay.redraw(context)
+
+
+def _on_limit(_preferences: AddonPreferences, context: Context) -> None:
+    map_overlay.edited()
+    map_overlay.redraw(context)
+
+
+def _on_threads(preferences: AddonPreferences, _context: Context) -> None:
+    native.limit_threads(preferences.threads)
 
 
 def _color(words: dict[str, str], default: color_ramp.Color) -> object:
@@ -21,10 +37,16 @@ def _color(words: dict[str, str], default: color_ramp.Color) -> object:
 
 
 class SpectralPreferences(AddonPreferences):
-    """Colours; Blender keeps them with the user's preferences."""
+    """Blender keeps them with the user's preferences."""
 
     bl_idname = names.PACKAGE
 
+    defaults: PointerProperty(type=SpectralUnwrapDefaults)
+    threads: IntProperty(**texts.THREADS_PROPERTY, default=0, min=0, max=1024, update=_on_threads)
+    overlay_max_faces: IntProperty(
+        **texts.OVERLAY_MAX_FACES_PROPERTY, default=user_preferences.MAX_FACES, min=0, update=_on_limit
+    )
+    live_max_faces: IntProperty(**texts.LIVE_MAX_FACES_PROPERTY, default=user_preferences.MAX_FACES, min=0)
     angle_low: _color(texts.ANGLE_LOW_PROPERTY, color_ramp.GOOD_TO_BAD[0])
     angle_middle: _color(texts.ANGLE_MIDDLE_PROPERTY, color_ramp.GOOD_TO_BAD[1])
     angle_high: _color(texts.ANGLE_HIGH_PROPERTY, color_ramp.GOOD_TO_BAD[2])
@@ -33,22 +55,45 @@ class SpectralPreferences(AddonPreferences):
     size_high: _color(texts.SIZE_HIGH_PROPERTY, color_ramp.SMALL_TO_LARGE[2])
 
     def draw(self, _context: Context) -> None:
-        """Draw both scales of colours."""
-        layout = self.layout
-        layout.label(text=texts.OVERLAY_COLORS_LABEL)
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        """Draw the defaults, the limits and both scales of colours."""
+        box = _part(self.layout, text=texts.DEFAULTS_LABEL)
+        unwrap_settings.draw_common(box, self.defaults)
+        unwrap_settings.draw_fold(box, self.defaults)
+        if self.defaults.show_advanced:
+            unwrap_settings.draw_advanced(box, self.defaults)
+        box = _part(self.layout, text=texts.LIMITS_LABEL)
+        for name in ("threads", "overlay_max_faces", "live_max_faces"):
+            box.prop(self, name)
+        box = _part(self.layout, text=texts.OVERLAY_COLORS_LABEL)
         for scale in ("angle", "size"):
-            column = layout.column(align=True)
+            column = box.column(align=True)
             for place in ("low", "middle", "high"):
                 column.prop(self, f"{scale}_{place}")
 
 
+def _part(layout: UILayout, text: str) -> UILayout:
+    box = layout.box()
+    box.label(text=text)
+    box.use_property_split = True
+    box.use_property_decorate = False
+    return box
+
+
 def register() -> None:
-    """Add the preferences."""
+    """Add the preferences, and let what the user chose count."""
+    register_class(SpectralUnwrapDefaults)
     register_class(SpectralPreferences)
+    addon = bpy.context.preferences.addons.get(names.PACKAGE)
+    if addon is None or addon.preferences is None:
+        return
+    take_as_last(addon.preferences.defaults)
+    if addon.preferences.threads:
+        native.limit_threads(addon.preferences.threads)
 
 
 def unregister() -> None:
     """Remove the preferences; what the user chose stays in Blender's."""
+    if user_preferences.read("threads", 0):
+        native.limit_threads(0)
     unregister_class(SpectralPreferences)
+    unregister_class(SpectralUnwrapDefaults)

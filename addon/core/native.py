@@ -35,6 +35,17 @@ def spectral_conformal() -> ModuleType:
         raise NativeModuleError from error
 
 
+def limit_threads(threads: int) -> None:
+    """Let what this thread asks of the module share at most so many threads; 0 for as many as there are cores.
+
+    Without the module nothing happens: whoever needs it says so.
+    """
+    try:
+        spectral_conformal().limit_threads(threads)
+    except NativeModuleError:
+        return
+
+
 @cache
 def _name() -> str:
     """Return the name by which the module is to be imported; looking for it reaches the disk, once."""

@@ -246,6 +246,23 @@ IMAGE_SIZE_PROPERTY = {
 CHECKS_PROPERTY = {"name": "Squares", "description": "Squares of the checker along one side of a UV tile"}
 LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colours mean, and the numbers of the map"}
 
+DEFAULTS_LABEL = "Spectral Unwrap Begins With"
+LIMITS_LABEL = "Limits"
+THREADS_PROPERTY = {
+    "name": "Threads",
+    "description": "How many processor cores a solve may use at once, 0 for all; the map is the same",
+}
+OVERLAY_MAX_FACES_PROPERTY = {
+    "name": "Overlay: Faces",
+    "description": "Meshes with more faces are not colored, since the overlay follows every edit",
+}
+LIVE_MAX_FACES_PROPERTY = {
+    "name": "Live Unwrap: Faces",
+    "description": "Meshes with more faces are left alone by Live Spectral Unwrap",
+}
+TOO_MANY_FACES_TO_COLOR = "Too many faces to color:"
+LIMIT_IN_PREFERENCES = "The add-on's preferences set the limit"
+TOO_MANY_FACES_TO_FOLLOW = "Too many faces to follow"
 OVERLAY_COLORS_LABEL = "Colors of the UV Map Overlay"
 ANGLE_LOW_PROPERTY = {"name": "Angles Kept", "description": "Color of faces whose angles are kept"}
 ANGLE_MIDDLE_PROPERTY = {"name": "Between", "description": "Color of faces in the middle of the range"}
@@ -442,6 +459,11 @@ def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str,
     if kind == LOOK_DEFECTS:
         return (translate("sound"), translate("overlapping"), translate("flipped"))
     return tuple(look_value(kind, value) for value in (low, middle, high))
+
+
+def too_many_faces(meshes: Sequence[str]) -> list[str]:
+    """Return the legend's lines on meshes, by the names of their objects, that the overlay leaves out."""
+    return [translate(TOO_MANY_FACES_TO_COLOR), *meshes, translate(LIMIT_IN_PREFERENCES)] if meshes else []
 
 
 def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
+from . import native
 from .progress import Progress
 
 Result = TypeVar("Result")
@@ -21,11 +22,12 @@ class Worker(Generic[Result]):
         phase: name of the phase, as `work` reported it last; empty before the first report.
     """
 
-    def __init__(self, work: Callable[[Progress], Result]) -> None:
-        """Start the thread."""
+    def __init__(self, work: Callable[[Progress], Result], threads: int = 0) -> None:
+        """Start the thread; the solver may use so many at once, 0 for as many as the machine has cores."""
         self.fraction = 0.0
         self.phase = ""
         self._work = work
+        self._threads = threads
         self._result: Result | None = None
         self._error: BaseException | None = None
         self._cancelled = threading.Event()
@@ -55,6 +57,8 @@ class Worker(Generic[Result]):
 
     def _run(self) -> None:
         try:
+            if self._threads:
+                native.limit_threads(self._threads)
             self._result = self._work(self._report)
         except BaseException as error:  # noqa: BLE001 - whatever happened goes to the thread that asks for the result
             self._error = error

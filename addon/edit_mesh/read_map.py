@@ -34,6 +34,14 @@ def read_map(
         bpy.data.meshes.remove(copy, do_unlink=False, do_ui_user=False)
 
 
+def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:
+    """Return how many faces `read_map` would read."""
+    if shown.mode == "EDIT":
+        return len(bmesh.from_edit_mesh(shown.data).faces)
+    evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
+    return len(evaluated.polygons) if isinstance(evaluated, bpy.types.Mesh) else 0
+
+
 def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays | None:
     """Read the mesh of an object without its modifiers, all faces as visible ones; None as `read_map` has it."""
     if shown.mode == "EDIT":

@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from .. import compatibility
+from .. import compatibility, user_preferences
 from ..edit_mesh.read import read_mesh
 from ..extenders import storage
 from ..unwrapping.last_settings import last_settings
@@ -90,11 +90,11 @@ class Snapshot:
 
 
 def take(edit_object: bpy.types.Object) -> Snapshot | None:
-    """Return the mesh of an object in edit mode as it is now; None if it has no UV map."""
+    """Return the mesh of an object in edit mode as it is now; None if it has no UV map, or too many faces to follow."""
     mesh = edit_object.data
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.loops.layers.uv.active
-    if layer is None:
+    if layer is None or len(bm.faces) > user_preferences.read("live_max_faces", user_preferences.MAX_FACES):
         return None
     # The pinned map first: reading makes and frees wrappers.
     pinned = _pinned_map(edit_object) if compatibility.has_pins(bm, layer) else None

@@ -272,6 +272,23 @@ TEXTS = {
     "Show what the colours mean, and the numbers of the map": (
         "Die Bedeutung der Farben und die Werte der UV-Map anzeigen"
     ),
+    "Spectral Unwrap Begins With": "„Spektral abwickeln“ beginnt mit",
+    "Limits": "Grenzen",
+    "Threads": "Threads",
+    "How many processor cores a solve may use at once, 0 for all; the map is the same": (
+        "Wie viele Prozessorkerne eine Lösung gleichzeitig nutzen darf, 0 für alle; die Map ist dieselbe"
+    ),
+    "Overlay: Faces": "Overlay: Flächen",
+    "Meshes with more faces are not colored, since the overlay follows every edit": (
+        "Meshes mit mehr Flächen werden nicht gefärbt, da das Overlay jeder Bearbeitung folgt"
+    ),
+    "Live Unwrap: Faces": "Echtzeit: Flächen",
+    "Meshes with more faces are left alone by Live Spectral Unwrap": (
+        "Meshes mit mehr Flächen werden beim Abwickeln in Echtzeit nicht beachtet"
+    ),
+    "Too many faces to color:": "Zu viele Flächen zum Färben:",
+    "The add-on's preferences set the limit": "Grenze: Einstellungen des Add-ons",
+    "Too many faces to follow": "Zu viele Flächen für Echtzeit",
     "Colors of the UV Map Overlay": "Farben des UV-Map-Overlays",
     "Angles Kept": "Winkel erhalten",
     "Color of faces whose angles are kept": "Farbe von Flächen, deren Winkel erhalten bleiben",

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import bpy
 
+from .. import user_preferences
 from ..core import texts
 from ..core.progress import Progress
 from ..core.worker import Worker
@@ -237,7 +238,7 @@ class JobOperator(ReportingOperator):
             if not callable(step):
                 running.ask(context, step)
                 return {"RUNNING_MODAL"}
-            worker = Worker(step)
+            worker = Worker(step, user_preferences.read("threads", 0))
             if not worker.wait(_SECONDS_BEFORE_MODAL):
                 running.wait(context, worker)
                 return {"RUNNING_MODAL"}

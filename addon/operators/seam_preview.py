@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from .. import user_preferences
 from ..core import quality, seam_suggestion, texts
 from ..core.placement import place
 from ..core.progress import Progress
@@ -109,7 +110,8 @@ class SeamPreview:
         if map_overlay.is_on() and self.count not in self._maps:
             missing.add(self.count)
         if missing and self._measuring is None:
-            self._measuring = Worker(lambda progress: self._measure(sorted(missing), progress))
+            threads = user_preferences.read("threads", 0)
+            self._measuring = Worker(lambda progress: self._measure(sorted(missing), progress), threads)
         length, total = (
             length_text(context, cuts.length) for cuts in (self._suggestion.part(0, self.count), self._suggestion)
         )

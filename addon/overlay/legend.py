@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import bpy
 
-from .. import names
+from .. import user_preferences
 from ..core import color_ramp, texts
 from .colored_triangles import Colors
 from .screen_text import LINE, draw_line, fill_box, text_width
@@ -29,10 +29,9 @@ def colors_of(kind: str, opacity: float) -> Colors:
     if kind in _FIXED:
         return Colors(*_FIXED[kind], opacity)
     scale, colors = _CHOSEN[kind]
-    addon = bpy.context.preferences.addons.get(names.PACKAGE)
-    if addon is not None and addon.preferences is not None:
-        colors = [tuple(getattr(addon.preferences, f"{scale}_{place}")) for place in ("low", "middle", "high")]
-    return Colors(*colors, opacity)
+    places = ("low", "middle", "high")
+    chosen = [tuple(user_preferences.read(f"{scale}_{place}", color)) for place, color in zip(places, colors)]
+    return Colors(*chosen, opacity)
 
 
 def draw(

@@ -13,7 +13,7 @@ import bpy
 import gpu
 import numpy as np
 
-from .. import names
+from .. import names, user_preferences
 from ..core import texts
 from ..core.errors import PrintOnce
 from ..core.map_view import IslandNumbers, MapArrays, MapView, automatic_range
@@ -37,6 +37,7 @@ class _ShownMesh:
         self._is_stale = True
         self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
         self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self.is_too_large = False
         self.numbers: IslandNumbers | None = None
         self.islands_known = False
 
@@ -47,7 +48,11 @@ class _ShownMesh:
         """Return what the object shows now; None without faces or a UV map."""
         if self._is_stale:
             self._is_stale = False
-            arrays = read_map.read_map(context, shown, _preview.get(shown.name_full))
+            most = user_preferences.read("overlay_max_faces", user_preferences.MAX_FACES)
+            self.is_too_large = read_map.n_faces(context, shown) > most
+            arrays = None
+            if not self.is_too_large:
+                arrays = read_map.read_map(context, shown, _preview.get(shown.name_full))
             if self._differs(arrays):
                 self._view = None if arrays is None else MapView(arrays)
                 self._batches.clear()
@@ -276,10 +281,11 @@ def _draw_legend(context: bpy.types.Context) -> None:
     if context.area.type == "IMAGE_EDITOR" and not (space.show_uvedit and context.mode == "EDIT_MESH"):
         return
     found = views(context)
-    if not found:
+    too_large = [each.name for each in shown_objects(context) if _shown[each.name_full].is_too_large]
+    if not (found or too_large):
         return
     chosen = settings()
-    lines: list[str] = []
+    lines = texts.too_many_faces(too_large)
     if len(found) == 1 and found[0][1].islands_known:
         shown, view = found[0][1:]
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, shown.numbers))

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's unwrap menus."""
+"""Entries in Blender's menus: what unwraps beside its own Unwraps, what selects where it selects."""
 
 from collections.abc import Callable
 
 import bpy
 
-from .. import names
+from .. import compatibility, names
 from ..core import texts
+from .icons import draw_operator
 
 
 class UV_MT_spectral(bpy.types.Menu):
@@ -20,80 +21,74 @@ class UV_MT_spectral(bpy.types.Menu):
         layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
         layout.prop(overlay, "show", text=texts.MAP_OVERLAY_LABEL)
         layout.operator_context = "INVOKE_REGION_WIN"
-        layout.operator(names.INSPECT_OPERATOR)
-        layout.operator(names.COMPARE_OPERATOR)
-        layout.operator(names.STORE_OPERATOR)
-        layout.operator_context = "EXEC_REGION_WIN"
-        layout.operator(names.SELECT_DISTORTED_OPERATOR)
+        draw_operator(layout, names.INSPECT_OPERATOR)
+        draw_operator(layout, names.COMPARE_OPERATOR)
+        draw_operator(layout, names.STORE_OPERATOR)
         layout.separator()
-        layout.operator(names.ADD_EXTENDER_OPERATOR).pairs = texts.PAIRS_IN_ORDER
-        layout.operator(names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = texts.PAIRS_TO_ACTIVE
-        layout.operator_context = "INVOKE_REGION_WIN"
-        layout.operator(names.ADJUST_EXTENDER_OPERATOR).index = -1
         layout.operator_context = "EXEC_REGION_WIN"
-        layout.operator(names.SELECT_EXTENDER_OPERATOR).index = -1
-        layout.operator(names.REMOVE_EXTENDER_OPERATOR).broken = False
+        draw_operator(layout, names.ADD_EXTENDER_OPERATOR).pairs = texts.PAIRS_IN_ORDER
+        draw_operator(layout, names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = texts.PAIRS_TO_ACTIVE
+        layout.operator_context = "INVOKE_REGION_WIN"
+        draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR).index = -1
+        layout.operator_context = "EXEC_REGION_WIN"
+        draw_operator(layout, names.SELECT_EXTENDER_OPERATOR).index = -1
+        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR).broken = False
 
 
-def _draw_unwrap(layout: bpy.types.UILayout) -> None:
-    # Blender's menu leaves its layout set to execute operators, which would freeze the window during a long solve.
+def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
+    """Draw an operator that waits for its work: executed, as Blender's menus leave it, it would freeze the window."""
+    before = layout.operator_context
     layout.operator_context = "INVOKE_REGION_WIN"
-    layout.operator(names.UNWRAP_OPERATOR)
+    draw_operator(layout, operator)
+    # What Blender draws next counts on what there was.
+    layout.operator_context = before
 
 
-def _draw_in_viewport(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+def _draw_unwrap(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    _draw_invoked(self.layout, names.UNWRAP_OPERATOR)
+
+
+def _draw_suggest_seams(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
+    _draw_invoked(self.layout, names.SUGGEST_SEAMS_OPERATOR)
+
+
+def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    _draw_suggest_seams(self, context)
     self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
-    _draw_unwrap(self.layout)
-    self.layout.operator(names.SELECT_FAILED_OPERATOR)
-    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
-    self.layout.operator(names.SUGGEST_SEAMS_OPERATOR)
     self.layout.menu(names.SUBMENU)
 
 
-def _draw_in_uv_editor(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    # Newer versions draw the UV editor's Unwrap menu inside the viewport's menu, which has its own entry.
-    if context.area.type == "IMAGE_EDITOR":
-        self.layout.separator()
-        self.layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
-        _draw_unwrap(self.layout)
-        self.layout.operator(names.SUGGEST_SEAMS_OPERATOR)
-        self.layout.menu(names.SUBMENU)
-
-
-def _draw_in_select_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+def _draw_selectors(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
-    self.layout.operator(names.SELECT_FAILED_OPERATOR)
-    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
-    self.layout.operator(names.SELECT_DISTORTED_OPERATOR)
+    for operator in (names.SELECT_FAILED_OPERATOR, names.SELECT_DEFECTS_OPERATOR, names.SELECT_DISTORTED_OPERATOR):
+        draw_operator(self.layout, operator)
 
 
-def _draw_by_trait(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    self.layout.separator()
-    self.layout.operator(names.SELECT_DEFECTS_OPERATOR)
-    self.layout.operator(names.SELECT_DISTORTED_OPERATOR)
-
-
-def _entries() -> list[tuple[type, Callable]]:
-    """Return the menus of this Blender version that get entries, each with its draw function."""
-    uv_editor = getattr(bpy.types, names.UV_EDITOR_UNWRAP_MENU, None) or getattr(bpy.types, names.UV_EDITOR_MENU)
-    return [
-        (getattr(bpy.types, names.VIEWPORT_UNWRAP_MENU), _draw_in_viewport),
-        (uv_editor, _draw_in_uv_editor),
-        (getattr(bpy.types, names.UV_EDITOR_SELECT_MENU), _draw_in_select_menu),
-        (getattr(bpy.types, names.VIEWPORT_SELECT_BY_TRAIT_MENU), _draw_by_trait),
+def _entries() -> list[tuple[str, str, Callable]]:
+    """Return the menus of this Blender version that get entries, at which end, each with its draw function."""
+    entries = [
+        (names.UV_EDITOR_UNWRAP_MENU, "prepend", _draw_unwrap),
+        (names.VIEWPORT_UNWRAP_MENU, "append", _draw_work),
+        (names.UV_EDITOR_MENU, "append", _draw_work),
+        (names.VIEWPORT_EDGE_MENU, "append", _draw_suggest_seams),
+        (names.UV_EDITOR_SELECT_MENU, "append", _draw_selectors),
+        (names.VIEWPORT_SELECT_BY_TRAIT_MENU, "append", _draw_selectors),
     ]
+    if not compatibility.VIEWPORT_MENU_HAS_THE_UV_EDITORS:
+        entries.append((names.VIEWPORT_UNWRAP_MENU, "prepend", _draw_unwrap))
+    return entries
 
 
 def register() -> None:
     """Add the menu and the entries."""
     bpy.utils.register_class(UV_MT_spectral)
-    for menu, draw in _entries():
-        menu.append(draw)
+    for menu, end, draw in _entries():
+        getattr(getattr(bpy.types, menu), end)(draw)
 
 
 def unregister() -> None:
     """Remove the entries and the menu."""
-    for menu, draw in _entries():
-        menu.remove(draw)
+    for menu, _end, draw in _entries():
+        getattr(bpy.types, menu).remove(draw)
     bpy.utils.unregister_class(UV_MT_spectral)

@@ -3,13 +3,15 @@
 
 import textwrap
 
+import bmesh
 import bpy
 
-from .. import names
+from .. import names, user_preferences
 from ..core import texts
 from ..extenders import storage, tracking
 from ..unwrapping import comparison, island_list
 from . import unwrap_settings
+from .icons import draw_operator
 
 
 class MESH_UL_spectral_extenders(bpy.types.UIList):
@@ -93,7 +95,7 @@ class _SeamsPanel(_Panel):
         """Draw the ways to get seams, and to get rid of them."""
         column = self.layout.column(align=True)
         column.operator_context = "INVOKE_REGION_WIN"
-        column.operator(names.SUGGEST_SEAMS_OPERATOR)
+        draw_operator(column, names.SUGGEST_SEAMS_OPERATOR)
         row = column.row(align=True)
         row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
         row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
@@ -111,8 +113,12 @@ class _UnwrapPanel(_Panel):
         """Draw the operator and the live toggle."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
-        layout.operator(names.UNWRAP_OPERATOR)
+        draw_operator(layout, names.UNWRAP_OPERATOR)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
+        if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
+            column = layout.column(align=True)
+            column.label(text=texts.TOO_MANY_FACES_TO_FOLLOW, icon="ERROR")
+            column.label(text=texts.LIMIT_IN_PREFERENCES, icon="BLANK1")
 
 
 class _SettingsPanel(_Panel):
@@ -183,7 +189,7 @@ class _ComparisonPanel(_Panel):
         """Draw the operator, and of every method its distortion, worst face and seconds."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
-        layout.operator(names.COMPARE_OPERATOR)
+        draw_operator(layout, names.COMPARE_OPERATOR)
         candidates = comparison.last()
         if not candidates:
             return
@@ -199,6 +205,12 @@ class _ComparisonPanel(_Panel):
             names_column.label(text=name, icon="CHECKMARK" if each == best else "BLANK1")
             for index in shown:
                 numbers.label(text=row[index])
+
+
+def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
+    """Return whether live unwrapping leaves a mesh in edit mode alone."""
+    most = user_preferences.read("live_max_faces", user_preferences.MAX_FACES)
+    return len(bmesh.from_edit_mesh(edit_object.data).faces) > most
 
 
 def _characters(context: bpy.types.Context) -> int:
@@ -218,7 +230,7 @@ class _ExtendersPanel(_Panel):
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
         column = layout.column(align=True)
-        column.operator(names.ADD_EXTENDER_OPERATOR, icon="ADD").pairs = texts.PAIRS_IN_ORDER
+        draw_operator(column, names.ADD_EXTENDER_OPERATOR).pairs = texts.PAIRS_IN_ORDER
         column.operator(names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = texts.PAIRS_TO_ACTIVE
         if not storage.of(mesh):
             return
@@ -227,10 +239,10 @@ class _ExtendersPanel(_Panel):
         )
         column = layout.column()
         column.operator_context = "INVOKE_REGION_WIN"
-        column.operator(names.ADJUST_EXTENDER_OPERATOR, icon="ARROW_LEFTRIGHT").index = -1
+        draw_operator(column, names.ADJUST_EXTENDER_OPERATOR).index = -1
         row = layout.row(align=True)
-        row.operator(names.SELECT_EXTENDER_OPERATOR, text=texts.SELECT_LABEL).index = -1
-        row.operator(names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_LABEL).broken = False
+        draw_operator(row, names.SELECT_EXTENDER_OPERATOR, text=texts.SELECT_LABEL).index = -1
+        draw_operator(row, names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_LABEL).broken = False
         if any(tracking.broken(mesh)):
             remove = layout.operator(
                 names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"
@@ -274,12 +286,12 @@ class _MapOverlayPanel(_Panel):
         if context.mode == "EDIT_MESH":
             column = self.layout.column(align=True)
             column.operator_context = "INVOKE_REGION_WIN"
-            column.operator(names.INSPECT_OPERATOR, icon="EYEDROPPER")
+            draw_operator(column, names.INSPECT_OPERATOR)
             column.operator_context = "EXEC_REGION_WIN"
-            column.operator(names.SELECT_DISTORTED_OPERATOR)
-            column.operator(names.SELECT_DEFECTS_OPERATOR)
+            draw_operator(column, names.SELECT_DISTORTED_OPERATOR)
+            draw_operator(column, names.SELECT_DEFECTS_OPERATOR)
         self.layout.operator_context = "INVOKE_REGION_WIN"
-        self.layout.operator(names.STORE_OPERATOR)
+        draw_operator(self.layout, names.STORE_OPERATOR)
 
 
 def _panels() -> list[type]:

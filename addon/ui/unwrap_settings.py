@@ -25,6 +25,15 @@ def draw_common(
     column.prop(properties, "margin")
 
 
+def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401 - the operator or its defaults
+    """Draw the heading that shows the rest, or folds it away."""
+    row = layout.row()
+    row.use_property_split = False
+    row.prop(
+        properties, "show_advanced", icon="DOWNARROW_HLT" if properties.show_advanced else "RIGHTARROW", emboss=False
+    )
+
+
 def draw_advanced(
     layout: bpy.types.UILayout,
     properties: Any,  # noqa: ANN401 - the operator or its record

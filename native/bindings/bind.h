@@ -14,5 +14,6 @@ void bind_unwrap(pybind11::module_& module);
 void bind_quality(pybind11::module_& module);
 void bind_metric(pybind11::module_& module);
 void bind_seams(pybind11::module_& module);
+void bind_threads(pybind11::module_& module);
 
 }  // namespace spectral_conformal::python

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_native, module) {
   bind_quality(module);
   bind_metric(module);
   bind_seams(module);
+  bind_threads(module);
 }

@@ -39,8 +39,8 @@ BELOW = {
     "ui": {"core", "extenders", "unwrapping"},
     "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
 }
-# Identifiers, and what differs between versions of Blender: no folder, and below all but core.
-GROUND = {"addon.names", "addon.compatibility"}
+# Identifiers, what differs between versions of Blender, what the user prefers: no folder, and below all but core.
+GROUND = {"addon.names", "addon.compatibility", "addon.user_preferences"}
 
 IDENTIFIERS = (
     *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),

@@ -154,6 +154,7 @@ CALLS = {
     "look": [(look,) for look in LOOKS],
     "look_value": [(look, 2.0) for look in LOOKS],
     "legend_ends": [(look, 1.0, 2.0, 3.0) for look in LOOKS],
+    "too_many_faces": [(["CUBE"],), ([],)],
     "legend_numbers": [(texts.LEGEND_MESH, numbers()), (texts.LEGEND_MESH, numbers(NAN))],
     "island_row": [(1, 1.5, 2.0, 1, 1)],
     "island_failed": [(1,)],

@@ -31,17 +31,16 @@ def open_suzanne():
     yield
 
 
-def choose_from_menu(picture=None, from_the_end=1):
-    """Open the unwrap menu with U and choose the add-on's entry, counted from the last one, by keyboard.
+def choose_from_menu(picture=None):
+    """Open the unwrap menu with U and choose the add-on's entry, the first, by keyboard.
 
     `picture` names the screenshot of a menu opened for the first time. Later Blender opens it at the entry chosen last.
     """
     xdotool("key", "u")
     yield
     if picture:
-        for _ in range(from_the_end):
-            xdotool("key", "Up")
-            yield
+        xdotool("key", "Home")
+        yield
         screenshot(picture)
     xdotool("key", "Return")
     yield
@@ -53,7 +52,7 @@ def steps():
     before = uv()
 
     point_at("VIEW_3D")
-    yield from choose_from_menu("menu_in_viewport", from_the_end=5)
+    yield from choose_from_menu("menu_in_viewport")
     yield from driving.until(lambda: not np.array_equal(uv(), before))
     assert last_operator().properties.placement == "PACK"
     unwrapped = uv()
@@ -83,7 +82,7 @@ def steps():
     xdotool("key", "a")
     yield
     done = len(bpy.context.window_manager.operators)
-    yield from choose_from_menu("menu_in_uv_editor", from_the_end=3)
+    yield from choose_from_menu("menu_in_uv_editor")
     yield from driving.until(lambda: len(bpy.context.window_manager.operators) > done)
     # The settings are remembered, and in place a second unwrap stays within the same bounds.
     assert last_operator().properties.placement == "KEEP"

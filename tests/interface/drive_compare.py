@@ -34,18 +34,6 @@ def open_suzanne():
     yield from drive.show_uvs()
 
 
-def search(words):
-    """Start an operator by its name, from Blender's search over all menus."""
-    xdotool("key", "F3")
-    yield
-    yield
-    xdotool("type", words)
-    yield
-    yield
-    xdotool("key", "Return")
-    yield
-
-
 def picture(name):
     """Take a screenshot; return its pixels, (height, width, 3)."""
     screenshot(name)
@@ -112,7 +100,7 @@ def steps():
     before = session.uv()
     point_at("VIEW_3D", 0.4, 0.6)
     without = of_viewport(picture("compare_before"))
-    yield from search("Compare Methods")
+    yield from drive.search("Compare Methods")
     yield from drive.until(comparison.last)
     yield
     yield
@@ -133,7 +121,7 @@ def steps():
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all(action="DESELECT")
     point_at("VIEW_3D", 0.5, 0.5)
-    yield from search("Inspect Map")
+    yield from drive.search("Inspect Map")
     yield from drive.until(lambda: map_overlay.is_on())
     point_at("VIEW_3D", 0.5, 0.52)
     yield from drive.until(lambda: map_overlay._pointed_at is not None)

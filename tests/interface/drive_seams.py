@@ -44,7 +44,7 @@ def steps():
     xdotool("key", "u")
     yield
     yield
-    yield from drive.click_below(drive.LAYOUT.unwrap_to_mark_seam, "mark_seam")
+    yield from drive.click_below(drive.LAYOUT.first_to_mark_seam, "mark_seam")
     yield
     if not seams():
         # In 4.3 the first click closes the submenu that has opened beside Unwrap.

@@ -46,10 +46,7 @@ def steps():
     yield from drive.show_uvs()
     before = uv()
     point_at("VIEW_3D")
-    drive.point_at_header("VIEW_3D", drive.UV_MENU)
-    xdotool("click", 1)
-    yield
-    yield from drive.click_below(drive.LAYOUT.header_to_select_defects, "select_defects_menu")
+    yield from drive.search("Select Flipped and")
     yield
     assert bpy.context.window_manager.operators[-1].bl_idname == "UV_OT_spectral_select_defects"
     # Both ends, one of which lies over the other.

@@ -13,7 +13,7 @@ from bpy_extras import view3d_utils
 from tests.interface import session
 from tests.interface.session import area_of, override, xdotool
 
-# Places in pixels, at Blender's default size of the interface. The menu that U opens has its entry Unwrap below the
+# Places in pixels, at Blender's default size of the interface. The menu that U opens has its first entry below the
 # mouse when it is opened for the first time.
 UV_MENU = 555  # in the viewport's header
 
@@ -23,17 +23,16 @@ class Layout:
     """Where a version of Blender shows what is clicked.
 
     Attributes:
-        unwrap_to_mark_seam: in the menu of U.
-        header_to_unwrap, header_to_select_defects, header_to_suggest_seams: from the header to entries of its menu.
+        first_to_mark_seam: in the menu of U, from its first entry.
+        header_to_unwrap, header_to_suggest_seams: from the header to entries of its menu.
         row: height of the rows of Adjust Last Operation.
         bottom_row: its last row, above the lower end.
         sidebar_tab: from the sidebar's top left corner.
         is_wide: whether the sidebar is as wide as from 4.0 on.
     """
 
-    unwrap_to_mark_seam: int
+    first_to_mark_seam: int
     header_to_unwrap: int
-    header_to_select_defects: int
     header_to_suggest_seams: int
     row: int
     bottom_row: int
@@ -42,10 +41,10 @@ class Layout:
 
 
 LAYOUTS = {
-    (5, 0): Layout(259, 380, 423, 443, 23, 18, (278, 248), True),
-    (4, 3): Layout(77, 199, 241, 262, 23, 18, (278, 174), True),
-    (4, 0): Layout(217, 339, 381, 402, 23, 18, (215, 170), False),
-    (3, 4): Layout(225, 351, 395, 417, 22, 20, (215, 170), False),
+    (5, 0): Layout(280, 25, 380, 23, 18, (278, 248), True),
+    (4, 3): Layout(97, 25, 199, 23, 18, (278, 174), True),
+    (4, 0): Layout(238, 25, 339, 23, 18, (215, 170), False),
+    (3, 4): Layout(247, 27, 351, 22, 20, (215, 170), False),
 }
 LAYOUT = next(layout for version, layout in LAYOUTS.items() if bpy.app.version >= version)
 # From 5.0 the UV selection belongs to the mesh.
@@ -115,6 +114,18 @@ def click_below(pixels, picture=None):
     if picture:
         session.screenshot(picture)
     xdotool("click", 1)
+    yield
+
+
+def search(words):
+    """Start an operator by its name, from Blender's search over all menus."""
+    xdotool("key", "F3")
+    yield
+    yield
+    xdotool("type", words)
+    yield
+    yield
+    xdotool("key", "Return")
     yield
 
 

@@ -155,3 +155,50 @@ def test_result_does_not_depend_on_the_thread_count():
         command = [sys.executable, "-c", code]
         outputs.add(subprocess.run(command, cwd=ROOT, env=environ, capture_output=True, check=True).stdout)
     assert len(outputs) == 1
+
+
+def _most_threads(work):
+    """Return how many threads the process has at most while it works, as Linux counts them, beyond those before."""
+
+    def count():
+        return len(list(Path("/proc/self/task").iterdir()))
+
+    done, most, before = threading.Event(), [0], count()
+
+    def watch():
+        while not done.is_set():
+            most[0] = max(most[0], count())
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    work()
+    done.set()
+    watcher.join()
+    return most[0] - before - 1
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="counts threads by /proc")
+def test_a_limit_of_threads_keeps_all_work_in_the_callers_and_changes_no_result():
+    vertices, triangles = meshes.bumpy_disk(30000)
+    uvs = []
+
+    def solve():
+        uvs.append(sc.unwrap(vertices, *meshes.polygons(triangles), polish=True).uv)
+
+    assert sc.limit_threads(1) == 0
+    try:
+        assert _most_threads(solve) == 0
+        assert in_threads(lambda: sc.limit_threads(0)) == [0]
+    finally:
+        assert sc.limit_threads(0) == 1
+    solve()
+    # Helpers live for milliseconds, and may be missed where other processes keep the cores busy.
+    assert os.cpu_count() == 1 or any(_most_threads(solve) > 0 for _ in range(50))
+    assert all(np.array_equal(uv, uvs[0]) for uv in uvs)
+
+
+@pytest.mark.parametrize("threads", [-1, 2**31, 1.0, True, "2", None])
+def test_a_limit_that_is_no_count_is_refused(threads):
+    with pytest.raises(ValueError, match="threads must be a whole number from 0 to 2147483647"):
+        sc.limit_threads(threads)
+    assert sc.limit_threads(0) == 0

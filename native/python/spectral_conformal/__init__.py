@@ -12,7 +12,8 @@ chart by chart. Too little memory raises MemoryError, a progress function that r
 itself passes through. Arguments are never changed.
 
 Threads: all functions may be called from several threads at once, and let Python's other threads run while they
-compute. Of the objects, see `Solver`. Where the module works with CHOLMOD on OpenBLAS, each call into them sets that
+compute. Of the objects, see `Solver`. Each call shares its work among as many threads as the machine has cores;
+`limit_threads` lowers that. Where the module works with CHOLMOD on OpenBLAS, each call into them sets that
 OpenBLAS's number of threads, so that no result depends on it, and puts the process's own number back when it ends: for
 that moment, other users of the same OpenBLAS in the process run with that number, too. NumPy's wheels bring an OpenBLAS
 of their own, which is not touched; `build_info()["blas"]` names the one that is. `OPENBLAS_NUM_THREADS` has no effect
@@ -29,6 +30,7 @@ from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, face_triangles, map_defects
 from ._results import Chart, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
 from ._seams import suggest_cuts, suggest_seams
+from ._threads import limit_threads
 from ._unwrapping import Unwrapper, unwrap
 
 __all__ = [
@@ -56,6 +58,7 @@ __all__ = [
     "distortion",
     "face_distortion",
     "face_triangles",
+    "limit_threads",
     "map_defects",
     "metric_from_direction",
     "metric_from_uv",

@@ -78,6 +78,12 @@ def checked_at_least(value: float, least: float, name: str) -> float:
         raise ValueError(f"{name} is too large for a floating-point number; take math.inf for no limit.") from error
 
 
+def checked_count(value: int, name: str) -> int:
+    if isinstance(value, (bool, np.bool_)) or not (isinstance(value, numbers.Integral) and 0 <= value < 2**31):
+        raise ValueError(f"{name} must be a whole number from 0 to 2147483647, not {value!r}.")
+    return int(value)
+
+
 def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, float]:
     array = checked_array(value, name)
     if array.shape != (3,) or array.dtype.kind not in "iuf" or not np.isfinite(array).all():

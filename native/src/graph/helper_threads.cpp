@@ -3,12 +3,18 @@
 #include <new>
 #include <system_error>
 
+#include "spectral_conformal/thread_limit.h"
+
 namespace spectral_conformal {
 
 HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) {
   try {
+    const auto limited = [work, limit = ThreadLimit::current()] {
+      const ThreadLimit of_caller(limit);
+      work();
+    };
     threads_.reserve(count);
-    while (threads_.size() < count) threads_.emplace_back(work);
+    while (threads_.size() < count) threads_.emplace_back(limited);
   } catch (const std::system_error&) {
     return;  // no more threads
   } catch (const std::bad_alloc&) {

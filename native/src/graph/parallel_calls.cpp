@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "graph/helper_threads.h"
+#include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal {
 namespace {
@@ -100,7 +100,10 @@ void run_in_parallel(int n, unsigned max_threads, const std::function<void(int, 
     return !calls.is_cancelled();
   };
   {
-    const unsigned threads = std::min({max_threads, std::max(1U, std::thread::hardware_concurrency()), unsigned(n)});
+    const unsigned threads = std::min({max_threads, ThreadLimit::available(), unsigned(n)});
+    // A limit is divided among the threads, whose work may share its own calls; cores without one are not.
+    const unsigned limit = ThreadLimit::current();
+    const ThreadLimit of_each(limit == 0 ? 0 : std::max(1U, limit / threads));
     Helpers helpers(threads - 1, calls);
     calls.take(asking);
     while (!helpers.wait()) asking(done, phase_of_waiting);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
-#include <thread>
 #include <type_traits>
 #include <utility>
 
 #include "linear_algebra/blas_threads.h"
+#include "spectral_conformal/thread_limit.h"
 
 // BLAS and LAPACK, Fortran linkage.
 extern "C" {
@@ -244,7 +244,7 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
 unsigned SupernodalFactor::n_threads(double work, double min_work) const {
   if (!BlasThreads::serves_many()) return 1;
   if (max_threads_ > 0) return max_threads_;
-  return work < min_work ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  return work < min_work ? 1 : ThreadLimit::available();
 }
 
 template <class Scalar>

@@ -13,7 +13,10 @@ import pytest
 from tests.blender.inside import scenes
 
 ADDON = "spectral_unwrap"
-MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_select", "VIEW3D_MT_edit_mesh_select_by_trait")
+MENUS = (
+    *("VIEW3D_MT_uv_map", "IMAGE_MT_uvs_unwrap", "IMAGE_MT_uvs", "VIEW3D_MT_edit_mesh_edges"),
+    *("IMAGE_MT_select", "VIEW3D_MT_edit_mesh_select_by_trait"),
+)
 
 
 def _entries():

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The icons of the operators, out of Blender's: each stands for one thing, and is in all versions."""
+
+import bpy
+
+from .. import names
+
+OF = {
+    names.UNWRAP_OPERATOR: "UV",
+    names.SUGGEST_SEAMS_OPERATOR: "MOD_EDGESPLIT",
+    names.INSPECT_OPERATOR: "EYEDROPPER",
+    names.COMPARE_OPERATOR: "IMGDISPLAY",
+    names.STORE_OPERATOR: "GROUP_VCOL",
+    names.SELECT_DISTORTED_OPERATOR: "MOD_SIMPLEDEFORM",
+    names.SELECT_DEFECTS_OPERATOR: "SELECT_INTERSECT",
+    names.SELECT_FAILED_OPERATOR: "CANCEL",
+    names.ADD_EXTENDER_OPERATOR: "ADD",
+    names.ADJUST_EXTENDER_OPERATOR: "ARROW_LEFTRIGHT",
+    names.SELECT_EXTENDER_OPERATOR: "RESTRICT_SELECT_OFF",
+    names.REMOVE_EXTENDER_OPERATOR: "REMOVE",
+}
+
+
+def draw_operator(layout: bpy.types.UILayout, operator: str, text: str | None = None) -> bpy.types.OperatorProperties:
+    """Draw an operator with its icon, under its own name unless there is a `text`; return its properties."""
+    if text is None:
+        return layout.operator(operator, icon=OF[operator])
+    return layout.operator(operator, text=text, icon=OF[operator])

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the add-on's preferences, which preferences.py defines."""
+
+from typing import Any
+
+import bpy
+
+# Of the limits: beyond this, what follows every edit is felt.
+MAX_FACES = 2_000_000
+
+
+def read(name: str, without: Any) -> Any:  # noqa: ANN401 - of whatever type the preference is
+    """Return a preference, or `without` where the add-on has none, as when a script enables it for itself."""
+    addon = bpy.context.preferences.addons.get(__package__)
+    return without if addon is None or addon.preferences is None else getattr(addon.preferences, name)

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences: what the operator begins with, limits, and that nothing depends on their being there."""
+
+import importlib
+import sys
+
+import addon_utils
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+ADDON = "spectral_unwrap"
+
+
+@pytest.fixture
+def preferences():
+    """Return the preferences, and put all of them back."""
+    yield bpy.context.preferences.addons[ADDON].preferences
+    chosen = bpy.context.preferences.addons[ADDON].preferences
+    for name in ("defaults", "threads", "overlay_max_faces", "live_max_faces"):
+        chosen.property_unset(name)
+    importlib.import_module(f"{ADDON}.operators.unwrap_properties").take_as_last(chosen.defaults)
+
+
+def last():
+    return bpy.context.window_manager.operator_properties_last("uv.spectral_unwrap")
+
+
+def test_operator_begins_with_the_defaults_of_the_preferences(preferences):
+    operator = bpy.ops.uv.spectral_unwrap.get_rna_type().properties
+    ours = preferences.defaults.bl_rna.properties
+    names = set(operator.keys()) - {"rna_type"}
+    assert names <= set(ours.keys())
+    assert {name: getattr(preferences.defaults, name) for name in names} == {
+        name: getattr(last(), name) for name in names
+    }
+    preferences.defaults.placement = "KEEP"
+    preferences.defaults.area_blend = 0.25
+    addon_utils.disable(ADDON)
+    addon_utils.enable(ADDON)
+    # The entry of the preferences, and what stands in it, stay.
+    assert (last().placement, last().area_blend) == ("KEEP", 0.25)
+    # What a script does not say has its documented default.
+    settings = sys.modules[f"{ADDON}.unwrapping.last_settings"]
+    assert settings.last_settings().keep_in_place
+    plain = bpy.ops.uv.spectral_unwrap.get_rna_type().properties["placement"].default
+    assert plain == "PACK"
+
+
+def test_scripts_are_not_changed_by_the_preferences(preferences):
+    grid = scenes.grid(4, 4)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    expected = scenes.read_uv(grid)
+    preferences.defaults.margin = 0.3
+    importlib.import_module(f"{ADDON}.operators.unwrap_properties").take_as_last(preferences.defaults)
+    assert last().margin == pytest.approx(0.3)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    np.testing.assert_array_equal(scenes.read_uv(grid), expected)
+
+
+def test_threads_are_limited_where_solves_begin(preferences):
+    native = importlib.import_module(f"{ADDON}.core.native").spectral_conformal()
+    worker = importlib.import_module(f"{ADDON}.core.worker")
+    seen = worker.Worker(lambda _progress: native.limit_threads(0), threads=3).result()
+    assert seen == 3
+    preferences.threads = 2
+    assert native.limit_threads(2) == 2
+    addon_utils.disable(ADDON)
+    assert native.limit_threads(0) == 0
+    addon_utils.enable(ADDON)
+    assert native.limit_threads(2) == 2
+    bpy.context.preferences.addons[ADDON].preferences.threads = 0
+    assert native.limit_threads(0) == 0
+
+
+def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
+    map_overlay = importlib.import_module(f"{ADDON}.overlay.map_overlay")
+    snapshot = importlib.import_module(f"{ADDON}.live.snapshot")
+    texts = importlib.import_module(f"{ADDON}.core.texts")
+    grid = scenes.grid(4, 4)
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    try:
+        for most, is_read in ((15, False), (16, True)):
+            preferences.overlay_max_faces = preferences.live_max_faces = most
+            map_overlay.forget()
+            assert len(map_overlay.views(bpy.context)) == int(is_read)
+            assert map_overlay._shown[grid.name_full].is_too_large is not is_read
+            assert (snapshot.take(grid) is not None) is is_read
+    finally:
+        map_overlay.forget()
+    assert texts.too_many_faces(["Grid"])[1] == "Grid"
+
+
+def test_without_preferences_everything_has_its_default():
+    user_preferences = importlib.import_module(f"{ADDON}.user_preferences")
+    assert user_preferences.read("threads", 7) == 0
+    unknown = user_preferences.__package__
+    user_preferences.__package__ = "no_such_add_on"
+    try:
+        assert user_preferences.read("threads", 7) == 7
+    finally:
+        user_preferences.__package__ = unknown
