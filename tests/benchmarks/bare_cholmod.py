@@ -16,6 +16,8 @@ import scipy.sparse
 # structure takes in any SuiteSparse up to 7.
 _COMMON_BYTES = 16384
 _INT, _COMPLEX, _DOUBLE = 0, 2, 0
+# Its name, None where there is none.
+LIBRARY = ctypes.util.find_library("cholmod")
 
 
 class _Sparse(ctypes.Structure):
@@ -57,7 +59,7 @@ class _Dense(ctypes.Structure):
 @contextmanager
 def _factored(matrix: scipy.sparse.spmatrix) -> Iterator[tuple]:
     """Yield the library, its common and the factor of a Hermitian matrix, by default settings, and two durations."""
-    library = ctypes.CDLL("libcholmod.so.3")
+    library = ctypes.CDLL(LIBRARY)
     library.cholmod_analyze.restype = ctypes.c_void_p
     library.cholmod_solve.restype = ctypes.c_void_p
     lower = scipy.sparse.csc_matrix(scipy.sparse.tril(matrix))

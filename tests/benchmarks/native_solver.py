@@ -3,63 +3,191 @@
     build/venv/bin/python -m tests.benchmarks.native_solver [sizes ...]
 
 Sizes are numbers of vertices of a random disk lifted to a bumpy surface (default 50000 150000 500000), or paths of OBJ
-files of triangles. Each runs in a process of its own; the figures are the best of several rounds.
+files. Each runs in a process of its own; the figures are the best of several rounds. The other measurements of the
+module here are for the table (`build/venv/bin/python -m tests.benchmarks`).
 """
 
 from __future__ import annotations
 
-import resource
+import os
+import statistics
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import scipy.sparse
 import spectral_conformal as sc
 
-from tests.benchmarks import bare_cholmod
-from tests.module import meshes, reference
+from tests.benchmarks import bare_cholmod, generated, peers, runs
+from tests.benchmarks.generated import Mesh
+from tests.module import meshes as test_meshes
+from tests.module import reference
+
+# The tolerance of the operator Adjust Extender while the mouse moves.
+ADJUST_TOLERANCE = 1e-4
+# Of a matrix that is singular without it.
+SHIFT = 1e-9
+FEW_ROUNDS_FROM = 300_000
 
 
-def peak_gigabytes() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+def _rounds(n_vertices: int) -> int:
+    return 3 if n_vertices < FEW_ROUNDS_FROM else 2
 
 
-def measure(case: str) -> str:
-    vertices, triangles = meshes.bumpy_disk(int(case)) if case.isdigit() else meshes.read_obj(Path(case))
-    triangles = np.array(triangles)
-    before = peak_gigabytes()
-    rounds = 3 if len(vertices) < 300_000 else 2
-    best = np.inf
+def _best(call: Callable[[], Any], rounds: int) -> tuple[float, Any]:
+    """Return the seconds of the fastest of several calls, and what it returned."""
+    found = []
     for _ in range(rounds):
         start = time.perf_counter()
-        solution = sc.parameterize(vertices, triangles)
-        if time.perf_counter() - start < best:
-            best = time.perf_counter() - start
-            phases = solution.timings
-    memory = peak_gigabytes()
+        result = call()
+        found.append((time.perf_counter() - start, result))
+    return min(found, key=lambda each: each[0])
+
+
+def _one_patch(meshes: Sequence[Mesh]) -> tuple[np.ndarray, np.ndarray]:
+    (mesh,) = meshes
+    return mesh.vertices, mesh.triangles()
+
+
+def _shifted_energy(vertices: np.ndarray, triangles: np.ndarray) -> scipy.sparse.csc_matrix:
     matrix = reference.conformal_energy_matrix(vertices, triangles)
-    shifted = matrix + 1e-9 * scipy.sparse.identity(len(vertices), format="csc")
-    bare = min((bare_cholmod.seconds_to_factor(shifted) for _ in range(rounds)), key=sum)
-    return (
-        f"| {len(vertices)} | {best:.2f} | {bare[0]:.2f} + {bare[1]:.2f} | {best / sum(bare):.2f} "
-        f"| {memory:.2f} ({before:.2f}) | {solution.iterations} | {solution.turning_number} | "
-        + ", ".join(f"{name} {seconds:.2f}" for name, seconds in phases.items())
-        + " |"
-    )
+    return matrix + SHIFT * scipy.sparse.identity(len(vertices), format="csc")
+
+
+def parameterize(meshes: Sequence[Mesh]) -> runs.Figures:
+    """`parameterize` and bare CHOLMOD, of one patch."""
+    vertices, triangles = _one_patch(meshes)
+    before = runs.peak_megabytes()
+    seconds, solution = _best(lambda: sc.parameterize(vertices, triangles), _rounds(len(vertices)))
+    memory = runs.peak_megabytes()
+    figures = {
+        "vertices": len(vertices),
+        "seconds": seconds,
+        "phases": solution.timings,
+        # As the operator solves.
+        "polished_phases": sc.parameterize(vertices, triangles, polish=True).timings,
+        "solves": solution.iterations,
+        "turning_number": solution.turning_number,
+        "peak_megabytes": memory,
+        "peak_megabytes_before": before,
+    }
+    if not bare_cholmod.LIBRARY:
+        return {**figures, "no_bare": "no CHOLMOD library on this system"}
+    shifted = _shifted_energy(vertices, triangles)
+    bare = min((bare_cholmod.seconds_to_factor(shifted) for _ in range(_rounds(len(vertices)))), key=sum)
+    return {**figures, "bare_analyze": bare[0], "bare_factorize": bare[1]}
+
+
+def unwrap(meshes: Sequence[Mesh]) -> runs.Figures:
+    """`unwrap` beside `parameterize`, of one patch."""
+    (mesh,) = meshes
+    triangles = mesh.triangles()
+    rounds = _rounds(len(mesh.vertices))
+    single, _ = _best(lambda: sc.parameterize(mesh.vertices, triangles), rounds)
+    whole, _ = _best(lambda: sc.unwrap(*mesh), rounds)
+    return {"vertices": len(mesh.vertices), "unwrap": whole, "parameterize": single}
+
+
+def unwrap_all(meshes: Sequence[Mesh]) -> runs.Figures:
+    """`unwrap` of all meshes as one, with however many islands."""
+    whole = generated.joined(meshes)
+    seconds, _ = _best(lambda: sc.unwrap(*whole), _rounds(len(whole.vertices)))
+    return {"vertices": len(whole.vertices), "seconds": seconds}
+
+
+def busy(meshes: Sequence[Mesh]) -> runs.Figures:
+    """`parameterize` while as many other processes as there are cores keep these busy, and idle."""
+    vertices, triangles = _one_patch(meshes)
+    processes = os.cpu_count() or 1
+    idle = _median(lambda: sc.parameterize(vertices, triangles))
+    with _busy_cores(processes):
+        slowed = _median(lambda: sc.parameterize(vertices, triangles))
+    return {"vertices": len(vertices), "idle": idle, "busy": slowed, "processes": processes}
+
+
+def _median(call: Callable[[], Any]) -> float:
+    """Return the seconds of a call, the median of three: the best would be one that met few others."""
+    return statistics.median(_best(call, 1)[0] for _ in range(3))
+
+
+@contextmanager
+def _busy_cores(count: int):
+    processes = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+
+
+def extender_change(n: int) -> runs.Figures:
+    """Update the map for a new strength of an extender with the kept factor, beside bare back-substitutions."""
+    vertices, triangles = test_meshes.bumpy_disk(n)
+    solver = sc.Solver(vertices, triangles)
+    middle = len(vertices) // 2
+    solver.solve(extenders=[(0, middle, 1.0)], tolerance=ADJUST_TOLERANCE)
+    seconds, solves = [], []
+    for strength in np.linspace(1.0, 3.0, 41)[1:]:
+        start = time.perf_counter()
+        solves.append(solver.solve(extenders=[(0, middle, float(strength))], tolerance=ADJUST_TOLERANCE).iterations)
+        seconds.append(time.perf_counter() - start)
+    figures = {
+        "vertices": len(vertices),
+        "seconds": statistics.median(seconds),
+        "solves": statistics.median(solves),
+    }
+    if not bare_cholmod.LIBRARY:
+        return {**figures, "no_bare": "no CHOLMOD library on this system"}
+    return {**figures, "back_substitution": bare_cholmod.seconds_to_solve(_shifted_energy(vertices, triangles))}
+
+
+def seam_change(meshes: Sequence[Mesh]) -> runs.Figures:
+    """`unwrap` again after one edge more has become a seam, beside the whole solve before; of a grid."""
+    (mesh,) = meshes
+    side = round(len(mesh.vertices) ** 0.5)
+    middle = side // 2 * side
+    seam = np.array([(middle + k, middle + k + 1) for k in range(side // 2)])
+    seconds: list[list[float]] = [[], []]
+    for _ in range(_rounds(len(mesh.vertices))):
+        for part, seams in zip(seconds, (seam[:-1], seam)):
+            start = time.perf_counter()
+            sc.unwrap(*mesh, seam_edges=seams)
+            part.append(time.perf_counter() - start)
+    return {"vertices": len(mesh.vertices), "whole": min(seconds[0]), "again": min(seconds[1])}
+
+
+def peer(meshes: Sequence[Mesh], name: str, program: str | None = None) -> runs.Figures:
+    """Another program, of one patch or, by xatlas alone, of several."""
+    mesh = generated.joined(meshes)
+    return {"vertices": len(mesh.vertices), **peers.measure(name, mesh.vertices, mesh.triangles(), program)}
 
 
 def main() -> None:
-    if sys.argv[1:2] == ["--one"]:
-        print(measure(sys.argv[2]))
-        return
+    """Print the table of `parameterize` beside bare CHOLMOD."""
     print(sc.build_info())
     print("| vertices | s | bare analyse + factorise, s | ratio | peak GB (before) | solves | turning | phases, s |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
     for case in sys.argv[1:] or ["50000", "150000", "500000"]:
-        subprocess.run([sys.executable, "-m", "tests.benchmarks.native_solver", "--one", case], check=True)
+        disk = [generated.polygons(*test_meshes.bumpy_disk(int(case)))] if case.isdigit() else None
+        found = runs.run("native_solver", "parameterize", {}, disk or [generated.read(Path(case))])
+        bare = found["bare_analyze"] + found["bare_factorize"]
+        print(
+            f"| {found['vertices']} | {found['seconds']:.2f} | {found['bare_analyze']:.2f} + "
+            f"{found['bare_factorize']:.2f} | {found['seconds'] / bare:.2f} | {found['peak_megabytes'] / 1e3:.2f} "
+            f"({found['peak_megabytes_before'] / 1e3:.2f}) | {found['solves']} | {found['turning_number']} | "
+            f"{', '.join(f'{name} {seconds:.2f}' for name, seconds in found['phases'].items())} |",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":
-    main()
+    if runs.is_measuring():
+        runs.answer(parameterize, unwrap, unwrap_all, busy, extender_change, seam_change, peer)
+    else:
+        main()

@@ -1,10 +1,10 @@
-"""Spectral Unwrap beside Blender's own Unwrap (CONFORMAL) on scenes of every kind, in the same run.
+"""Spectral Unwrap beside Blender's own Unwrap on scenes of every kind, in the same run.
 
-    build/venv/bin/python -m tests.benchmarks.operator_scenes [scene ...] [--blender NAME] [--phases] [--json FILE]
+    build/venv/bin/python -m tests.benchmarks.operator_scenes [scene ...] [--blender NAME] [--profile] [--json FILE]
 
 Without scenes all but the largest are run. `--blender` takes the names that the tests take, and may be repeated. Each
-scene runs in a process of its own; both operators take turns, and the best of their rounds counts. The peak memory is
-that of the process after our first call, without Blender's. `--phases` adds a table of where our time goes, from a
+scene runs in a process of its own; the operators take turns, and the best of their rounds counts. The peak memory is
+that of the process, Blender included, after our first call. `--profile` adds where our time goes by function, from a
 further call under the profiler, which makes small functions look larger than they are.
 """
 
@@ -15,129 +15,122 @@ import cProfile
 import importlib
 import json
 import pstats
-import resource
-import subprocess
-import sys
-import tempfile
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-BLENDER = "bpy-5.0.1"
-MARK = "operator_scenes: "
+from tests.benchmarks import runs
+from tests.benchmarks.generated import Mesh, Scene
+
 # Small scenes are repeated until this many seconds have passed, or this often.
 SECONDS, MAX_ROUNDS = 8.0, 25
-PHASES = 28
-
-
-@dataclass(frozen=True)
-class Scene:
-    """`objects` meshes of `islands` bumpy grids each, `side` vertices along a side of every grid, all in edit mode."""
-
-    objects: int
-    islands: int
-    side: int
-    is_default: bool = True
-
-    @property
-    def n_vertices(self) -> int:
-        """Number of vertices of all meshes."""
-        return self.objects * self.islands * self.side**2
-
+MOST_FUNCTIONS = 28
+METHODS = ("CONFORMAL", "ANGLE_BASED", "MINIMUM_STRETCH")
 
 SCENES = {
-    "grid-36": Scene(1, 1, 6),
-    "grid-529": Scene(1, 1, 23),
-    "grid-44k": Scene(1, 1, 210),
-    "grid-134k": Scene(1, 1, 366, is_default=False),
-    "grid-535k": Scene(1, 1, 731, is_default=False),
-    "islands-1000": Scene(1, 1000, 8),
-    "islands-6": Scene(1, 6, 60),
-    "objects-500": Scene(500, 1, 8),
-    "objects-10": Scene(10, 100, 8),
+    "grid-36": Scene(6),
+    "grid-529": Scene(23),
+    "grid-44k": Scene(210),
+    "grid-134k": Scene(366),
+    "grid-535k": Scene(731),
+    "grid-1M": Scene(1000),
+    "islands-1000": Scene(8, islands=1000),
+    "islands-6": Scene(60, islands=6),
+    "objects-500": Scene(8, objects=500),
+    "objects-10": Scene(8, objects=10, islands=100),
 }
+LARGE = ("grid-134k", "grid-535k", "grid-1M")
 
 
-def mesh_arrays(scene: Scene, number: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the vertices (V, 3) and the quads (F, 4) of one mesh of the scene; islands differ in height and size."""
-    side = scene.side
-    y, x = np.divmod(np.arange(side**2), side)
-    corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).reshape(-1, 1)
-    quads = corner + np.array([0, 1, side + 1, side])
-    plane = np.stack([x, y], axis=1) / (side - 1)
-    height = 0.3 * np.sin(7.0 * plane[:, 0]) * np.cos(5.0 * plane[:, 1])
-    vertices = []
-    for island in range(scene.islands):
-        scale = 1.0 + (number * scene.islands + island) % 17 / 17.0
-        place = np.array([island % 32, island // 32]) * 3.0
-        vertices.append(np.column_stack([plane * scale + place, height * scale * (1.0 + island % 5 / 5.0)]))
-    faces = np.concatenate([quads + island * side**2 for island in range(scene.islands)])
-    return np.concatenate(vertices), faces
-
-
-def measure(scene: Scene, show_phases: bool) -> dict[str, Any]:
-    """Run both operators in this Blender; return the figures."""
+def operators(
+    meshes: Sequence[Mesh],
+    methods: Sequence[str] = ("CONFORMAL",),
+    seconds: float = SECONDS,
+    is_profiled: bool = False,
+) -> runs.Figures:
+    """Run our operator and Blender's with the `methods` in this Blender; return the figures."""
     import bpy  # first: it puts Blender's own modules on the path
-    import addon_utils  # isort: skip
 
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    addon_utils.enable("spectral_unwrap")
     # The first call loads the native module.
-    _make(bpy, Scene(1, 1, 3))
+    _make(bpy, Scene(3).meshes())
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    addon_utils.enable("spectral_unwrap")
-    _make(bpy, scene)
-    native = _timed_native()
-    ours: list[tuple[float, float, float]] = []
-    conformal: list[tuple[float, float]] = []
-    memory_before = _peak_megabytes()
+    _make(bpy, meshes)
+    phases = _Phases()
+    memory_before = runs.peak_megabytes()
+    ours: list[tuple[float, float, dict[str, float]]] = []
+    others: dict[str, list[tuple[float, float]]] = {method: [] for method in _known(bpy, methods)}
     start = time.perf_counter()
-    while not ours or (time.perf_counter() - start < SECONDS and len(ours) < MAX_ROUNDS):
-        native.seconds = 0.0
-        ours.append((*_seconds(bpy.ops.uv.spectral_unwrap), native.seconds))
-        if len(ours) == 1:
-            memory = _peak_megabytes()
-        conformal.append(_seconds(bpy.ops.uv.unwrap, method="CONFORMAL"))
-    seconds, _, in_native = min(ours)
+    while not ours or (time.perf_counter() - start < seconds and len(ours) < MAX_ROUNDS):
+        phases.begin()
+        elapsed, processor = _seconds(bpy.ops.uv.spectral_unwrap)
+        if not ours:
+            memory = runs.peak_megabytes()
+        ours.append((elapsed, processor, phases.end(elapsed)))
+        for method, rounds in others.items():
+            rounds.append(_seconds(bpy.ops.uv.unwrap, method=method))
+    best, _, parts = min(ours, key=lambda each: each[0])
+    # What Blender keeps after every operator that a user calls, for Undo.
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    parts["undo"] = _seconds(bpy.ops.ed.undo_push, message="after")[0]
     result = {
         "blender": bpy.app.version_string,
-        "vertices": scene.n_vertices,
+        "vertices": sum(len(mesh.vertices) for mesh in meshes),
         "rounds": len(ours),
-        "seconds": seconds,
-        "conformal_seconds": min(conformal)[0],
-        "ratio": min(conformal)[0] / seconds,
-        "native_seconds": in_native,
-        "python_seconds": min(total - inside for total, _, inside in ours),
+        "seconds": best,
         "processor_seconds": min(processor for _, processor, _ in ours),
-        "conformal_processor_seconds": min(processor for _, processor in conformal),
+        "python_seconds": min(elapsed - parts["native"] for elapsed, _, parts in ours),
+        "methods": {method: min(rounds)[0] for method, rounds in others.items()},
+        "methods_processor": {method: min(each[1] for each in rounds) for method, rounds in others.items()},
         "peak_megabytes": memory,
         "megabytes_more": memory - memory_before,
+        "phases": parts,
     }
-    if show_phases:
-        result["phases"] = _phases(bpy.ops.uv.spectral_unwrap)
+    if is_profiled:
+        result["profile"] = _profile(bpy.ops.uv.spectral_unwrap)
     return result
 
 
-def _make(bpy: Any, scene: Scene) -> None:  # noqa: ANN401 - a module that only Blender has
-    for number in range(scene.objects):
-        vertices, faces = mesh_arrays(scene, number)
-        mesh = bpy.data.meshes.new("Mesh")
-        mesh.vertices.add(len(vertices))
-        mesh.vertices.foreach_set("co", vertices.ravel())
-        mesh.loops.add(faces.size)
-        mesh.loops.foreach_set("vertex_index", faces.ravel())
-        mesh.polygons.add(len(faces))
-        mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 4))
-        if bpy.app.version < (4, 1, 0):
-            mesh.polygons.foreach_set("loop_total", np.full(len(faces), 4))
-        mesh.update(calc_edges=True)
-        mesh.uv_layers.new(name="UVMap")
+class _Phases:
+    """Stopwatches round the steps of the operator, of which none calls another."""
+
+    def __init__(self) -> None:
+        steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
+        packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
+        compiled = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()._native
+        self._watches = {
+            "read": runs.Stopwatch(steps, "read"),
+            "native": runs.Stopwatch(compiled, "unwrap"),
+            "place": runs.Stopwatch(steps, "place"),
+            "write": runs.Stopwatch(steps, "write_uv"),
+            "pack": runs.Stopwatch(packing, "pack"),
+        }
+
+    def begin(self) -> None:
+        for watch in self._watches.values():
+            watch.seconds = 0.0
+
+    def end(self, elapsed: float) -> dict[str, float]:
+        """Return the seconds of the steps since `begin`, and of all else in the `elapsed` ones."""
+        seconds = {name: watch.seconds for name, watch in self._watches.items()}
+        return {**seconds, "rest": elapsed - sum(seconds.values())}
+
+
+def _known(bpy: Any, methods: Sequence[str]) -> list[str]:  # noqa: ANN401 - a module that only Blender has
+    known = bpy.ops.uv.unwrap.get_rna_type().properties["method"].enum_items.keys()
+    return [method for method in methods if method in known]
+
+
+def _make(bpy: Any, meshes: Sequence[Mesh]) -> None:  # noqa: ANN401
+    import addon_utils
+
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    addon_utils.enable("spectral_unwrap")
+    for given in meshes:
+        mesh = mesh_of(bpy, given)
         new = bpy.data.objects.new("Object", mesh)
         bpy.context.collection.objects.link(new)
         new.select_set(True)
@@ -146,26 +139,20 @@ def _make(bpy: Any, scene: Scene) -> None:  # noqa: ANN401 - a module that only 
     bpy.ops.mesh.select_all(action="SELECT")
 
 
-@dataclass
-class _Timed:
-    """A function that adds up the seconds spent in it."""
-
-    function: Callable[..., Any]
-    seconds: float = 0.0
-
-    def __call__(self, *arguments: object) -> object:
-        start = time.perf_counter()
-        try:
-            return self.function(*arguments)
-        finally:
-            self.seconds += time.perf_counter() - start
-
-
-def _timed_native() -> _Timed:
-    """Put a stopwatch round the compiled function that unwraps."""
-    compiled = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()._native
-    compiled.unwrap = _Timed(compiled.unwrap)
-    return compiled.unwrap
+def mesh_of(bpy: Any, given: Mesh) -> Any:  # noqa: ANN401
+    """Return a mesh of Blender's, with a UV map."""
+    mesh = bpy.data.meshes.new("Mesh")
+    mesh.vertices.add(len(given.vertices))
+    mesh.vertices.foreach_set("co", given.vertices.ravel())
+    mesh.loops.add(len(given.corner_vertices))
+    mesh.loops.foreach_set("vertex_index", given.corner_vertices)
+    mesh.polygons.add(len(given.face_offsets) - 1)
+    mesh.polygons.foreach_set("loop_start", given.face_offsets[:-1])
+    if bpy.app.version < (4, 1, 0):
+        mesh.polygons.foreach_set("loop_total", np.diff(given.face_offsets))
+    mesh.update(calc_edges=True)
+    mesh.uv_layers.new(name="UVMap")
+    return mesh
 
 
 def _seconds(operator: Callable[..., set[str]], **options: str) -> tuple[float, float]:
@@ -174,7 +161,7 @@ def _seconds(operator: Callable[..., set[str]], **options: str) -> tuple[float, 
     return time.perf_counter() - start, time.process_time() - processor_start
 
 
-def _phases(operator: Callable[..., set[str]]) -> list[dict[str, Any]]:
+def _profile(operator: Callable[..., set[str]]) -> list[dict[str, Any]]:
     """Return the functions in which a call spends most of its time, each with the seconds in it and in it alone."""
     profile = cProfile.Profile()
     profile.runcall(operator)
@@ -182,42 +169,75 @@ def _phases(operator: Callable[..., set[str]]) -> list[dict[str, Any]]:
         {"where": _place(file, name), "calls": calls, "own": own, "total": total}
         for (file, _, name), (_, calls, own, total, _) in pstats.Stats(profile).stats.items()
     ]
-    return sorted(rows, key=lambda row: -row["total"])[:PHASES] + sorted(rows, key=lambda row: -row["own"])[:PHASES]
+    most = MOST_FUNCTIONS
+    return sorted(rows, key=lambda row: -row["total"])[:most] + sorted(rows, key=lambda row: -row["own"])[:most]
 
 
 def _place(file: str, name: str) -> str:
     return name if file == "~" else f"{'/'.join(Path(file).parts[-2:])}: {name}"
 
 
-def _peak_megabytes() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+def pins(meshes: Sequence[Mesh], moves: int = 6) -> runs.Figures:
+    """Move a pin of an unwrapped mesh as live unwrapping does; return the seconds of the first map and of the later."""
+    import bpy  # first: it puts Blender's own modules on the path
+    import bmesh  # isort: skip
+
+    _make(bpy, meshes)
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    reading = importlib.import_module("spectral_unwrap.edit_mesh.read")
+    live = importlib.import_module("spectral_unwrap.live.pins")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(bpy.context.object.data)
+    layer = bm.loops.layers.uv.active
+    bm.verts.ensure_lookup_table()
+    count = len(bm.verts)
+    held = [bm.verts[k] for k in np.linspace(0, count - 1, 6).astype(int)]
+    for vertex in held:
+        for loop in vertex.link_loops:
+            loop[layer].pin_uv = True
+    edit_mesh = reading.read_mesh(bpy.context.object, all_visible=True)
+    followed = live.PinnedMap(edit_mesh.mesh, edit_mesh.polygons)
+    seconds = []
+    for move in range(moves):
+        moved = held[2]
+        place = moved.link_loops[0][layer].uv + type(moved.link_loops[0][layer].uv)((0.01, 0.004 * move))
+        for loop in moved.link_loops:
+            loop[layer].uv = place
+        start = time.perf_counter()
+        outcome = followed.follow(use_sync_selection=True, is_resting=True)
+        seconds.append(time.perf_counter() - start)
+        assert outcome is live.Followed.WRITTEN, outcome
+    faces = sum(len(mesh.face_offsets) - 1 for mesh in meshes)
+    return {"faces": faces, "first": seconds[0], "later": float(np.median(seconds[1:])), "moves": seconds}
 
 
-def run(name: str, blender_name: str, show_phases: bool) -> dict[str, Any]:
+def suggested_seams(subdivisions: int) -> runs.Figures:
+    """Suggest seams for Suzanne; return the seconds."""
+    import bpy  # noqa: F401 - first: it puts Blender's own modules on the path
+    import spectral_conformal
+
+    from tests.blender.inside import seam_measures
+
+    mesh = seam_measures.arrays(seam_measures.monkey(subdivisions))
+    start = time.perf_counter()
+    seams = spectral_conformal.suggest_seams(*mesh)
+    return {"vertices": len(mesh[0]), "seconds": time.perf_counter() - start, "seam_edges": len(seams)}
+
+
+def run(scene: Scene, blender: str = runs.BLENDER, **options: object) -> runs.Figures:
     """Measure a scene in a process of its own."""
-    from tests.blender import blenders
-
-    blender = next(b for b in (*blenders.all_blenders(), *blenders.further_blenders()) if b.name == blender_name)
-    with tempfile.TemporaryDirectory() as folder:
-        environment = blender.make_profile(Path(folder))
-        command = blender.script_command(Path(__file__))
-        arguments = [*([] if blender.python else ["--"]), "--inside", name, *(["--phases"] if show_phases else [])]
-        done = subprocess.run([*command, *arguments], env=environment, cwd=ROOT, capture_output=True, text=True)
-    found = [line for line in done.stdout.splitlines() if line.startswith(MARK)]
-    if not found:
-        raise RuntimeError(f"{name} in {blender_name} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
-    return {"scene": name, **json.loads(found[0].removeprefix(MARK))}
+    return runs.run("operator_scenes", "operators", options, scene.meshes(), blender)
 
 
-def _print(figures: dict[str, Any]) -> None:
+def _print(name: str, figures: runs.Figures) -> None:
+    methods = ", ".join(f"{method} {seconds:.4f}" for method, seconds in figures["methods"].items())
     print(
-        f"{figures['blender']:8} {figures['scene']:13} {figures['vertices']:8,} {figures['seconds']:9.4f} "
-        f"{figures['conformal_seconds']:10.4f} {figures['ratio']:6.2f} {figures['native_seconds']:9.4f} "
-        f"{figures['python_seconds']:9.4f} {figures['processor_seconds']:9.4f} "
-        f"{figures['peak_megabytes']:8.0f} {figures['megabytes_more']:6.0f}",
+        f"| {figures['blender']} | {name} | {figures['vertices']} | {figures['seconds']:.4f} | {methods} "
+        f"| {figures['python_seconds']:.4f} | {figures['processor_seconds']:.4f} "
+        f"| {figures['peak_megabytes']:.0f} | {figures['megabytes_more']:.0f} |",
         flush=True,
     )
-    for row in figures.get("phases", ()):
+    for row in figures.get("profile", ()):
         print(f"    {row['total']:9.4f} {row['own']:9.4f} {row['calls']:8}  {row['where']}")
 
 
@@ -225,31 +245,23 @@ def main() -> None:
     """Measure the scenes named on the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="scene", help=f"of {', '.join(SCENES)}")
-    parser.add_argument("--blender", action="append", help=f"default {BLENDER}")
-    parser.add_argument("--phases", action="store_true", help="where our time goes")
+    parser.add_argument("--blender", action="append", help=f"default {runs.BLENDER}")
+    parser.add_argument("--profile", action="store_true", help="where our time goes, by function")
     parser.add_argument("--json", type=Path, help="write the figures to this file")
     options = parser.parse_args()
     unknown = set(options.scenes) - set(SCENES)
     if unknown:
         parser.error(f"no scene {', '.join(sorted(unknown))}")
-    print("Blender  scene         vertices    ours, s CONFORMAL, s ratio native, s Python, s processor peak, MB more")
+    print("| Blender | scene | vertices | spectral, s | Blender's, s | Python, s | processor, s | peak MB | MB more |")
+    print("|---|---|---|---|---|---|---|---|---|")
     results = []
-    for blender in options.blender or [BLENDER]:
-        for name in options.scenes or [name for name, scene in SCENES.items() if scene.is_default]:
-            results.append(run(name, blender, options.phases))
-            _print(results[-1])
+    for blender in options.blender or [runs.BLENDER]:
+        for name in options.scenes or [name for name in SCENES if name not in LARGE]:
+            results.append({"scene": name, **run(SCENES[name], blender, is_profiled=options.profile)})
+            _print(name, results[-1])
     if options.json:
         options.json.write_text(json.dumps(results, indent=1) + "\n")
 
 
-def inside() -> None:
-    """Measure one scene in the Blender that runs this file."""
-    arguments = sys.argv[sys.argv.index("--inside") + 1 :]
-    print(f"\n{MARK}{json.dumps(measure(SCENES[arguments[0]], '--phases' in arguments))}", flush=True)
-
-
 if __name__ == "__main__":
-    if "--inside" in sys.argv:
-        inside()
-    else:
-        main()
+    runs.answer(operators, pins, suggested_seams) if runs.is_measuring() else main()

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every figure that speed is judged by can be measured: all of the benchmarks, on tiny meshes."""
+
+import importlib.util
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from tests.benchmarks import figures, generated, operator_scenes, peers, runs
+
+# Writes the vertices' x and y as their map, as BFF's command line would.
+FAKE_BFF = """#!/bin/sh
+sed -n 's/^v \\([^ ]*\\) \\([^ ]*\\) .*/vt \\1 \\2/p' "$1" > "$2"
+"""
+
+
+@pytest.fixture
+def program(tmp_path):
+    """Return a function that makes a program of a shell script."""
+
+    def make(text):
+        path = tmp_path / "bff-command-line"
+        path.write_text(text)
+        path.chmod(0o755)
+        return str(path)
+
+    return make
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Return a function that runs the benchmarks on tiny meshes; it returns what they keep and what they print."""
+
+    def measure(*arguments):
+        result = tmp_path / "figures.json"
+        command = [sys.executable, "-m", "tests.benchmarks", "--json", result, "--seconds", "0", *map(str, arguments)]
+        done = subprocess.run(command, cwd=runs.ROOT, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        return json.loads(result.read_text()), done.stdout
+
+    return measure
+
+
+@pytest.mark.slow
+def test_every_row_of_the_table_has_a_figure(run, program):
+    kept, printed = run("table", "--scale", 0.002, "--bff", program(FAKE_BFF))
+    found = {(entry["row"], entry["case"]): entry for entry in kept["table"]}
+    assert set(found) == {(row.name, case) for row in figures.ROWS for case in row.reach}
+    for entry in found.values():
+        assert entry["reason"] == ""
+        assert math.isfinite(entry["figure"])
+        # A time that grows is no certainty on meshes as small as these.
+        assert entry["figure"] > 0 or entry["row"] == "growth"
+        assert entry["is_reached"] is None, "a tiny mesh says nothing about what is within reach"
+    scenes = {key.split(": ")[1]: value for key, value in kept["measurements"].items() if "operators" in key}
+    assert set(scenes) == set(operator_scenes.SCENES)
+    for measured in scenes.values():
+        phases = measured["phases"]
+        assert set(phases) == {"read", "native", "place", "write", "pack", "rest", "undo"}
+        assert min(phases.values()) > 0
+        whole = sum(seconds for name, seconds in phases.items() if name != "undo")
+        assert whole == pytest.approx(measured["seconds"])
+    assert "| native, `parameterize`, s | vertices | charts | assembly | factorization |" in printed
+
+
+@pytest.mark.slow
+def test_kinds_own_meshes_growth_and_the_plot(run, program, tmp_path):
+    own = tmp_path / "own.obj"
+    patch = generated.Scene(6).meshes()[0]
+    generated.write_obj(own, patch.vertices, patch.triangles())
+    plot = tmp_path / "plot.svg"
+    drawn = ["--plot", plot] if importlib.util.find_spec("matplotlib") else []
+    kept, _ = run("meshes", "growth", "--mesh", own, "--sizes", 16, 100, "--bff", program(FAKE_BFF), *drawn)
+    (entry,) = kept["meshes"]
+    assert (entry["mesh"], entry["vertices"]) == ("own.obj", 36)
+    needed = {"unwrap", peers.LIBIGL, peers.BFF, "spectral", "CONFORMAL", "ANGLE_BASED"}
+    assert needed <= set(entry["seconds"])
+    assert peers.XATLAS in entry["seconds"] or "not installed" in entry["reasons"][peers.XATLAS]
+    for name in ("spectral", "CONFORMAL", "ANGLE_BASED"):
+        assert [n for n, _ in kept["growth"][name]] == [16, 100]
+        assert all(seconds > 0 for _, seconds in kept["growth"][name])
+    if drawn:
+        assert "<svg" in plot.read_text()
+
+
+def test_generated_meshes_are_of_their_kind():
+    scenes = {name: scene.meshes() for name, scene in generated.kinds(900).items()}
+    assert {name for name, meshes in scenes.items() if len(meshes) > 1} == {"many objects"}
+    for name, meshes in scenes.items():
+        for mesh in meshes:
+            assert len(np.unique(mesh.triangles())) == len(mesh.vertices)
+            assert set(np.diff(mesh.face_offsets)) == ({3} if "triangles" in name else {4})
+    quads, numbered = scenes["quads"][0], scenes["quads numbered at random"][0]
+    assert sorted(map(tuple, quads.vertices)) == sorted(map(tuple, numbered.vertices))
+    assert not np.array_equal(quads.vertices, numbered.vertices)
+    assert np.ptp(scenes["noisy quads"][0].vertices - quads.vertices) > 0
+
+
+def test_meshes_survive_their_file(tmp_path):
+    meshes = generated.Scene(4, objects=3).meshes()
+    generated.save(tmp_path / "meshes.npz", meshes)
+    for before, after in zip(meshes, generated.load(tmp_path / "meshes.npz")):
+        assert all(map(np.array_equal, before, after))
+
+
+def test_bff_is_called_with_a_file_to_read_and_one_to_write(program):
+    mesh = generated.Scene(5, is_triangulated=True).meshes()[0]
+    arguments = peers.BFF, mesh.vertices, mesh.triangles()
+    assert peers.measure(*arguments, program(FAKE_BFF))["seconds"] > 0
+    assert "--bff" in peers.measure(*arguments)["reason"]
+    with pytest.raises(RuntimeError, match="ended with 3"):
+        peers.measure(*arguments, program("#!/bin/sh\nexit 3\n"))
+    with pytest.raises(RuntimeError, match="no map"):
+        peers.measure(*arguments, program('#!/bin/sh\ncp "$1" "$2"\n'))
