@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """UV coordinates into edit-mode meshes."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from itertools import compress
 
 import bmesh
@@ -21,9 +21,9 @@ def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
     return True
 
 
-def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: Iterable[tuple[float, float]]) -> None:
-    """Write one UV to each of the `loops`; `bmesh.update_edit_mesh` is left to the caller."""
-    for loop, point in zip(loops, uv):
+def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: np.ndarray) -> None:
+    """Write one UV, a row of `uv` (N, 2), to each of the N `loops`; `bmesh.update_edit_mesh` is left to the caller."""
+    for loop, point in zip(loops, _points(uv)):
         loop[layer].uv = point
 
 
@@ -35,11 +35,15 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: b
     bm, layer = active_uv_layer(edit_mesh.mesh)
     affected = corners[edit_mesh.polygons.face_offsets[:-1]]
     is_whole = bool(affected.all())
-    u, v = (uv if is_whole else uv[corners]).T
-    # Tuples made one by one: lists of two numbers each, all at once, would set the garbage collector to work.
-    points = zip(u.tolist(), v.tolist())
+    points = _points(uv if is_whole else uv[corners])
     for face in bm.faces if is_whole else compress(bm.faces, affected.tolist()):
         for loop in face.loops:
             loop[layer].uv = next(points)
     if update:
         bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
+
+
+def _points(uv: np.ndarray) -> Iterator[tuple[float, float]]:
+    """Yield the rows of (N, 2): lists of two numbers each, all at once, would set the garbage collector to work."""
+    u, v = uv.T
+    return zip(u.tolist(), v.tolist())

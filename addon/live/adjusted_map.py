@@ -64,7 +64,7 @@ class AdjustedMap:
             self._adjustment = self._take(edit_object, ends)
             self._n_corners, self._loops = self._find_loops(self._bm)
             layer = self._bm.loops.layers.uv[self._layer]
-            self._before = [tuple(loop[layer].uv) for loop in self._loops]
+            self._before = np.array([loop[layer].uv[:] for loop in self._loops]).reshape(-1, 2)
         except BaseException:
             self._remove_added_map()
             raise
@@ -94,7 +94,7 @@ class AdjustedMap:
             AdjustedMap._shown = self
         storage.show_strength(self.mesh, self.index, strength)
         uv = self._adjustment.map([strength], is_final)
-        write_loops(self._bm.loops.layers.uv[self._layer], self._loops, uv.tolist())
+        write_loops(self._bm.loops.layers.uv[self._layer], self._loops, uv)
         bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
 
     def keep(self, strength: float) -> None:

@@ -155,6 +155,6 @@ class PinnedMap:
         if uv is None:
             return False
         uv = uv[~chart.pinned_chart.pinned]
-        write_loops(layer, chart.loops, uv.tolist())
+        write_loops(layer, chart.loops, uv)
         self._polygons.uv[chart.free] = uv.astype(np.float32)
         return True
