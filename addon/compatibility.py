@@ -2,7 +2,7 @@
 """Everything that differs between the Blender versions that this add-on runs in (3.4 and later)."""
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -157,11 +157,13 @@ def selected_uv_corners(bm: BMesh, layer: BMLayerItem) -> np.ndarray:
     return np.fromiter((loop[layer].select for loop in loops), dtype=bool)
 
 
-def selected_corners(bm: BMesh, layer: BMLayerItem, use_sync: bool) -> np.ndarray:
-    """Return which corners are selected in the UV editor, with or without sync selection, (C,) bool."""
+def all_selected(bm: BMesh, layer: BMLayerItem, loops: Iterable[BMLoop], use_sync: bool) -> bool:
+    """Return whether all these corners are selected in the UV editor, with or without sync selection."""
     if use_sync and not (_UV_SELECTION_ON_MESH and bm.uv_select_sync_valid):
-        return np.fromiter((loop.vert.select for face in bm.faces for loop in face.loops), dtype=bool)
-    return selected_uv_corners(bm, layer)
+        return all(loop.vert.select for loop in loops)
+    if _UV_SELECTION_ON_MESH:
+        return all(loop.uv_select_vert for loop in loops)
+    return all(loop[layer].select for loop in loops)
 
 
 def positions(mesh: bpy.types.Mesh) -> np.ndarray:

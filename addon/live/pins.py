@@ -133,18 +133,15 @@ class PinnedMap:
     def _add_charts(self, drag: _Drag, moved: np.ndarray, layer: BMLayerItem, use_sync_selection: bool) -> None:
         """Add the charts of the `moved` corners to the drag."""
         polygons = self._polygons
-        face = polygons.face_of_corner()
-        fresh = set(drag.chart_of_face[face[moved]].tolist()) - set(drag.charts) - {-1}
+        fresh = set(drag.chart_of_face[polygons.face_of_corner()[moved]].tolist()) - set(drag.charts) - {-1}
         if not fresh:
             return
-        selected = compatibility.selected_corners(self._bm, layer, use_sync_selection)
-        self._bm.faces.ensure_lookup_table()
         for number in fresh:
             faces = drag.chart_of_face == number
-            if selected[faces[face]].all():
+            loops = [loop for face in compress(self._bm.faces, faces.tolist()) for loop in face.loops]
+            if compatibility.all_selected(self._bm, layer, loops, use_sync_selection):
                 drag.charts[number] = None
                 continue
-            loops = [loop for f in np.flatnonzero(faces).tolist() for loop in self._bm.faces[f].loops]
             pinned_chart = PinnedChart(polygons, faces, polygons.pinned_corners, drag.start)
             free = ~pinned_chart.pinned
             drag.charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
