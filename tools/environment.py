@@ -53,6 +53,8 @@ APT: dict[str, list[str]] = {
         # For other releases of Debian (systems.py).
         "mmdebstrap",
         "python3-numpy",
+        # Counts instructions, for a limit on them.
+        "valgrind",
         "x11-utils",
         "xdotool",
         "xvfb",

@@ -3,10 +3,9 @@
     build/venv/bin/python -m tests.benchmarks.instructions OUT.json [case ...]
     build/venv/bin/python -m tests.benchmarks.instructions --compare BEFORE.json AFTER.json
 
-From the project's folder; PYTHONPATH may name another build of the module. Needs
-valgrind, which the set-up does not install: no test uses it. Each case runs twice under callgrind, calling once and
-twice; the difference is one call, without the start of the interpreter and what a first call sets up. BLAS runs in one
-thread. Two counts of one build have differed by 0.5 %.
+From the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. Each case runs twice under
+callgrind, calling once and twice; the difference is one call, without the start of the interpreter and what a first
+call sets up. BLAS runs in one thread. Two counts of one build have differed by 0.5 %.
 """
 
 from __future__ import annotations
@@ -42,6 +41,30 @@ def parameterize_10k() -> Callable[[], object]:
 
     vertices, triangles = meshes.bumpy_disk(10_000)
     return lambda: sc.parameterize(vertices, triangles)
+
+
+def polish_10k() -> Callable[[], object]:
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    return lambda: sc.parameterize(vertices, triangles, polish=True)
+
+
+def extender_change() -> Callable[[], object]:
+    """A solver that is kept, as while an extender's strength is dragged."""
+    import spectral_conformal as sc
+
+    vertices, triangles = meshes.bumpy_disk(10_000)
+    solver = sc.Solver(vertices, triangles)
+    strength = 1.0
+
+    def change() -> object:
+        nonlocal strength
+        strength += 0.05
+        return solver.solve(extenders=[(0, len(vertices) // 2, strength)], tolerance=1e-4)
+
+    change()
+    return change
 
 
 def unwrap_1000_islands() -> Callable[[], object]:
@@ -108,7 +131,9 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
     case.__name__: case
     for case in (
         parameterize_10k,
+        polish_10k,
         lscm_10k,
+        extender_change,
         unwrap_1000_islands,
         fold_free,
         area_blend,
@@ -122,7 +147,14 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
 
 def instructions(case: str, calls: int) -> int:
     """Return the instructions of a process that makes some calls."""
-    environ = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PYTHONHASHSEED": "0"}
+    environ = {
+        **os.environ,
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMP_NUM_THREADS": "1",
+        # The same instructions on every processor that has them; valgrind knows no newer ones.
+        "OPENBLAS_CORETYPE": "Haswell",
+        "PYTHONHASHSEED": "0",
+    }
     valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
     result = subprocess.run(
         [*valgrind, sys.executable, "-m", "tests.benchmarks.instructions", "--call", case, str(calls)],

@@ -3,6 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
+#include "linear_algebra/work_counts.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -23,17 +25,22 @@ class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lowe
 class EigenFactorization final : public Factorization {
  public:
   void analyze(const HermitianMatrix& matrix) override {
+    count_analysis();
     ldlt_.analyzePattern(matrix);
     check_factor_size(ldlt_.planned_nonzeros());
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
+    count_factorization(0);
     ldlt_.factorize(matrix);
     // L D L^H also exists for some indefinite matrices: positive definite means positive pivots.
     return ldlt_.info() == Eigen::Success && (ldlt_.vectorD().real().array() > 0).all();
   }
 
-  void solve(const ComplexVector& b, ComplexVector& x) override { x = ldlt_.solve(b); }
+  void solve(const ComplexVector& b, ComplexVector& x) override {
+    count_solve(0);
+    x = ldlt_.solve(b);
+  }
 
   void select(std::vector<int> vertices) override { selected_ = std::move(vertices); }
 
@@ -46,7 +53,7 @@ class EigenFactorization final : public Factorization {
   void solve_from_selected(const ComplexVector& b, ComplexVector& x) override {
     scattered_.setZero(ldlt_.rows());
     for (Eigen::Index i = 0; i < b.size(); ++i) scattered_[selected_[i]] = b[i];
-    x = ldlt_.solve(scattered_);
+    solve(scattered_, x);
   }
 
   double factor_nonzeros() const override {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "linear_algebra/blas_threads.h"
+#include "linear_algebra/work_counts.h"
 #include "spectral_conformal/thread_limit.h"
 
 // BLAS and LAPACK, Fortran linkage.
@@ -144,6 +145,7 @@ std::unique_ptr<double[]> uninitialized(std::ptrdiff_t n) {
 }  // namespace
 
 void SupernodalFactor::analyze(const HermitianMatrix& matrix, SupernodalStructure structure) {
+  count_analysis();
   structure_ = std::move(structure);
   const int n_super = static_cast<int>(structure_.first_column.size()) - 1;
   supernode_of_.resize(structure_.order.size());
@@ -210,6 +212,20 @@ double SupernodalFactor::nonzeros() const {
   return sum;
 }
 
+double SupernodalFactor::multiplications() const {
+  double sum = 0;
+  for (int k = 0; k < n_supernodes(); ++k) {
+    for (double row = rows(k); row > rows(k) - columns(k); --row) sum += (is_real_[k] ? 1 : 4) * row * (row + 1) / 2;
+  }
+  return sum;
+}
+
+double SupernodalFactor::n_doubles(const Path& path) const {
+  double sum = 0;
+  for (const int k : path.supernodes_) sum += static_cast<double>(offset_[k + 1] - offset_[k]);
+  return sum;
+}
+
 bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   const int n_super = n_supernodes();
   is_real_.assign(n_super, 1);
@@ -231,6 +247,7 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   passed_.clear();
   passed_.resize(n_super);
   std::atomic<bool> is_definite{true};
+  count_factorization(multiplications());
   const BlasThreads blas;
   schedule_.run_up(n_threads(schedule_.cost(), min_multiplications_to_share), [&](int k) {
     if (!is_definite) return;
@@ -360,6 +377,7 @@ SupernodalFactor::Path SupernodalFactor::path_of(std::vector<int> supernodes) co
 void SupernodalFactor::forward(const Path& path, ComplexVector& work) {
   const Complex minus(-1);
   const Complex unit(1);
+  count_solve(n_doubles(path));
   path.schedule_.run_up(n_threads(path.schedule_.cost(), min_entries_to_share), [&](int member) {
     const int k = path.supernodes_[member];
     const int width = columns(k);
@@ -390,6 +408,7 @@ void SupernodalFactor::forward(const Path& path, ComplexVector& work) {
 void SupernodalFactor::backward(const Path& path, ComplexVector& work) {
   const Complex minus(-1);
   const Complex unit(1);
+  count_solve(n_doubles(path));
   path.schedule_.run_down(n_threads(path.schedule_.cost(), min_entries_to_share), [&](int member) {
     const int k = path.supernodes_[member];
     const int width = columns(k);

@@ -79,6 +79,8 @@ class SupernodalFactor {
 
   Path path_of(std::vector<int> supernodes) const;
   unsigned n_threads(double work, double min_work) const;
+  double multiplications() const;
+  double n_doubles(const Path& path) const;
   template <class Scalar>
   bool eliminate(int k, const HermitianMatrix& matrix);
   template <class Scalar, class Visit>
