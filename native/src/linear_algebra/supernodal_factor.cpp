@@ -215,7 +215,12 @@ double SupernodalFactor::nonzeros() const {
 double SupernodalFactor::multiplications() const {
   double sum = 0;
   for (int k = 0; k < n_supernodes(); ++k) {
-    for (double row = rows(k); row > rows(k) - columns(k); --row) sum += (is_real_[k] ? 1 : 4) * row * (row + 1) / 2;
+    double of_real = 0;
+    for (int column = 0; column < columns(k); ++column) {
+      const double below = rows(k) - column;
+      of_real += below * (below + 1) / 2;
+    }
+    sum += is_real_[k] ? of_real : 4 * of_real;
   }
   return sum;
 }
