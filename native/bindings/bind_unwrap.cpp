@@ -36,7 +36,10 @@ py::dict result_of(const Unwrap& unwrapped) {
     record["area"] = chart.area;
     charts.append(record);
   }
-  return py::dict(py::arg("uv") = uv, py::arg("solved_corners") = copy(unwrapped.solved_corners),
+  py::dict timings;
+  for (const auto& [phase, seconds] : unwrapped.timings) timings[phase.c_str()] = seconds;
+  return py::dict(py::arg("timings") = timings, py::arg("uv") = uv,
+                  py::arg("solved_corners") = copy(unwrapped.solved_corners),
                   py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts,
                   py::arg("unused_extenders") = copy(unwrapped.unused_extenders));
 }

@@ -92,15 +92,18 @@ def _phases(report: Report, measured: figures.Measured) -> None:
     for key, found in scenes.items():
         seconds = (f"{found['phases'][phase]:.4f}" for phase in PHASES)
         report.row(key.removeprefix("operators: "), found["vertices"], *seconds)
+    _native_phases(report, "native, operator, s", scenes, "operators: ", "native_phases")
     native = {key: found for key, found in measured.all.items() if key.startswith("parameterize: ")}
-    names = list(dict.fromkeys(name for found in native.values() for name in found["polished_phases"]))
-    if native:
-        report.head("native, `parameterize`, s", "vertices", *names, "bare CHOLMOD")
-    for key, found in native.items():
-        bare = f"{found['bare_analyze']:.4f} + {found['bare_factorize']:.4f}" if "bare_analyze" in found else ""
-        size = key.removeprefix("parameterize: ")
-        for name, phases in ((size, found["phases"]), (f"{size}, polished", found["polished_phases"])):
-            report.row(name, found["vertices"], *(f"{phases.get(each, 0.0):.4f}" for each in names), bare)
+    _native_phases(report, "native, `parameterize`, s", native, "parameterize: ", "phases")
+
+
+def _native_phases(report: Report, title: str, measured: dict[str, Figures], prefix: str, key: str) -> None:
+    names = list(dict.fromkeys(name for found in measured.values() for name in found[key]))
+    if measured:
+        report.head(title, "vertices", *names)
+    for what, found in measured.items():
+        seconds = (f"{found[key].get(name, 0.0):.4f}" for name in names)
+        report.row(what.removeprefix(prefix), found["vertices"], *seconds)
 
 
 def meshes(report: Report, options: argparse.Namespace) -> None:

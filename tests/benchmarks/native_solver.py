@@ -64,16 +64,13 @@ def parameterize(meshes: Sequence[Mesh]) -> runs.Figures:
     vertices, triangles = _one_patch(meshes)
     before = runs.peak_megabytes()
     seconds, solution = _best(lambda: sc.parameterize(vertices, triangles), _rounds(len(vertices)))
-    memory = runs.peak_megabytes()
     figures = {
         "vertices": len(vertices),
         "seconds": seconds,
         "phases": solution.timings,
-        # As the operator solves.
-        "polished_phases": sc.parameterize(vertices, triangles, polish=True).timings,
         "solves": solution.iterations,
         "turning_number": solution.turning_number,
-        "peak_megabytes": memory,
+        "peak_megabytes": runs.peak_megabytes(),
         "peak_megabytes_before": before,
     }
     if not bare_cholmod.LIBRARY:

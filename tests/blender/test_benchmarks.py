@@ -62,9 +62,11 @@ def test_every_row_of_the_table_has_a_figure(run, program):
         phases = measured["phases"]
         assert set(phases) == {"read", "native", "place", "write", "pack", "rest", "undo"}
         assert min(phases.values()) > 0
+        assert {"charts", "assembly", "factorization", "eigenproblem", "quality"} <= set(measured["native_phases"])
         whole = sum(seconds for name, seconds in phases.items() if name != "undo")
         assert whole == pytest.approx(measured["seconds"])
     assert "| native, `parameterize`, s | vertices | charts | assembly | factorization |" in printed
+    assert "| native, operator, s | vertices | charts | assembly | factorization |" in printed
 
 
 @pytest.mark.slow

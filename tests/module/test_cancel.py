@@ -2,6 +2,7 @@
 """Cancelled at any of its reports, or left by an exception there, a call ends there and changes nothing."""
 
 import copy
+import time
 
 import numpy as np
 import pytest
@@ -148,6 +149,21 @@ def test_anything_false_cancels_but_none():
     for answer in (np.bool_(False), 0, ""):
         with pytest.raises(sc.Cancelled):
             sc.parameterize(vertices, triangles, progress=lambda fraction, phase, answer=answer: answer)
+
+
+def test_unwrap_tells_the_seconds_of_all_charts_by_phase():
+    vertices, quads = meshes.saddle_quads(40)
+    two = np.concatenate([vertices, vertices + 5.0]), *meshes.polygons(np.concatenate([quads, quads + len(vertices)]))
+    start = time.perf_counter()
+    timings = sc.unwrap(*two, polish=True).timings
+    elapsed = time.perf_counter() - start
+    names = ["charts", "assembly", "factorization", "eigenproblem", "polish", "placement", "quality"]
+    assert sorted(timings) == sorted(names)
+    assert min(timings.values()) > 0
+    # Both charts may be solved at once.
+    assert sum(timings.values()) < 2 * elapsed
+    kept = sc.Unwrapper(*two).solve().timings
+    assert {"assembly", "factorization", "eigenproblem", "placement", "quality"} <= set(kept)
 
 
 def test_timings_and_progress():

@@ -59,6 +59,8 @@ struct Unwrap {
   /// (n extenders,) those without effect: no solved chart has both vertices as different ones, or it is held by its
   /// pins.
   std::vector<bool> unused_extenders;
+  /// Seconds per phase, in order, summed up over the charts, of which several may be solved at once.
+  std::vector<std::pair<std::string, double>> timings;
 };
 
 /// Cuts a polygon mesh into charts and parameterises each. What one chart cannot do never stops the others: it is

@@ -207,3 +207,5 @@ class Unwrap:
     charts: list[Chart]
     unused_extenders: npt.NDArray[np.bool_]
     """(number of extenders,) those without effect: no solved chart has both vertices, or its pins hold it."""
+    timings: dict[str, float]
+    """Seconds per phase, by name, summed up over the charts, of which several may be solved at once."""

@@ -22,4 +22,7 @@ class Stopwatch {
   Clock::time_point last_;
 };
 
+/// sum += part, phase by phase.
+void add_seconds(const Timings& part, Timings& sum);
+
 }  // namespace spectral_conformal

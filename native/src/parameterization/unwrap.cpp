@@ -10,6 +10,7 @@
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
 #include "parameterization/chart_metric.h"
+#include "parameterization/stopwatch.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/distortion.h"
 
@@ -82,11 +83,12 @@ class ChartUnwrapper {
     UnwrappedChart report;
     ComplexVector z;
     std::vector<std::size_t> acting;  ///< extenders
+    Timings timings;
   };
 
   Solution solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress) {
-    Solution result{report_, {}, {}};
+    Solution result{report_, {}, {}, {}};
     UnwrappedChart& report = result.report;
     if (!solver_) return result;
     try {
@@ -98,8 +100,11 @@ class ChartUnwrapper {
       }
       Parameterization solution = solver_->solve(options, pins_, progress);
       static_cast<SolveRecord&>(report) = solution;
+      result.timings = std::move(solution.timings);
+      Stopwatch watch(result.timings);
       measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
       report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
+      watch.lap("quality");
       report.solved = true;
       result.z = std::move(solution.z);
     } catch (const InvalidMesh& problem) {
@@ -153,6 +158,7 @@ class ChartUnwrapper {
 
 /// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused.
 void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result) {
+  add_seconds(solution.timings, result.timings);
   if (solution.report.solved) {
     for (const std::size_t k : solution.acting) result.unused_extenders[k] = false;
     for (const int face : solution.report.faces) {
@@ -253,8 +259,12 @@ class ChartLoop {
 
 Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress) {
   report(progress, 0.0, "charts");
+  Timings timings;
+  Stopwatch watch(timings);
   Cut cut(mesh, options.corner_pins);
+  watch.lap("charts");
   Unwrap result = empty_result(cut, options.extenders.size());
+  result.timings.swap(timings);
   std::vector<Chart>& charts = cut.decomposition.charts;
   const ChartLoop loop(charts);
   std::vector<ChartUnwrapper::Solution> solutions(charts.size());

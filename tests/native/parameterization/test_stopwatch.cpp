@@ -21,6 +21,12 @@ TEST_CASE("phases keep their order, and laps of one phase add up") {
   CHECK(timings[1].second >= 0);
 }
 
+TEST_CASE("seconds of several are added phase by phase") {
+  Timings sum{{"first", 1.0}, {"second", 2.0}};
+  add_seconds({{"second", 4.0}, {"third", 8.0}}, sum);
+  CHECK(sum == Timings{{"first", 1.0}, {"second", 6.0}, {"third", 8.0}});
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test
