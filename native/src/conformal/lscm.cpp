@@ -9,16 +9,16 @@ namespace {
 
 /// The rows and columns of the free vertices, in their order.
 HermitianMatrix free_block(const HermitianMatrix& matrix, const std::vector<int>& free_index, int n_free) {
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()));
+  HermitianMatrix block(n_free, n_free);
+  block.reserve(matrix.nonZeros());
   for (int column = 0; column < matrix.outerSize(); ++column) {
     if (free_index[column] < 0) continue;
+    block.startVec(free_index[column]);
     for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
-      if (free_index[it.row()] >= 0) entries.emplace_back(free_index[it.row()], free_index[column], it.value());
+      if (free_index[it.row()] >= 0) block.insertBack(free_index[it.row()], free_index[column]) = it.value();
     }
   }
-  HermitianMatrix block(n_free, n_free);
-  block.setFromTriplets(entries.begin(), entries.end());
+  block.finalize();
   return block;
 }
 
