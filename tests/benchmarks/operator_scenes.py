@@ -134,7 +134,7 @@ class _Phases:
 
     def native(self) -> dict[str, float]:
         """Return the seconds of the native phases since `begin`, summed up over threads."""
-        return self._watches["native"].phases
+        return dict(self._watches["native"].phases)
 
 
 def _known(bpy: Any, methods: Sequence[str]) -> list[str]:  # noqa: ANN401 - a module that only Blender has

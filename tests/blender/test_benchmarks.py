@@ -58,8 +58,10 @@ def test_every_row_of_the_table_has_a_figure(run, program):
         assert entry["is_reached"] is None, "a tiny mesh says nothing about what is within reach"
     scenes = {key.split(": ")[1]: value for key, value in kept["measurements"].items() if "operators" in key}
     assert set(scenes) == set(operator_scenes.SCENES)
-    for measured in scenes.values():
+    for name, measured in scenes.items():
         phases = measured["phases"]
+        # Several charts may be solved at once.
+        assert not name.startswith("grid") or sum(measured["native_phases"].values()) < phases["native"]
         assert set(phases) == {"read", "native", "place", "write", "pack", "rest", "undo"}
         assert min(phases.values()) > 0
         assert {"charts", "assembly", "factorization", "eigenproblem", "quality"} <= set(measured["native_phases"])
