@@ -80,7 +80,7 @@ def main() -> int:
         if options.platforms:
             return cross.run(options.platforms)
         if options.wheels:
-            environment.set_up("bpy", native=False)
+            environment.set_up("bpy", "package", native=False)
             return packaging.run_with_wheels(options.wheels)
         environment.set_up("build", "bpy", "package")
         return packaging.run()

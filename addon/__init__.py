@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import handlers, operators, preferences, properties, translations
+from . import handlers, manual, operators, preferences, properties, translations
 from .overlay import extender_arrows, map_overlay
 from .ui import menus, panels
 
@@ -17,7 +17,10 @@ bl_info = {
 }
 
 # Each may use those before it: they come in this order and go in the reverse one.
-_PARTS = (translations, properties, handlers, operators, preferences, menus, panels, extender_arrows, map_overlay)
+_PARTS = (
+    *(translations, properties, handlers, operators, preferences, manual),
+    *(menus, panels, extender_arrows, map_overlay),
+)
 
 
 def register() -> None:

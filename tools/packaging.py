@@ -14,7 +14,7 @@ import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from tools import paths, steps, wheels
+from tools import manual, paths, steps, wheels
 from tools.environment import PYTHON, bpy_environments, site_packages, system_blender_version, wheel
 from tools.steps import BUILD, ROOT, StepError
 
@@ -167,9 +167,10 @@ def repair_wheel() -> Path:
 
 
 def addon_files() -> dict[str, bytes]:
-    """Return the add-on's source files by path in the package."""
+    """Return the add-on's source files and its manual by path in the package."""
     files = {path.relative_to(ADDON).as_posix(): path.read_bytes() for path in steps.source_files(ADDON)}
     files["LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    files.update((f"manual/{name}", content) for name, content in manual.files().items())
     return files
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -46,10 +46,16 @@ class MapArrays:
         """Return positions, face offsets and corner vertices as `spectral_conformal` takes them."""
         return self.positions.astype(np.float64), self.face_offsets, self.corner_vertices
 
-    def equals(self, other: MapArrays) -> bool:
-        """Return whether everything is the same; NaN equals NaN."""
-        pairs = [(getattr(self, field.name), getattr(other, field.name)) for field in fields(self)]
-        pairs = [(np.asarray(mine), np.asarray(yours)) for mine, yours in pairs]
+    def has_mesh_of(self, other: MapArrays) -> bool:
+        """Return whether the mesh is the same, and which of its faces are visible; NaN equals NaN."""
+        return self._agrees(other, ("positions", "face_offsets", "corner_vertices", "visible_faces"))
+
+    def has_map_of(self, other: MapArrays) -> bool:
+        """Return whether everything else is the same; NaN equals NaN."""
+        return self._agrees(other, ("uv", "uv_faces", "aspect"))
+
+    def _agrees(self, other: MapArrays, names: Sequence[str]) -> bool:
+        pairs = [(np.asarray(getattr(self, name)), np.asarray(getattr(other, name))) for name in names]
         return all(np.array_equal(mine, yours, equal_nan=mine.dtype.kind == "f") for mine, yours in pairs)
 
 
@@ -84,15 +90,19 @@ class MapView:
     Raises NativeModuleError where `spectral_conformal` cannot be imported, whatever is asked.
     """
 
-    def __init__(self, arrays: MapArrays) -> None:
-        """Take the arrays as they are."""
+    def __init__(self, arrays: MapArrays, before: MapView | None = None) -> None:
+        """Take the arrays as they are, and what is known of the same mesh with the map that it had `before`."""
         self.arrays = arrays
+        if before is not None:
+            self.triangles = before.triangles
 
     @functools.cached_property
     def _distortion(self) -> object:
         arrays = self.arrays
-        # As the image shows it, at the same area.
-        shown = arrays.uv * np.array([arrays.aspect**0.5, arrays.aspect**-0.5])
+        shown = arrays.uv.astype(np.float64)
+        if arrays.aspect != 1.0:
+            # As the image shows it, at the same area.
+            shown *= (arrays.aspect**0.5, arrays.aspect**-0.5)
         return native.spectral_conformal().face_distortion(*arrays.mesh(), shown, selected_faces=arrays.visible_faces)
 
     @property
@@ -174,18 +184,17 @@ class MapView:
             return np.where(self.flipped, 1.0, np.where(self.overlapping, 0.5, 0.0))
         return np.zeros(len(self.arrays.visible_faces))
 
-    def vertex_buffers(self, kind: str, density: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return positions (3 T, 3), UVs (3 T, 2) and values (3 T,) of the corners of triangles to draw, float32."""
+    def triangle_positions(self) -> np.ndarray:
+        """Return where the corners of the triangles are, (3 T, 3) float32."""
+        # Taking rows is three times as fast as indexing them.
+        return self.arrays.positions.take(self.arrays.corner_vertices.take(self.triangles[0].ravel()), axis=0)
+
+    def triangle_map(self, kind: str, density: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+        """Return UVs (3 T, 2) and values (3 T,) of the corners of the triangles, float32."""
         corners, face = self.triangles
-        corners = corners.ravel()
         with np.errstate(over="ignore"):
             values = np.nan_to_num(self.values(kind, density), nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
-        # Taking rows is three times as fast as indexing them.
-        return (
-            self.arrays.positions.take(self.arrays.corner_vertices.take(corners), axis=0),
-            self.arrays.uv.take(corners, axis=0),
-            values.astype(np.float32).take(face).repeat(3),
-        )
+        return self.arrays.uv.take(corners.ravel(), axis=0), values.astype(np.float32).take(face).repeat(3)
 
     def face_at(self, point: Sequence[float]) -> int:
         """Return a face that covers a place of the map, (u, v), of those that the UV editor shows; -1 for none."""

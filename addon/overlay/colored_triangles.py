@@ -2,6 +2,7 @@
 """Triangles coloured by a value per face, or by a checker in the UV map, for the 3D viewport and the UV editor."""
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import gpu
@@ -46,7 +47,8 @@ void main()
   fragment_color = vec4(CONVERT(color), opacity);
 }
 """
-_FORMATS = (("position", 3), ("uv", 2), ("value", 1))
+_PLACES = (("position", 3),)
+_MAP = (("uv", 2), ("value", 1))
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ def shader(is_flat: bool, is_displayed: bool = True) -> gpu.types.GPUShader:
     info = gpu.types.GPUShaderCreateInfo()
     for kind, name in _CONSTANTS:
         info.push_constant(kind, name)
-    for index, (name, size) in enumerate(_FORMATS):
+    for index, (name, size) in enumerate(_PLACES + _MAP):
         info.vertex_in(index, "FLOAT" if size == 1 else f"VEC{size}", name)
     passed = gpu.types.GPUStageInterfaceInfo("spectral_map_overlay")
     passed.smooth("VEC2", "map_place")
@@ -81,15 +83,26 @@ def shader(is_flat: bool, is_displayed: bool = True) -> gpu.types.GPUShader:
     return gpu.shader.create_from_info(info)
 
 
-def batch(positions: np.ndarray, uv: np.ndarray, values: np.ndarray) -> gpu.types.GPUBatch:
-    """Return triangles to draw: positions (3 T, 3), UVs (3 T, 2) and values (3 T,) of their corners, float32."""
+def places(positions: np.ndarray) -> gpu.types.GPUVertBuf:
+    """Return the positions, (3 T, 3) float32, of the corners of triangles, for as many batches as show them."""
+    return _buffer(_PLACES, positions)
+
+
+def batch(positions: gpu.types.GPUVertBuf, uv: np.ndarray, values: np.ndarray) -> gpu.types.GPUBatch:
+    """Return triangles to draw: their `places`, the UVs (3 T, 2) and values (3 T,) of their corners, float32."""
+    triangles = gpu.types.GPUBatch(type="TRIS", buf=_buffer(_MAP, uv, values))
+    triangles.vertbuf_add(positions)
+    return triangles
+
+
+def _buffer(attributes: Sequence[tuple[str, int]], *arrays: np.ndarray) -> gpu.types.GPUVertBuf:
     vertex_format = gpu.types.GPUVertFormat()
-    for name, size in _FORMATS:
+    for name, size in attributes:
         vertex_format.attr_add(id=name, comp_type="F32", len=size, fetch_mode="FLOAT")
-    buffer = gpu.types.GPUVertBuf(vertex_format, len(values))
-    for (name, size), array in zip(_FORMATS, (positions, uv, values)):
+    buffer = gpu.types.GPUVertBuf(vertex_format, len(arrays[0]))
+    for (name, size), array in zip(attributes, arrays):
         buffer.attr_fill(name, np.ascontiguousarray(array, dtype=np.float32).reshape(-1, size))
-    return gpu.types.GPUBatch(type="TRIS", buf=buffer)
+    return buffer
 
 
 def draw(

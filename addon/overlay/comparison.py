@@ -103,10 +103,7 @@ class ComparisonView:
 
     def _draw_map(self, index: int, x: float, y: float, size: float) -> None:
         if self._batches is None:
-            self._batches = [
-                [colored_triangles.batch(*view.vertex_buffers(texts.LOOK_ANGLE)) for view in views if view.qc.size]
-                for views in self._maps
-            ]
+            self._batches = [[_triangles(view) for view in views if view.qc.size] for views in self._maps]
         low, extent = _bounds(self._maps[index])
         shader = colored_triangles.shader(is_flat=True)
         with gpu.matrix.push_pop():
@@ -115,6 +112,11 @@ class ComparisonView:
             gpu.matrix.translate((-low[0], -low[1]))
             for batch in self._batches[index]:
                 colored_triangles.draw(batch, shader, legend.colors_of(texts.LOOK_ANGLE, 1.0), *self._range)
+
+
+def _triangles(view: MapView) -> gpu.types.GPUBatch:
+    places = colored_triangles.places(view.triangle_positions())
+    return colored_triangles.batch(places, *view.triangle_map(texts.LOOK_ANGLE))
 
 
 def _bounds(views: Sequence[MapView]) -> tuple[np.ndarray, float]:

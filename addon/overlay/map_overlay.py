@@ -37,6 +37,7 @@ class _ShownMesh:
         self._is_stale = True
         self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
         self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self._places: gpu.types.GPUVertBuf | None = None
         self.is_too_large = False
         self.numbers: IslandNumbers | None = None
         self.islands_known = False
@@ -53,30 +54,44 @@ class _ShownMesh:
             arrays = None
             if not self.is_too_large:
                 arrays = read_map.read_map(context, shown, _preview.get(shown.name_full))
-            if self._differs(arrays):
-                self._view = None if arrays is None else MapView(arrays)
-                self._batches.clear()
-                self._in_editor.clear()
-                self.numbers, self.islands_known = None, False
+            self._show(arrays)
         return self._view
 
-    def _differs(self, arrays: MapArrays | None) -> bool:
-        if arrays is None or self._view is None:
-            return arrays is not None or self._view is not None
-        return not self._view.arrays.equals(arrays)
+    def _show(self, arrays: MapArrays | None) -> None:
+        """Take up what was read, and keep what it does not change."""
+        before = self._view
+        if arrays is None and before is None:
+            return
+        has_mesh = arrays is not None and before is not None and arrays.has_mesh_of(before.arrays)
+        if has_mesh and arrays.has_map_of(before.arrays):
+            return
+        self._view = None if arrays is None else MapView(arrays, before if has_mesh else None)
+        self._batches.clear()
+        self._in_editor.clear()
+        self.numbers, self.islands_known = None, False
+        if not has_mesh:
+            self._places = None
 
     def batch(self, kind: str, density: float, in_editor: bool) -> gpu.types.GPUBatch | None:
         """Return the triangles to draw for the view that was asked for last; None for none."""
         known, key = (self._in_editor if in_editor else self._batches), (kind, density)
         if key not in known:
             known.clear()
-            buffers = self._view.vertex_buffers(kind, density)
-            if in_editor:
-                chosen = np.repeat(self._view.is_in_uv_editor(), 3)
-                if not chosen.all():
-                    buffers = tuple(buffer[chosen] for buffer in buffers)
-            known[key] = colored_triangles.batch(*buffers) if len(buffers[0]) else None
+            uv, values = self._view.triangle_map(kind, density)
+            chosen = np.repeat(self._view.is_in_uv_editor(), 3) if in_editor else np.ones(1, dtype=bool)
+            if not chosen.all():
+                places = colored_triangles.places(self._view.triangle_positions()[chosen]) if chosen.any() else None
+                uv, values = uv[chosen], values[chosen]
+            else:
+                if self._places is None:
+                    self._places = self._places_of_all()
+                places = self._places
+            known[key] = colored_triangles.batch(places, uv, values) if len(values) else None
         return known[key]
+
+    def _places_of_all(self) -> gpu.types.GPUVertBuf | None:
+        positions = self._view.triangle_positions()
+        return colored_triangles.places(positions) if len(positions) else None
 
 
 _shown: dict[str, _ShownMesh] = {}

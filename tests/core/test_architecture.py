@@ -20,6 +20,7 @@ STANDARD = {
     "itertools",
     "json",
     "math",
+    "pathlib",
     "textwrap",
     "threading",
     "time",

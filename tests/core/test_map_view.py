@@ -53,7 +53,7 @@ def test_buffers_are_those_of_the_visible_faces():
     arrays.visible_faces[::2] = False
     arrays.uv_faces[:] = np.arange(16) == 3
     view = MapView(arrays)
-    positions, uv, values = view.vertex_buffers(texts.LOOK_ANGLE)
+    positions, (uv, values) = view.triangle_positions(), view.triangle_map(texts.LOOK_ANGLE)
     assert [buffer.shape for buffer in (positions, uv, values)] == [(48, 3), (48, 2), (48,)]
     assert {buffer.dtype for buffer in (positions, uv, values)} == {np.dtype(np.float32)}
     np.testing.assert_array_equal(positions[:, :2], uv)
@@ -66,7 +66,7 @@ def test_nothing_that_is_drawn_is_not_a_number():
     arrays.uv[4:8] = 0.0
     view = MapView(arrays)
     for kind in (texts.LOOK_ANGLE, texts.LOOK_SIZE, texts.LOOK_DENSITY, texts.LOOK_DEFECTS):
-        assert np.isfinite(view.vertex_buffers(kind)[2]).all()
+        assert np.isfinite(view.triangle_map(kind)[1]).all()
         assert np.isfinite(automatic_range([view], kind)).all()
     assert view.numbers().faces == 16
 
@@ -105,8 +105,16 @@ def test_percentiles_count_weights():
 def test_equal_arrays_are_equal():
     one = grid()
     one.uv[0] = np.nan
-    assert one.equals(changed(one, uv=one.uv.copy()))
-    assert not one.equals(changed(one, uv=one.uv + 1.0))
+    moved = changed(one, uv=one.uv + 1.0)
+    assert one.has_map_of(changed(one, uv=one.uv.copy()))
+    assert one.has_mesh_of(moved)
+    assert not one.has_map_of(moved)
+    known = MapView(one)
+    assert MapView(moved, before=known).triangles is known.triangles
+    hidden = changed(one, visible_faces=~one.visible_faces)
+    assert hidden.has_map_of(one)
+    assert not hidden.has_mesh_of(one)
+    assert not changed(one, positions=one.positions + np.float32(1.0)).has_mesh_of(one)
 
 
 def test_legend_has_a_line_for_what_there_is():
@@ -133,7 +141,7 @@ def test_what_an_image_stretches_back_is_not_distorted():
     view = MapView(changed(grid(scale=(0.5, 1.0)), aspect=2.0))
     assert view.qc == pytest.approx(1.0)
     assert view.values(texts.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
-    assert not view.arrays.equals(changed(view.arrays, aspect=1.0))
+    assert not view.arrays.has_map_of(changed(view.arrays, aspect=1.0))
 
 
 def test_numbers_of_several_maps_are_weighed_by_their_surface():

@@ -8,7 +8,10 @@ libraries of this Blender are written.
 import json
 import math
 import sys
+from fnmatch import fnmatchcase
 from pathlib import Path
+from urllib.parse import urlparse
+from urllib.request import url2pathname
 
 import bpy
 import numpy  # noqa: F401 - with the libraries that are its own, not the package's
@@ -35,7 +38,19 @@ def traces() -> dict:
         "enabled": module in bpy.context.preferences.addons,
         "operator": hasattr(bpy.types, "UV_OT_spectral_unwrap"),
         "menu entries": sum(NAME in entry.__module__ for entry in entries),
+        "manual": manual_place(),
     }
+
+
+def manual_place() -> str:
+    """Return the page that Blender opens about the operator, where it is there; empty where it knows of none."""
+    for prefix, sections in bpy.utils.manual_map():
+        found = [place for pattern, place in sections if fnmatchcase("bpy.ops.uv.spectral_unwrap.margin", pattern)]
+        if found:
+            page, anchor = found[0].split("#")
+            file = Path(url2pathname(urlparse(prefix).path), page)
+            return page if f'id="{anchor}"' in file.read_text(encoding="utf-8") else ""
+    return ""
 
 
 def unwrap_cylinder() -> dict:

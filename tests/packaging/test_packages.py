@@ -145,6 +145,7 @@ def check_unwrapped(seen):
     assert seen["installed"]["enabled"]
     assert seen["installed"]["operator"]
     assert seen["installed"]["menu entries"]
+    assert seen["installed"]["manual"] == "guide.html"
     for unwrapped in (seen["first"], seen["second"]):
         assert unwrapped["result"] == ["FINISHED"]
         assert unwrapped["finite"]

@@ -18,7 +18,7 @@ def run(names: Sequence[str]) -> int:
     chosen = targets.named(names)
     if platform.machine() != "x86_64":
         raise StepError(f"The compilers come for x86_64 only, and this is {platform.machine()}.")
-    environment.set_up("build", "bpy", "cross", native=False)
+    environment.set_up("build", "bpy", "package", "cross", native=False)
     with steps.exclusive():
         parts.fetch(chosen)
         made = []

@@ -5,10 +5,9 @@
 
 namespace spectral_conformal {
 
-void BinaryUnit::include(double coordinate) {
-  const double size = std::abs(coordinate);
-  if (!(size > largest_) || !std::isfinite(size)) return;
-  largest_ = size;
+void BinaryUnit::enlarge(double coordinate) {
+  if (!std::isfinite(coordinate)) return;
+  largest_ = std::abs(coordinate);
   constexpr int bound = 1000;  // 2^1000 and its inverse are normal numbers
   int exponent = 0;
   std::frexp(largest_, &exponent);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace spectral_conformal {
 
 /// A power of two next to the largest of some lengths: measured in it, squares neither overflow nor vanish, and to
@@ -7,7 +9,11 @@ namespace spectral_conformal {
 class BinaryUnit {
  public:
   /// Makes the unit large enough for a coordinate; one that is not finite does not count.
-  void include(double coordinate);
+  void include(double coordinate) {
+    if (std::abs(coordinate) > largest_) enlarge(coordinate);
+  }
+  /// Makes the unit large enough for what another is large enough for.
+  void include(const BinaryUnit& other) { include(other.largest_); }
   /// log2 of the unit; bounded, so that it has an inverse. 0 without a coordinate other than 0.
   int exponent() const;
   /// A length in this unit.
@@ -16,6 +22,8 @@ class BinaryUnit {
   double area_of(double scaled_area) const;
 
  private:
+  void enlarge(double coordinate);
+
   double largest_ = 0;
   int exponent_ = 0;
   double factor_ = 1;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "geometry/binary_unit.h"
 #include "geometry/polygon_triangulation.h"
@@ -90,24 +92,45 @@ class FaceMeasure {
   PolygonTriangulation polygon_;
 };
 
+int n_blocks(int n) { return (n + block_size - 1) / block_size; }
+
+/// The units of a mesh and of its map. The largest of the blocks' lengths is the same whoever finds them.
+std::pair<BinaryUnit, BinaryUnit> units_of(const PolygonMesh& mesh, const double* corner_uv) {
+  std::vector<std::pair<BinaryUnit, BinaryUnit>> units(static_cast<std::size_t>(n_blocks(mesh.n_corners())));
+  run_in_parallel(
+      static_cast<int>(units.size()), max_measuring_threads,
+      [&](int block, const Progress&) {
+        BinaryUnit unit;
+        BinaryUnit image_unit;
+        const int end = std::min(mesh.n_corners(), (block + 1) * block_size);
+        for (int c = block * block_size; c < end; ++c) {
+          const double* p = mesh.positions + 3 * static_cast<std::size_t>(mesh.corner_vertices[c]);
+          for (int k = 0; k < 3; ++k) unit.include(p[k]);
+          for (int k = 0; k < 2; ++k) image_unit.include(corner_uv[2 * static_cast<std::size_t>(c) + k]);
+        }
+        units[static_cast<std::size_t>(block)] = {unit, image_unit};
+      },
+      {}, "distortion");
+  std::pair<BinaryUnit, BinaryUnit> all;
+  for (const auto& [unit, image_unit] : units) {
+    all.first.include(unit);
+    all.second.include(image_unit);
+  }
+  return all;
+}
+
 }  // namespace
 
 FaceDistortion measure_face_distortion(const PolygonMesh& mesh, const double* corner_uv) {
   validate(mesh);
-  BinaryUnit unit;
-  BinaryUnit image_unit;
-  for (int c = 0; c < mesh.n_corners(); ++c) {
-    for (int k = 0; k < 3; ++k) unit.include(mesh.positions[3 * static_cast<std::size_t>(mesh.corner_vertices[c]) + k]);
-    for (int k = 0; k < 2; ++k) image_unit.include(corner_uv[2 * static_cast<std::size_t>(c) + k]);
-  }
+  const std::pair<BinaryUnit, BinaryUnit> units = units_of(mesh, corner_uv);
   FaceDistortion result;
   result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  const int n_blocks = (mesh.n_faces + block_size - 1) / block_size;
   run_in_parallel(
-      n_blocks, max_measuring_threads,
+      n_blocks(mesh.n_faces), max_measuring_threads,
       [&](int block, const Progress&) {
-        FaceMeasure measure(mesh, corner_uv, unit, image_unit);
+        FaceMeasure measure(mesh, corner_uv, units.first, units.second);
         const int end = std::min(mesh.n_faces, (block + 1) * block_size);
         for (int face = block * block_size; face < end; ++face) measure.measure(face, result);
       },

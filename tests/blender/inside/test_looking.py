@@ -54,7 +54,7 @@ def test_values_are_those_of_the_module(mode):
     expected = of_module(grid)
     np.testing.assert_allclose(view.values(texts.LOOK_ANGLE), expected.qc, atol=1e-6)
     assert view.numbers().max_qc == pytest.approx(expected.qc.max())
-    assert view.vertex_buffers(texts.LOOK_ANGLE)[2].max() == pytest.approx(expected.qc.max(), rel=1e-6)
+    assert view.triangle_map(texts.LOOK_ANGLE)[1].max() == pytest.approx(expected.qc.max(), rel=1e-6)
     map_overlay.forget()
 
 

@@ -21,6 +21,21 @@ TEST_CASE("the largest coordinate is between a half and one in it, and back in t
   }
 }
 
+TEST_CASE("of several units one can be made") {
+  BinaryUnit small;
+  BinaryUnit large;
+  BinaryUnit nothing;
+  small.include(0.75);
+  large.include(-5);
+  BinaryUnit unit = small;
+  unit.include(nothing);
+  CHECK(unit.exponent() == 0);
+  unit.include(large);
+  CHECK(unit.exponent() == large.exponent());
+  unit.include(small);
+  CHECK(unit.exponent() == 3);
+}
+
 TEST_CASE("without a coordinate other than zero, or with ones that are not finite only, it is one") {
   BinaryUnit unit;
   for (const double x : {0.0, std::numeric_limits<double>::infinity(), std::nan("")}) unit.include(x);

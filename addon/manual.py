@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Blender's "Online Manual" opens for the parts of this add-on: the pages that the packages bring along."""
+
+from pathlib import Path
+
+import bpy
+
+from . import names
+
+# Made by tools/manual.py when the add-on is packed; a checkout has none.
+_FOLDER = Path(__file__).with_name("manual")
+_USE = "guide.html#use"
+_LOOK = "guide.html#look-at-the-map"
+_EXTENDERS = "guide.html#how-islands-lie-pins-seams-and-extenders"
+_SECTIONS = {
+    names.UNWRAP_OPERATOR: _USE,
+    names.SUGGEST_SEAMS_OPERATOR: "guide.html#quick-tour",
+    names.SELECT_FAILED_OPERATOR: _USE,
+    names.SELECT_DEFECTS_OPERATOR: _LOOK,
+    names.SELECT_DISTORTED_OPERATOR: _LOOK,
+    names.INSPECT_OPERATOR: _LOOK,
+    names.COMPARE_OPERATOR: _LOOK,
+    names.STORE_OPERATOR: _LOOK,
+    names.ADD_EXTENDER_OPERATOR: _EXTENDERS,
+    names.REMOVE_EXTENDER_OPERATOR: _EXTENDERS,
+    names.ADJUST_EXTENDER_OPERATOR: _EXTENDERS,
+    names.SELECT_EXTENDER_OPERATOR: _EXTENDERS,
+}
+_TYPES = {
+    "SpectralUnwrapDefaults": _USE,
+    "SpectralMapOverlay": _LOOK,
+    "SpectralExtender": _EXTENDERS,
+    "SpectralPreferences": "guide.html#preferences",
+}
+
+
+def links() -> tuple[str, tuple[tuple[str, str], ...]]:
+    """Return the address of the manual, and the patterns of what is asked about with the places that tell of it."""
+    operators = [(f"bpy.ops.{name}*", place) for name, place in _SECTIONS.items()]
+    types = [(f"bpy.types.{name.lower()}*", place) for name, place in _TYPES.items()]
+    live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", _EXTENDERS)]
+    return f"{_FOLDER.as_uri()}/", (*operators, *types, *live)
+
+
+def register() -> None:
+    """Let Blender know the manual."""
+    if _FOLDER.is_dir():
+        bpy.utils.register_manual_map(links)
+
+
+def unregister() -> None:
+    """Let Blender forget it."""
+    if _FOLDER.is_dir():
+        bpy.utils.unregister_manual_map(links)
