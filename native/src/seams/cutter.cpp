@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -65,6 +66,38 @@ double extent_of(const TrialMap& mapped, const std::vector<int>& faces, double w
   for (const int face : faces) extent += mapped.area[static_cast<std::size_t>(face)] + 1e-9 * whole;
   return extent;
 }
+
+/// Some faces of a mesh, on its vertices and with its seams: their charts are built without a look at the others.
+class FaceSubset {
+ public:
+  /// The faces ascending. The mesh's vertices and seams must outlive this object.
+  FaceSubset(const PolygonMesh& mesh, std::vector<int> faces) : mesh_(mesh), faces_(std::move(faces)) {
+    for (const int face : faces_) {
+      corner_vertices_.insert(corner_vertices_.end(), mesh.corner_vertices + mesh.face_offsets[face],
+                              mesh.corner_vertices + mesh.face_offsets[face + 1]);
+      face_offsets_.push_back(static_cast<int>(corner_vertices_.size()));
+    }
+  }
+
+  PolygonMesh view() const {
+    PolygonMesh mesh = mesh_;
+    mesh.n_faces = static_cast<int>(faces_.size());
+    mesh.face_offsets = face_offsets_.data();
+    mesh.corner_vertices = corner_vertices_.data();
+    return mesh;
+  }
+  void number_as_in_mesh(Chart& chart) const {
+    for (std::vector<int>* numbers : {&chart.faces, &chart.duplicates}) {
+      for (int& face : *numbers) face = faces_[static_cast<std::size_t>(face)];
+    }
+  }
+
+ private:
+  PolygonMesh mesh_;
+  std::vector<int> faces_;
+  std::vector<int> face_offsets_{0};
+  std::vector<int> corner_vertices_;
+};
 
 bool contains(const TrialMaps& charts, const std::shared_ptr<const TrialMap>& chart) {
   return std::find(charts.begin(), charts.end(), chart) != charts.end();
@@ -139,25 +172,29 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
   mesh.seam_edges = seams.data();
   mesh.n_seam_edges = static_cast<int>(seams.size());
   TrialMaps result;
-  std::unique_ptr<bool[]> selected;  // NOLINT(modernize-avoid-c-arrays): as PolygonMesh has it
-  if (!charts_.empty()) {
+  std::vector<int> faces;
+  if (charts_.empty()) {
+    faces.resize(static_cast<std::size_t>(mesh.n_faces));
+    std::iota(faces.begin(), faces.end(), 0);
+  } else {
     std::vector<char> is_changed(charts_.size(), 0);
     for (const int edge : changed) {
       for (const int face : seams_.graph().edges()[edge].faces) {
         if (face >= 0 && chart_of_face_[face] >= 0) is_changed[chart_of_face_[face]] = 1;
       }
     }
-    selected.reset(new bool[static_cast<std::size_t>(mesh.n_faces)]);
     for (int face = 0; face < mesh.n_faces; ++face) {
-      selected[face] = chart_of_face_[face] >= 0 && is_changed[chart_of_face_[face]] != 0;
+      if (chart_of_face_[face] >= 0 && is_changed[chart_of_face_[face]] != 0) faces.push_back(face);
     }
-    mesh.selected_faces = selected.get();
     for (std::size_t i = 0; i < charts_.size(); ++i) {
       if (is_changed[i] == 0) result.push_back(charts_[i]);
     }
   }
-  ChartDecomposition decomposition = build_charts(mesh);
+  const FaceSubset changed_faces(mesh, std::move(faces));
+  ChartDecomposition decomposition = build_charts(changed_faces.view());
+  std::vector<Chart> unknown;
   for (Chart& chart : decomposition.charts) {
+    changed_faces.number_as_in_mesh(chart);
     // Every cut makes copies of vertices or loops: a chart with as many of both, by the same triangles, is the same.
     const auto is_same = [&](const auto& old) {
       return old->chart.faces == chart.faces && old->chart.vertices == chart.vertices &&
@@ -168,13 +205,23 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
       const auto found = same ? maps->end() : std::find_if(maps->begin(), maps->end(), is_same);
       if (found != maps->end()) same = *found;
     }
-    if (!same) {
+    if (same) {
+      result.push_back(std::move(same));
+    } else {
       solved_vertices_ += chart.n_vertices();
-      same =
-          std::make_shared<const TrialMap>(solve_trial_map(mesh, std::move(chart), options_.map, fallbacks_, progress));
+      unknown.push_back(std::move(chart));
     }
-    result.push_back(std::move(same));
   }
+  const std::size_t first = result.size();
+  result.resize(first + unknown.size());
+  try_in_parallel(
+      unknown.size(),
+      [&](int i, const Progress& going_on) {
+        const auto k = static_cast<std::size_t>(i);
+        result[first + k] = std::make_shared<const TrialMap>(
+            solve_trial_map(mesh, std::move(unknown[k]), options_.map, fallbacks_, going_on));
+      },
+      progress);
   std::sort(result.begin(), result.end(),
             [](const auto& a, const auto& b) { return a->chart.faces.front() < b->chart.faces.front(); });
   return result;
@@ -190,16 +237,18 @@ void Cutter::take_maps(TrialMaps&& charts, const MapQuality& quality) {
 }
 
 /// The same cut of a chart is often tried again after another chart was cut.
-void Cutter::remember(const std::vector<Trial>& trials) {
+void Cutter::remember(const TrialMaps& tried) {
   std::int64_t n_vertices = 0;
   for (const auto& mapped : fresh_) n_vertices += mapped->chart.n_vertices();
-  for (const Trial& trial : trials) {
-    for (const auto& mapped : trial.charts) {
-      if (n_vertices > remembered_vertices || contains(charts_, mapped) || contains(fresh_, mapped)) continue;
-      fresh_.push_back(mapped);
-      n_vertices += mapped->chart.n_vertices();
-    }
+  for (const auto& mapped : tried) {
+    if (n_vertices > remembered_vertices || contains(charts_, mapped) || contains(fresh_, mapped)) continue;
+    fresh_.push_back(mapped);
+    n_vertices += mapped->chart.n_vertices();
   }
+}
+
+void Cutter::remember(const std::vector<Trial>& trials) {
+  for (const Trial& trial : trials) remember(trial.charts);
 }
 
 Cutter::Trial Cutter::attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const {
@@ -313,20 +362,26 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
       if (!std::exchange(cones_tried_, true)) {
         for (SeamEdges& cut : candidates.cuts_to_cones()) proposals.push_back({std::move(cut), false, -1});
       }
+      std::vector<std::pair<const CutCandidates::Region*, bool>> wanted;  // and whether to cut around it
       for (std::size_t kind = 0; kind < 2; ++kind) {
         if (!all && !matters[kind]) continue;
         const auto& list = regions[kind];
         const std::size_t last = std::min(first[kind] + few, list.size());
-        for (std::size_t i = first[kind]; i < last; ++i) {
-          report(progress, 0, "seams");
-          proposals.push_back({candidates.cut_to(list[i], seams_), false, list[i].chart});
-        }
-        if (first[kind] < last) {
-          const auto& worst = list[first[kind]];
-          proposals.push_back({candidates.cut_around(worst), true, worst.chart});
-        }
+        for (std::size_t i = first[kind]; i < last; ++i) wanted.emplace_back(&list[i], false);
+        if (first[kind] < last) wanted.emplace_back(&list[first[kind]], true);
         first[kind] = last;
       }
+      const std::size_t to_cones = proposals.size();
+      proposals.resize(to_cones + wanted.size());
+      try_in_parallel(
+          wanted.size(),
+          [&](int i, const Progress& going_on) {
+            report(going_on, 0, "seams");
+            const auto& [region, around] = wanted[static_cast<std::size_t>(i)];
+            SeamEdges cut = around ? candidates.cut_around(*region) : candidates.cut_to(*region, seams_);
+            proposals[to_cones + static_cast<std::size_t>(i)] = {std::move(cut), around, region->chart};
+          },
+          progress);
       std::vector<Trial> trials = gaining(std::move(proposals), longest, progress);
       if (!trials.empty()) return accept_best(std::move(trials), longest, progress);
     }
@@ -388,24 +443,43 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
       },
       progress);
   sound_.clear();
-  SeamEdges all;
-  TrialMaps known;
+  std::vector<int> parted;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     const int chart = static_cast<int>(i);
     if (defects[i].empty()) {
       sound_.push_back(charts_[i]);
     } else if (candidates.is_first_of_mirrored(chart)) {
-      add_new(part_defects(chart, defects[i], longest - seams_.length(all), progress, known), all);
+      parted.push_back(chart);
     }
+  }
+  std::vector<Parting> partings(parted.size());
+  try_in_parallel(
+      parted.size(),
+      [&](int i, const Progress& going_on) {
+        const auto k = static_cast<std::size_t>(i);
+        const std::int64_t remembered = remembered_vertices / static_cast<std::int64_t>(parted.size());
+        partings[k] =
+            part_chart(parted[k], defects[static_cast<std::size_t>(parted[k])], longest, remembered, going_on);
+      },
+      progress);
+  SeamEdges all;
+  TrialMaps known;
+  for (const Parting& parting : partings) {
+    remember(parting.tried);
+    // What does not fit any more is for the next step to shorten.
+    if (seams_.length(all) + seams_.length(parting.cut) > longest) continue;
+    add_new(parting.cut, all);
+    known.insert(known.end(), parting.charts.begin(), parting.charts.end());
   }
   if (all.empty()) return {};
   return accept(attempt(std::move(all), known, progress));
 }
 
-/// The cut that parts the defects of one chart: with the least distortion and length, or in any case. `known` gets the
-/// maps that it leads to. Empty where it would be too long.
-SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
-                               TrialMaps& known) {
+/// The cut that parts the defects of one chart: with the least distortion and length, or in any case. Maps of as many
+/// vertices as are to be `remembered` are returned with it.
+Cutter::Parting Cutter::part_chart(int chart, const std::vector<int>& faces, double longest, std::int64_t remembered,
+                                   const Progress& progress) const {
+  Parting result;
   const CutCandidates candidates = this->candidates();
   const double before = extent_of(*charts_[static_cast<std::size_t>(chart)], faces, quality_.area);
   for (const bool at_any_price : {false, true}) {
@@ -436,7 +510,13 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
             }
           },
           progress);
-      remember(trials);
+      for (const Trial& trial : trials) {
+        for (const auto& mapped : trial.charts) {
+          if (remembered < 0 || contains(charts_, mapped)) continue;
+          result.tried.push_back(mapped);
+          remembered -= mapped->chart.n_vertices();
+        }
+      }
       for (std::size_t k = 0; k < trials.size(); ++k) {
         const double removed = (before - left[k]) / before;
         const bool is_fine = removed >= min_removed && trials[k].quality.distortion() <= highest;
@@ -450,10 +530,11 @@ SeamEdges Cutter::part_defects(int chart, const std::vector<int>& faces, double 
       }
     }
     if (best.cut.empty()) continue;
-    known.insert(known.end(), best.charts.begin(), best.charts.end());
-    return best.cut;
+    result.cut = std::move(best.cut);
+    result.charts = std::move(best.charts);
+    break;
   }
-  return {};
+  return result;
 }
 
 /// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.

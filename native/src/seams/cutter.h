@@ -58,6 +58,12 @@ class Cutter {
     TrialMaps charts;
     MapQuality quality;
   };
+  /// What parts the defects of one chart.
+  struct Parting {
+    SeamEdges cut;     ///< empty where it would be too long
+    TrialMaps charts;  ///< the maps that it leads to
+    TrialMaps tried;   ///< those of its trials, as far as they are few
+  };
   /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
@@ -68,6 +74,7 @@ class Cutter {
   TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
                        const Progress& progress) const;
   void take_maps(TrialMaps&& charts, const MapQuality& quality);
+  void remember(const TrialMaps& tried);
   void remember(const std::vector<Trial>& trials);
   CutCandidates candidates() const { return {seams_, charts_, quality_}; }
 
@@ -86,8 +93,8 @@ class Cutter {
   SeamEdges best_cut(double longest, const Progress& progress);
   SeamEdges split_in_half(double longest, const Progress& progress);
   SeamEdges part_defects(double longest, const Progress& progress);
-  SeamEdges part_defects(int chart, const std::vector<int>& faces, double longest, const Progress& progress,
-                         TrialMaps& known);
+  Parting part_chart(int chart, const std::vector<int>& faces, double longest, std::int64_t remembered,
+                     const Progress& progress) const;
   SeamEdges blind_cut(double longest, const Progress& progress);
   bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
   void sew(const Progress& progress);
