@@ -29,9 +29,9 @@ def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN
     """Draw the heading that shows the rest, or folds it away."""
     row = layout.row()
     row.use_property_split = False
-    row.prop(
-        properties, "show_advanced", icon="DOWNARROW_HLT" if properties.show_advanced else "RIGHTARROW", emboss=False
-    )
+    # Without a frame the name of what is shown would be white, which the light theme's background hides.
+    icon = "DOWNARROW_HLT" if properties.show_advanced else "RIGHTARROW"
+    row.prop(properties, "show_advanced", icon=icon, toggle=True)
 
 
 def draw_advanced(
