@@ -63,4 +63,5 @@ def take_as_last(chosen: UnwrapProperties) -> None:
     """Let the operator begin with these settings when an artist calls it next; scripts say theirs."""
     last = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
     for name in UnwrapProperties.__annotations__:
-        setattr(last, name, getattr(chosen, name))
+        if getattr(last, name) != getattr(chosen, name):
+            setattr(last, name, getattr(chosen, name))
