@@ -1,7 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
-#include "linear_algebra/work_counts.h"
+#include "graph/work_counter.h"
 #include "spectral_conformal/build_info.h"
 #include "spectral_conformal/polygon_mesh.h"
 
@@ -16,9 +16,11 @@ py::dict info() {
   return py::dict(py::arg("factorization") = build.factorization, py::arg("blas") = build.blas);
 }
 
-/// What the benchmarks' tests hold speed to; no part of the Python interface.
-py::dict counts() {
-  const WorkCounts sum = work_counts();
+/// What a call of a function costs, which the benchmarks' tests hold speed to; no part of the Python interface.
+py::dict counted_work(const py::function& call) {
+  const WorkCounter counter;
+  call();
+  const WorkCounts sum = counter.counts();
   return py::dict(py::arg("analyses") = sum.analyses, py::arg("factorizations") = sum.factorizations,
                   py::arg("solves") = sum.solves, py::arg("multiplications") = sum.multiplications,
                   py::arg("solve_doubles") = sum.solve_doubles);
@@ -28,7 +30,7 @@ py::dict counts() {
 
 void bind_build(pybind11::module_& module) {
   module.def("build_info", &info);
-  module.def("work_counts", &counts);
+  module.def("counted_work", &counted_work);
   module.attr("SIZE_LIMIT") = size_limit;
 }
 

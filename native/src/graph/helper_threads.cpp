@@ -3,14 +3,16 @@
 #include <new>
 #include <system_error>
 
+#include "graph/work_counter.h"
 #include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal {
 
 HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) {
   try {
-    const auto limited = [work, limit = ThreadLimit::current()] {
+    const auto limited = [work, limit = ThreadLimit::current(), counter = WorkCounter::current()] {
       const ThreadLimit of_caller(limit);
+      const WorkCounter::Share with_caller(counter);
       work();
     };
     threads_.reserve(count);

@@ -6,9 +6,9 @@
 
 namespace spectral_conformal {
 
-/// Threads beside the caller's, under its ThreadLimit, that all do the same work; joined when the object ends. Fewer,
-/// or none, where the system has no more threads or no memory for them: the work must be such that the caller can do
-/// all of it.
+/// Threads beside the caller's, under its ThreadLimit and WorkCounter, that all do the same work; joined when the
+/// object ends. Fewer, or none, where the system has no more threads or no memory for them: the work must be such that
+/// the caller can do all of it.
 class HelperThreads {
  public:
   /// `work` must not throw.

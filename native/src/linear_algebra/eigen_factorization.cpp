@@ -3,7 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
-#include "linear_algebra/work_counts.h"
+#include "graph/work_counter.h"
 
 namespace spectral_conformal {
 namespace {

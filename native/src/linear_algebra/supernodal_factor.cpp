@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "graph/work_counter.h"
 #include "linear_algebra/blas_threads.h"
-#include "linear_algebra/work_counts.h"
 #include "spectral_conformal/thread_limit.h"
 
 // BLAS and LAPACK, Fortran linkage.

@@ -1,7 +1,8 @@
 #include <doctest/doctest.h>
 
+#include "graph/helper_threads.h"
+#include "graph/work_counter.h"
 #include "linear_algebra/factorization.h"
-#include "linear_algebra/work_counts.h"
 #include "meshes.h"
 
 namespace spectral_conformal::test {
@@ -17,14 +18,8 @@ HermitianMatrix full_matrix(int n, Complex off_diagonal) {
   return dense.sparseView();
 }
 
-/// What happened between two looks.
-WorkCounts operator-(const WorkCounts& a, const WorkCounts& b) {
-  return {a.analyses - b.analyses, a.factorizations - b.factorizations, a.solves - b.solves,
-          a.multiplications - b.multiplications, a.solve_doubles - b.solve_doubles};
-}
-
 WorkCounts counts_of(FactorizationBackend backend, Complex off_diagonal, int factorizations, int solves) {
-  const WorkCounts before = work_counts();
+  const WorkCounter counter;
   const HermitianMatrix matrix = full_matrix(5, off_diagonal);
   const auto factor = make_factorization(backend, matrix.rows());
   factor->analyze(matrix);
@@ -32,12 +27,31 @@ WorkCounts counts_of(FactorizationBackend backend, Complex off_diagonal, int fac
   const ComplexVector b = ComplexVector::Ones(matrix.rows());
   ComplexVector x;
   for (int i = 0; i < solves; ++i) factor->solve(b, x);
-  return work_counts() - before;
+  return counter.counts();
 }
 
 }  // namespace
 
-TEST_SUITE("work_counts") {
+TEST_SUITE("work_counter") {
+  TEST_CASE("threads count for the counter of the thread they work for, and no other") {
+    count_analysis();
+    const WorkCounter outer;
+    {
+      const WorkCounter inner;
+      {
+        const HelperThreads helpers(3, [] { count_factorization(2); });
+      }
+      count_analysis();
+      CHECK(inner.counts().analyses == 1);
+      CHECK(inner.counts().multiplications == 2 * inner.counts().factorizations);
+    }
+    count_solve(5);
+    CHECK(outer.counts().analyses == 0);
+    CHECK(outer.counts().factorizations == 0);
+    CHECK(outer.counts().solves == 1);
+    CHECK(outer.counts().solve_doubles == 5);
+  }
+
   TEST_CASE("analyses, factorisations and solves are counted with both libraries") {
     for (const auto backend : backends()) {
       const WorkCounts counts = counts_of(backend, Complex(1), 2, 3);

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace spectral_conformal {
+
+/// What factorisations cost: the same on every machine, however busy, for one SuiteSparse. What the benchmarks' tests
+/// hold speed to.
+struct WorkCounts {
+  std::uint64_t analyses = 0;
+  std::uint64_t factorizations = 0;
+  std::uint64_t solves = 0;           ///< whole ones, or forward and backward parts of one
+  std::uint64_t multiplications = 0;  ///< of supernodal factorisations, four for one of complex numbers
+  std::uint64_t solve_doubles = 0;    ///< of supernodal factors, read in solves
+};
+
+/// While it lives, it counts what is done by the thread that made it and by the threads that the library starts for
+/// that one, in place of a counter that counted there before. Nothing that is computed depends on it.
+class WorkCounter {
+ public:
+  WorkCounter();
+  ~WorkCounter();
+  WorkCounter(const WorkCounter&) = delete;
+  WorkCounter& operator=(const WorkCounter&) = delete;
+
+  WorkCounts counts() const;
+
+  /// That of the calling thread, or null.
+  static WorkCounter* current();
+  /// Lets the calling thread count for a counter, or with null for none, while it lives.
+  class Share {
+   public:
+    explicit Share(WorkCounter* counter);
+    ~Share();
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+
+   private:
+    WorkCounter* before_;
+  };
+
+  void add_analysis() { add(analyses_, 1); }
+  void add_factorization(double multiplications);
+  void add_solve(double doubles);
+
+ private:
+  static void add(std::atomic<std::uint64_t>& sum, double value);
+
+  std::atomic<std::uint64_t> analyses_{0};
+  std::atomic<std::uint64_t> factorizations_{0};
+  std::atomic<std::uint64_t> solves_{0};
+  std::atomic<std::uint64_t> multiplications_{0};
+  std::atomic<std::uint64_t> solve_doubles_{0};
+  Share share_;  ///< last: from then on it counts
+};
+
+/// For the calling thread's counter, if it has one.
+void count_analysis();
+void count_factorization(double multiplications);
+void count_solve(double doubles);
+
+}  // namespace spectral_conformal
