@@ -40,6 +40,7 @@ MODULES = {
         "typing",
     ),
     "typing_extensions",  # for type checkers alone
+    "pathlib",  # where the add-on's own manual lies; what reads and writes is among METHODS
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }
 BUILTINS = {"open", "exec", "eval", "compile", "__import__", "input", "breakpoint"}
