@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.benchmarks import control_pictures
+from tests.benchmarks import control_pictures, paper_figures
 from tests.module import meshes
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -114,3 +114,18 @@ def test_the_guide_has_each_picture_with_the_numbers_of_today(example):
     assert example.written(example.maps()) in " ".join(guide.split())
     assert f"![{example.shown}](images/{example.name}.png)" in guide
     assert (control_pictures.IMAGES / f"{example.name}.png").stat().st_size < 60_000
+
+
+@pytest.mark.parametrize("figure", paper_figures.FIGURES, ids=lambda figure: figure.name)
+def test_the_page_of_figures_has_the_measures_of_today(figure):
+    page = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
+    assert paper_figures.section(figure, figure.maps()) in page
+    assert (paper_figures.IMAGES / figure.picture).stat().st_size < 60_000
+
+
+def test_a_mesh_of_the_user_takes_the_place_of_ours(tmp_path):
+    vertices, triangles = paper_figures.holed()
+    rows = [f"v {x} {y} {2 * z}" for x, y, z in vertices] + ["f {} {} {}".format(*face) for face in triangles + 1]
+    (tmp_path / "car.obj").write_text("\n".join(rows))
+    taken, ours = ({figure.name: figure for figure in paper_figures.FIGURES}[name] for name in ("car", "holed"))
+    assert len(taken.maps(tmp_path)[0].uv) == len(ours.maps(tmp_path)[0].uv) == len(vertices)
