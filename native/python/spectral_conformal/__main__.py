@@ -1,0 +1,134 @@
+"""Unwrap mesh files without Blender: python -m spectral_conformal mesh.obj [--out FILE] [--seams suggest]."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from . import _layout, _mesh_files
+from ._options import _CHOICES, Options, SeamOptions, documented
+from ._results import Unwrap
+from ._seams import suggest_seams
+from ._unwrapping import unwrap
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Unwrap the file that is named, print what became of each island, and return the exit code.
+
+    0: every island has a map; 1: the file cannot be read or written, or an island has none. Arguments that cannot be
+    understood exit with 2.
+    """
+    parser = _parser()
+    given = parser.parse_args(arguments)
+    chosen = vars(given)
+    try:
+        options, seam_options = (
+            kind(**{field.name: chosen[field.name] for field in fields(kind) if field.name in chosen})
+            for kind in (Options, SeamOptions)
+        )
+    except ValueError as error:
+        parser.error(str(error))
+    out = given.out or given.mesh.with_name(f"{given.mesh.stem}_uv.obj")
+    if out.suffix.lower() != ".obj":
+        parser.error(f"--out must end with .obj, the format that is written, not '{out.name}'.")
+    if not 0.0 <= given.margin < 0.5:
+        parser.error(f"--margin must be at least 0 and less than 0.5, not {given.margin:g}.")
+    try:
+        failed = _unwrap_file(given.mesh, out, given.seams, given.margin, options, seam_options)
+    except (ValueError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except MemoryError:
+        print(f"error: {given.mesh}: there is too little memory to unwrap it.", file=sys.stderr)
+        return 1
+    return 1 if failed else 0
+
+
+def _unwrap_file(
+    source: Path, out: Path, seams: str, margin: float, options: Options, seam_options: SeamOptions
+) -> int:
+    """Read, cut, unwrap, lay out, write, print; return the number of islands that failed."""
+    mesh = _mesh_files.read_mesh(source)
+    polygons = mesh.vertices, mesh.face_offsets, mesh.corner_vertices
+    edges = np.zeros((0, 2), dtype=np.int64)
+    if mesh.corner_uv is not None:
+        edges = _layout.map_seams(mesh.face_offsets, mesh.corner_vertices, mesh.corner_uv)
+    if seams == "suggest":
+        edges = np.concatenate([edges, suggest_seams(*polygons, seam_edges=edges, options=seam_options)])
+    result = unwrap(*polygons, seam_edges=edges, options=options)
+    solved = np.array([chart.status == "solved" for chart in result.charts], dtype=bool)
+    mapped = (result.chart_of_face >= 0) & solved[result.chart_of_face]
+    chart = np.repeat(np.where(mapped, result.chart_of_face, -1), np.diff(mesh.face_offsets))
+    _mesh_files.write_obj(out, mesh, _layout.on_shelves(result.uv, chart, margin), mapped, source)
+    print(_table(result))
+    print(f"{solved.sum()} of {len(solved)} islands written to {out}")
+    return int((~solved).sum())
+
+
+def _table(result: Unwrap) -> str:
+    lines = [f"{'island':>6} {'faces':>9} {'mean QC':>9} {'max QC':>9} {'flips':>7} {'overlaps':>8}"]
+    for number, chart in enumerate(result.charts):
+        row = f"{number:>6} {len(chart.faces):>9}"
+        if chart.status == "solved":
+            row += f" {chart.mean_qc:>9.4f} {chart.max_qc:>9.4g} {chart.flipped:>7} {chart.overlapping:>8}"
+        lines.append(f"{row}  {chart.message}".rstrip())
+    return "\n".join(lines)
+
+
+def _parser() -> argparse.ArgumentParser:
+    """Return the parser; its options of maps and seams are the fields of the records, with their documentation."""
+    parser = argparse.ArgumentParser(
+        prog="python -m spectral_conformal", description="Unwrap an OBJ, PLY or OFF file and write it as OBJ with UVs."
+    )
+    parser.add_argument("mesh", type=Path, help="the file; it is not changed unless it is also that of --out")
+    parser.add_argument("--out", type=Path, help="the OBJ file to write; by default <mesh>_uv.obj beside it")
+    parser.add_argument(
+        "--seams",
+        choices=("keep", "suggest"),
+        default="keep",
+        help="keep: cut at the island borders of the file's UV map, if it has one (default); suggest: there, and where "
+        "it lowers the distortion most",
+    )
+    parser.add_argument(
+        "--margin", type=float, default=0.004, help="between islands, as a fraction of the texture's side (0.004)"
+    )
+    taken: set[str] = set()
+    for kind, title in ((Options, "maps"), (SeamOptions, "suggested seams")):
+        group = parser.add_argument_group(f"options of {title}")
+        documentation = documented(kind)
+        for field in fields(kind):
+            if field.name in taken:
+                continue
+            taken.add(field.name)
+            text = re.sub(r"\s+", " ", documentation.get(field.name, "").partition(":")[2]).strip().replace("%", "%%")
+            flag = f"--{field.name.replace('_', '-')}"
+            how: dict[str, object] = {"help": text, "default": argparse.SUPPRESS}
+            if isinstance(field.default, bool):
+                how["action"] = argparse.BooleanOptionalAction
+            elif field.name in _CHOICES:
+                how["choices"] = _CHOICES[field.name]
+            else:
+                how["type"] = _number_or_word
+                how["metavar"] = "X"
+                if field.name == "front":
+                    how["nargs"], how["metavar"] = 3, ("X", "Y", "Z")
+            group.add_argument(flag, **how)
+    return parser
+
+
+def _number_or_word(text: str) -> float | str:
+    """Return a number; or the text, which the record takes or refuses by name."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""python -m spectral_conformal: files in, an OBJ with UVs out, what is said and the exit code."""
+
+import dataclasses
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+from spectral_conformal.__main__ import main
+
+from tests.module import meshes
+from tests.module.test_suggest_seams import box
+
+SCRIPTING = Path(__file__).resolve().parents[2] / "docs" / "scripting.md"
+PATCH = meshes.saddle_quads(9)
+
+
+def write_obj(path, vertices, faces, begin=""):
+    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in np.asarray(vertices).tolist()]
+    rows += [f"f {' '.join(str(v + 1) for v in face)}" for face in faces]
+    path.write_text(begin + "\n".join(rows) + "\n")
+    return path
+
+
+def write_off(path, vertices, faces):
+    rows = ["OFF # a comment", f"{len(vertices)} {len(faces)} 0", *(" ".join(map(repr, v)) for v in vertices.tolist())]
+    rows += [f"{len(face)} {' '.join(map(str, face))} 255 0 0" for face in faces]
+    path.write_text("\n".join(rows) + "\n")
+    return path
+
+
+def write_ply(path, vertices, faces, form):
+    """Faces as lists between two other properties, and an element that is of no interest."""
+    header = (
+        f"ply\nformat {form} 1.0\ncomment made here\nelement vertex {len(vertices)}\nproperty double x\n"
+        f"property double y\nproperty double z\nproperty uchar red\nelement face {len(faces)}\nproperty uchar part\n"
+        "property list uchar int vertex_indices\nproperty short last\n"
+        "element edge 1\nproperty int vertex1\nend_header\n"
+    )
+    if form == "ascii":
+        rows = [f"{' '.join(map(repr, v))} 7" for v in vertices.tolist()]
+        rows += [f"1 {len(face)} {' '.join(map(str, face))} -2" for face in faces]
+        path.write_text(header + "\n".join([*rows, "3"]) + "\n")
+        return path
+    order = {"binary_little_endian": "<", "binary_big_endian": ">"}[form]
+    data = b"".join(np.array(v, order + "f8").tobytes() + b"\x07" for v in vertices)
+    for face in faces:
+        data += bytes([1, len(face)]) + np.array(face, order + "i4").tobytes() + np.array([-2], order + "i2").tobytes()
+    path.write_bytes(header.encode() + data + np.array([3], order + "i4").tobytes())
+    return path
+
+
+def read_uv(path):
+    """(C, 2) UVs of the corners, not a number where there are none; the words of the faces; and all other lines."""
+    lines = [line.split() for line in path.read_text().splitlines()]
+    uv = [[float(word) for word in words[1:]] for words in lines if words[0] == "vt"]
+    uv = np.array([*uv, [np.nan, np.nan]])
+    faces = [words[1:] for words in lines if words[0] == "f"]
+    index = [corner.split("/")[1:2] for face in faces for corner in face]
+    return (
+        uv[[int(i[0]) - 1 if i and i[0] else -1 for i in index]],
+        faces,
+        [w for w in lines if w[0] not in ("vt", "f")],
+    )
+
+
+def mixed():
+    """Quads and triangles, so that no two formats of rows are alike."""
+    vertices, quads = PATCH
+    faces = [*quads[: len(quads) // 2].tolist()]
+    for quad in quads[len(quads) // 2 :].tolist():
+        faces += [quad[:3], [quad[0], *quad[2:]]]
+    return vertices, faces
+
+
+@pytest.mark.parametrize("form", ["obj", "off", "ascii", "binary_little_endian", "binary_big_endian"])
+def test_every_format_gets_the_map_of_unwrap(form, tmp_path, capsys):
+    vertices, faces = mixed()
+    if form in ("obj", "off"):
+        path = {"obj": write_obj, "off": write_off}[form](tmp_path / f"m.{form}", vertices, faces)
+    else:
+        path = write_ply(tmp_path / "m.ply", vertices, faces, form)
+    assert main([str(path)]) == 0
+    uv, written, _ = read_uv(tmp_path / "m_uv.obj")
+    assert [[int(corner.split("/")[0]) - 1 for corner in face] for face in written] == faces
+    expected = sc.unwrap(vertices, *meshes.polygons(faces))
+    assert uv.min() >= 0
+    assert uv.max() <= 1
+    assert meshes.similarity_deviation(uv, expected.uv) < 1e-7
+    row = capsys.readouterr().out.splitlines()[1].split()
+    chart = expected.charts[0]
+    assert row == ["0", str(len(faces)), f"{chart.mean_qc:.4f}", f"{chart.max_qc:.4g}", "0", "0"]
+
+
+def test_what_else_an_obj_has_stays(tmp_path):
+    vertices, faces = PATCH
+    lines = ["mtllib m.mtl", "o part", *(f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()), "vn 0 0 1", "vt 0 0"]
+    lines += ["usemtl red", *(f"f {' '.join(f'{v - len(vertices)}/1/-1' for v in face)}" for face in faces), "l 1 2"]
+    (tmp_path / "m.obj").write_text("\n".join(lines) + "\n")
+    assert main([str(tmp_path / "m.obj"), "--out", str(tmp_path / "out.obj")]) == 0
+    uv, written, others = read_uv(tmp_path / "out.obj")
+    assert others == [line.split() for line in lines if line.split()[0] not in ("f", "vt")]
+    assert all(re.fullmatch(r"-\d+/\d+/-1", corner) for face in written for corner in face)
+    assert np.isfinite(uv).all()
+
+
+def test_suggested_seams_open_what_is_closed_and_are_kept_the_next_time(tmp_path):
+    vertices, offsets, corners = box((1, 1, 1), 4)
+    path = write_obj(tmp_path / "m.obj", vertices, np.split(corners, offsets[1:-1]))
+    assert main([str(path)]) == 1
+    assert np.isnan(read_uv(tmp_path / "m_uv.obj")[0]).all()
+    assert main([str(path), "--seams", "suggest"]) == 0
+    first = read_uv(tmp_path / "m_uv.obj")[0]
+    assert main([str(tmp_path / "m_uv.obj"), "--out", str(tmp_path / "again.obj")]) == 0
+    again = read_uv(tmp_path / "again.obj")[0]
+    assert np.abs(again - first).max() < 1e-6
+
+
+def test_islands_lie_apart_in_the_unit_square(tmp_path):
+    vertices, faces = PATCH
+    many = np.concatenate([vertices * (0.3 + k) for k in range(12)])
+    path = write_obj(tmp_path / "m.obj", many, np.concatenate([faces + k * len(vertices) for k in range(12)]))
+    assert main([str(path), "--margin", "0.01"]) == 0
+    parts = np.split(read_uv(tmp_path / "m_uv.obj")[0], 12)
+    low, high = np.array([p.min(0) for p in parts]), np.array([p.max(0) for p in parts])
+    assert low.min() >= 0.0099 and high.max() <= 0.9901
+    for a in range(12):
+        for b in range(a):
+            assert np.maximum(low[a] - high[b], low[b] - high[a]).max() > 0.0099
+    assert np.ptp(parts[11], axis=0)[0] / np.ptp(parts[0], axis=0)[0] == pytest.approx(11.3 / 0.3, rel=1e-4)
+
+
+PLY = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+BROKEN = {
+    "index.obj": ("v 0 0 0\nf 1 2 3\n", "index.obj:2: there is no vertex 2; 1 stand before this line"),
+    "word.obj": ("v 0 0 zero\n", "word.obj:1: could not convert string to float: 'zero'"),
+    "short.obj": ("v 0 0\n", "short.obj:1: 'v' has too few numbers"),
+    "two.obj": ("v 0 0 0\nv 0 0 1\nf 1 2\n", "two.obj:3: a face needs at least three corners"),
+    "nan.obj": ("v 0 0 0\nv 1 0 0\nv nan 0 1\nf 1 2 3\n", "the position of vertex 3 is not finite"),
+    "none.obj": ("v 0 0 0\n", "has no faces"),
+    "empty.obj": ("", "has no faces"),
+    "mesh.stl": ("solid\n", "only .obj, .ply and .off files can be read"),
+    "begin.off": ("3 1 0\n", "begin.off:1: an OFF file begins with 'OFF'"),
+    "counts.off": ("OFF\nthree\n", "counts.off:2: the numbers of vertices and faces are missing"),
+    "ends.off": ("OFF\n3 1 0\n0 0 0\n", "3 vertices and 1 faces are announced, 1 lines follow"),
+    "range.off": ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "range.off:6: there is no vertex 3"),
+    "short.off": ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "short.off:6: 3 numbers are needed, 2 are there"),
+    "header.ply": ("ply\nformat ascii 1.0\nelement vertex many\nend_header\n", "header.ply:3: 'element vertex many'"),
+    "endless.ply": (PLY, "the header has no 'end_header'"),
+    "rows.ply": (PLY + "end_header\n", "ends at vertex 0 of 1"),
+    "faceless.ply": (PLY + "end_header\n0 0 0\n", "no element 'face' with a list 'vertex_indices'"),
+    "binary.ply": (PLY.replace("ascii", "binary_little_endian") + "end_header\nabc", "ends at vertex 0 of 1"),
+    "range.ply": (
+        PLY + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 9\n",
+        "range.ply: face 0: there is no vertex 9; 1 are numbered from 0",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_broken_file_is_named_with_its_line(name, tmp_path, capsys):
+    content, message = BROKEN[name]
+    (tmp_path / name).write_text(content)
+    assert main([str(tmp_path / name)]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("error: ") and said.count("\n") == 1
+    assert message in said
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_file_that_is_not_there(tmp_path, capsys):
+    assert main([str(tmp_path / "no.obj")]) == 1
+    assert "no.obj" in capsys.readouterr().err
+
+
+def test_options_are_those_of_the_records(tmp_path, capsys):
+    path = write_obj(tmp_path / "m.obj", *PATCH)
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    shown = capsys.readouterr().out
+    for field in {f.name for kind in (sc.Options, sc.SeamOptions) for f in dataclasses.fields(kind)}:
+        assert f"--{field.replace('_', '-')}" in shown
+    assert main([str(path), "--method", "lscm", "--hole-rigidity", "0", "--polish", "--front", "0", "1", "0"]) == 0
+    uv = read_uv(tmp_path / "m_uv.obj")[0]
+    lscm = sc.unwrap(PATCH[0], *meshes.polygons(PATCH[1]), method="lscm", polish=True)
+    assert meshes.similarity_deviation(uv, lscm.uv) < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (["--hole-rigidity", "much"], "hole_rigidity must lie between"),
+        (["--tolerance", "1"], "tolerance must"),
+        (["--out", "m.ply"], "--out must end with .obj"),
+        (["--margin", "0.7"], "--margin must be"),
+    ],
+)
+def test_an_option_that_cannot_be_used(given, said, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        main(["m.obj", *given])
+    assert stopped.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def commands():
+    return re.findall(r"^ {4}python -m spectral_conformal (.+)$", SCRIPTING.read_text(encoding="utf-8"), re.M)
+
+
+@pytest.mark.parametrize("command", commands())
+def test_commands_of_the_documents_run(command, tmp_path):
+    arguments = shlex.split(command, comments=True)
+    writer = {".obj": write_obj, ".off": write_off, ".ply": lambda *a: write_ply(*a, "binary_little_endian")}
+    writer[Path(arguments[0]).suffix](tmp_path / arguments[0], *PATCH)
+    done = subprocess.run([sys.executable, "-m", "spectral_conformal", *arguments], cwd=tmp_path, capture_output=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_there_are_commands_in_the_documents():
+    assert len(commands()) == 3
