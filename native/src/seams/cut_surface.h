@@ -24,9 +24,10 @@ class CutSurface {
 
   /// See handle_curves(Chart): the value for the surface as build_charts would cut it.
   int handle_curves() const { return handle_curves(orientable_, loops_); }
-  /// Cuts along edges of the graph if that leaves the surface connected and with fewer handle curves. Otherwise nothing
-  /// changes.
-  bool try_cut(const std::vector<int>& edges);
+  /// Cuts along edges of the graph if that leaves the surface connected and with fewer handle curves; if `may_join`,
+  /// also if it leaves as many and joins boundary loops, which lets later cuts along paths between these open handles.
+  /// Otherwise nothing changes.
+  bool try_cut(const std::vector<int>& edges, bool may_join = false);
 
  private:
   /// A corner of a face and one of its two half-edges, by which a walk around the corner's vertex goes on.

@@ -87,6 +87,20 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
   return loops;
 }
 
+/// Cuts along those loops that open handles, in their order, and adds them to `cuts`. Loops may end as paths between
+/// cuts made before: if `may_join`, such a path joins the boundaries at its ends where it opens no handle yet.
+/// Together, loops of one base leave no handle then: without them the surface is a disk, with or without holes.
+void cut_along(CutSurface& surface, const std::vector<std::vector<int>>& loops, bool may_join,
+               std::vector<std::vector<int>>& cuts) {
+  for (std::size_t n = cuts.size() + 1; surface.handle_curves() > 0 && cuts.size() != n;) {
+    n = cuts.size();
+    for (const auto& loop : loops) {
+      if (surface.handle_curves() == 0) return;
+      if (!loop.empty() && surface.try_cut(loop, may_join)) cuts.push_back(loop);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_faces, int base) {
@@ -139,7 +153,8 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
   CutSurface surface(mesh, graph, decomposition.charts.front());
   if (surface.handle_curves() == 0) return result;
   std::vector<std::vector<int>> loops = self_mirrored_loops(graph, mirror_edge);
-  for (const int base : spread_vertices(graph, std::max(1, max_bases / surface.handle_curves()))) {
+  const std::vector<int> bases = spread_vertices(graph, std::max(1, max_bases / surface.handle_curves()));
+  for (const int base : bases) {
     for (auto& loop : generator_loops(graph, mesh.n_faces, base)) loops.push_back(std::move(loop));
   }
   sort_by_cost(graph, loops);
@@ -155,7 +170,15 @@ std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGra
       if (!edges.empty() && surface.try_cut(edges)) result.push_back(std::move(edges));
     }
   }
-  return result;
+  cut_along(surface, loops, true, result);
+  if (surface.handle_curves() == 0) return result;
+  // Loops of several bases, and images, may be in each other's way: begin again with those of one.
+  CutSurface uncut(mesh, graph, decomposition.charts.front());
+  std::vector<std::vector<int>> from_one_base;
+  loops = generator_loops(graph, mesh.n_faces, bases.front());
+  cut_along(uncut, loops, false, from_one_base);
+  cut_along(uncut, loops, true, from_one_base);
+  return uncut.handle_curves() < surface.handle_curves() ? from_one_base : result;
 }
 
 }  // namespace spectral_conformal

@@ -1,0 +1,402 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes as generators make them: seams suggested, unwrapped and packed, beside xatlas and Smart UV Project.
+
+    build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] [--methods NAME ...]
+
+Noise-displaced marching cubes, merged primitives, decimated and torn scans: without seams, many of them not manifold,
+self-intersecting or of hundreds of components. Needs scikit-image (pip install scikit-image); xatlas and Smart UV
+Project (bpy) are left out where they are not installed. Each map is made in a process of its own with a limit of
+seconds and of memory, whose peak is that of this whole process, what it imports and the mesh included. Mean QC counts a
+face of more than 10 as 10. Faces are about as many as asked for.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+
+import numpy as np
+
+Mesh = tuple[np.ndarray, np.ndarray]
+SECONDS, GIGABYTES = 1200, 12
+QC_CAP = 10.0
+
+
+def noise(points: np.ndarray, seed: int, octaves: int = 4, frequency: float = 2.0) -> np.ndarray:
+    """Smooth noise at (..., 3) points: sums of waves of random direction, each octave finer and lower by half."""
+    rng = np.random.default_rng(seed)
+    total = np.zeros(points.shape[:-1], np.float32)
+    for octave in range(octaves):
+        for _ in range(6):
+            direction = rng.normal(size=3).astype(np.float32)
+            direction *= frequency * 2**octave / np.linalg.norm(direction)
+            total += np.sin(points @ direction + rng.uniform(0, 2 * np.pi)).astype(np.float32) * 0.5**octave / 6
+    return total
+
+
+def isosurface(field: Callable[[np.ndarray], np.ndarray]) -> Callable[[int], Mesh]:
+    """Return the maker of the level 0 of a field on [-1, 1]^3, from the cells per side."""
+
+    def make(resolution: int) -> Mesh:
+        from skimage.measure import marching_cubes
+
+        axis = np.linspace(-1, 1, resolution, dtype=np.float32)
+        points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
+        values = np.concatenate([field(part) for part in np.array_split(points, max(1, resolution // 16))])
+        vertices, triangles, _, _ = marching_cubes(values, 0.0)
+        return vertices.astype(float) * 2 / (resolution - 1) - 1, triangles.astype(np.int64)
+
+    return make
+
+
+def radius(points: np.ndarray) -> np.ndarray:
+    """Distance from the origin."""
+    return np.linalg.norm(points, axis=-1)
+
+
+def blobs(seed: int, count: int, size: float) -> Callable[[np.ndarray], np.ndarray]:
+    """A field of many balls, that merge where they touch."""
+    rng = np.random.default_rng(seed)
+    centres = rng.uniform(-0.9, 0.9, (count, 3)).astype(np.float32)
+    sizes = (size * rng.uniform(0.4, 1.2, count)).astype(np.float32)
+
+    def field(points: np.ndarray) -> np.ndarray:
+        nearest = np.full(points.shape[:-1], 10, np.float32)
+        for centre, own in zip(centres, sizes):
+            np.minimum(nearest, np.linalg.norm(points - centre, axis=-1) - own, out=nearest)
+        return nearest
+
+    return field
+
+
+def ball(n: int) -> Mesh:
+    """A cube's grid of n by n on each side, blown up to a sphere."""
+    return _cube(n, lambda p: p / np.linalg.norm(p, axis=1)[:, None])
+
+
+def block(n: int) -> Mesh:
+    """A cube of n by n squares on each side."""
+    return _cube(n, lambda p: p)
+
+
+def _cube(n: int, shape: Callable[[np.ndarray], np.ndarray]) -> Mesh:
+    i, j = (a.ravel() for a in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
+    corners, faces = [], []
+    for axis in range(3):
+        for side in (0, n):
+            quad = np.stack([np.c_[i + a, j + b] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))], axis=1)
+            whole = np.insert(quad, 0, side, axis=2)
+            corners.append(np.roll(whole, axis, axis=2)[:, :: 1 if side else -1])
+    points, faces = np.unique(np.concatenate(corners).reshape(-1, 3), axis=0, return_inverse=True)
+    quads = faces.reshape(-1, 4)
+    return shape(2.0 * points / n - 1), np.r_[quads[:, :3], quads[:, [0, 2, 3]]]
+
+
+def ring(n: int) -> Mesh:
+    """A torus of 2 n by n squares."""
+    n = max(n, 3)
+    u, v = (a.ravel() for a in np.meshgrid(np.arange(2 * n), np.arange(n), indexing="ij"))
+    a, b = np.pi * u / n, 2 * np.pi * v / n
+    vertices = np.c_[(1 + 0.35 * np.cos(b)) * np.cos(a), (1 + 0.35 * np.cos(b)) * np.sin(a), 0.35 * np.sin(b)]
+
+    def at(k: int, m: int) -> np.ndarray:
+        return (u + k) % (2 * n) * n + (v + m) % n
+
+    return vertices, np.r_[np.c_[at(0, 0), at(1, 0), at(1, 1)], np.c_[at(0, 0), at(1, 1), at(0, 1)]]
+
+
+def merged(count: int, seed: int, shapes: tuple[Callable[[int], Mesh], ...]) -> Callable[[int], Mesh]:
+    """Return the maker of `count` primitives at random places, turned and stretched, from their fineness."""
+
+    def make(fineness: int) -> Mesh:
+        rng = np.random.default_rng(seed)
+        vertices, triangles, used = [], [], 0
+        made = [shape(max(1, fineness)) for shape in shapes]
+        for k in range(count):
+            points, faces = made[k % len(made)]
+            turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+            turn *= np.sign(np.linalg.det(turn))
+            size = rng.uniform(0.3, 1.0, 3) * 1.6 / count ** (1 / 3)
+            vertices.append((points * size) @ turn.T + rng.uniform(-1, 1, 3))
+            triangles.append(faces + used)
+            used += len(points)
+        return np.concatenate(vertices), np.concatenate(triangles)
+
+    return make
+
+
+def clustered(mesh: Mesh, cell: float) -> Mesh:
+    """Merge the vertices of each cell of a grid, as fast decimation does: not manifold where sheets are near."""
+    vertices, triangles = mesh
+    _, number = np.unique(np.floor(vertices / cell).astype(np.int64), axis=0, return_inverse=True)
+    number = number.ravel()
+    count = np.bincount(number)
+    points = np.stack([np.bincount(number, vertices[:, k]) / count for k in range(3)], axis=1)
+    faces = number[triangles]
+    kept = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return compact((points, faces[kept]))
+
+
+def compact(mesh: Mesh) -> Mesh:
+    """Drop the vertices that no triangle uses."""
+    used, number = np.unique(mesh[1], return_inverse=True)
+    return mesh[0][used], number.reshape(-1, 3)
+
+
+def torn(mesh: Mesh, fraction: float, seed: int) -> Mesh:
+    """Leave out this fraction of the triangles, in patches where noise is low, and some alone."""
+    vertices, triangles = mesh
+    rng = np.random.default_rng(seed)
+    height = noise(vertices[triangles].mean(axis=1).astype(np.float32), seed, 3, 6.0)
+    kept = (height > np.quantile(height, fraction)) & (rng.random(len(triangles)) > fraction / 20)
+    return compact((vertices, triangles[kept]))
+
+
+def shaken(mesh: Mesh, amount: float, seed: int) -> Mesh:
+    """Move every vertex at random, by `amount` of the mean edge."""
+    vertices, triangles = mesh
+    edge = np.linalg.norm(vertices[triangles[:, 0]] - vertices[triangles[:, 1]], axis=1).mean()
+    return vertices + amount * edge * np.random.default_rng(seed).normal(size=vertices.shape), triangles
+
+
+def soiled(mesh: Mesh, seed: int) -> Mesh:
+    """Double some faces, turn some round, and collapse some to slivers: what merges and exporters leave behind."""
+    vertices, triangles = mesh
+    rng = np.random.default_rng(seed)
+    turned = rng.random(len(triangles)) < 0.002
+    triangles = np.where(turned[:, None], triangles[:, ::-1], triangles)
+    again = triangles[rng.random(len(triangles)) < 0.005]
+    slivers = triangles[rng.random(len(triangles)) < 0.002]
+    vertices = vertices.copy()
+    vertices[slivers[:, 0]] = (vertices[slivers[:, 1]] + vertices[slivers[:, 2]]) / 2
+    return vertices, np.r_[triangles, again]
+
+
+def rock(seed: int, depth: float, octaves: int) -> Callable[[np.ndarray], np.ndarray]:
+    """A ball, displaced by noise."""
+    return lambda p: radius(p) - 0.65 + depth * noise(p, seed, octaves, 3.0)
+
+
+def gyroid(p: np.ndarray) -> np.ndarray:
+    """A shell between the two sides of a gyroid, inside a ball."""
+    x, y, z = np.moveaxis(7 * p, -1, 0)
+    sheet = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
+    return np.maximum(np.abs(sheet) - 0.35, 3 * (radius(p) - 0.9))
+
+
+def cut_gyroid(p: np.ndarray) -> np.ndarray:
+    """A gyroid that ends at the sides of the box, open there."""
+    x, y, z = np.moveaxis(6 * p, -1, 0)
+    return np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x) + 0.3 * noise(p, 3)
+
+
+def donut(p: np.ndarray) -> np.ndarray:
+    """A torus, displaced by noise."""
+    across = np.hypot(p[..., 0], p[..., 1]) - 0.6
+    return np.hypot(across, p[..., 2]) - 0.22 + 0.08 * noise(p, 11, 4, 4.0)
+
+
+def statue(p: np.ndarray) -> np.ndarray:
+    """A blocky body of several parts under noise: stands for what text-to-3D makes."""
+    body = np.maximum(np.hypot(p[..., 0], p[..., 1]) - 0.22 - 0.1 * p[..., 2] ** 2, np.abs(p[..., 2]) - 0.75)
+    head = radius(p - np.array([0, 0, 0.72], np.float32)) - 0.24
+    arms = np.maximum(np.hypot(p[..., 1], p[..., 2] - 0.3) - 0.09, np.abs(p[..., 0]) - 0.8)
+    return np.minimum(np.minimum(body, head), arms) + 0.03 * noise(p, 17, 5, 5.0)
+
+
+def marched(field: Callable[[np.ndarray], np.ndarray], change: Callable[[Mesh], Mesh] = lambda m: m) -> Callable:
+    """Return the maker of a changed isosurface from the cells per side."""
+    return lambda resolution: change(isosurface(field)(resolution))
+
+
+def terrain(resolution: int) -> Mesh:
+    """A square of land with steep valleys, as an airborne scan has it."""
+    n = resolution
+    t = np.linspace(-1, 1, n)
+    x, y = (a.ravel() for a in np.meshgrid(t, t, indexing="ij"))
+    z = 0.25 * np.abs(noise(np.c_[x, y, 0 * x].astype(np.float32), 23, 7, 4.0))
+    i, j = (a.ravel() for a in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij"))
+    first = i * n + j
+    return np.c_[x, y, z], np.r_[np.c_[first, first + n, first + n + 1], np.c_[first, first + n + 1, first + 1]]
+
+
+# Each from a number that is raised until there are as many faces as asked for; faces grow with its square.
+ASSETS: dict[str, Callable[[int], Mesh]] = {
+    "rock": marched(rock(1, 0.25, 4)),
+    "rough rock": marched(rock(2, 0.35, 6)),
+    "noise": marched(lambda p: noise(p, 5, 4, 5.0) + 0.4 * (radius(p) - 0.5)),
+    "gyroid shell": marched(gyroid),
+    "cut gyroid": marched(cut_gyroid),
+    "donut": marched(donut),
+    "statue": marched(statue),
+    "blobs, 60": marched(blobs(3, 60, 0.2)),
+    "blobs, 600": marched(blobs(4, 600, 0.06)),
+    "balls, 40": merged(40, 1, (ball,)),
+    "blocks, 300": merged(300, 2, (block,)),
+    "primitives, 100": merged(100, 3, (ball, block, ring)),
+    "primitives, 500": merged(500, 4, (ball, block, ring)),
+    "soiled primitives": lambda n: soiled(merged(100, 5, (ball, block, ring))(n), 5),
+    "welded primitives": lambda n: clustered(merged(100, 6, (ball, block, ring))(n), 0.5 / n),
+    "torn scan": marched(rock(7, 0.2, 5), lambda m: torn(m, 0.3, 7)),
+    "torn donut": marched(donut, lambda m: torn(m, 0.5, 8)),
+    "decimated scan": lambda n: clustered(isosurface(statue)(n), 3.3 / n),
+    "shaken scan": marched(rock(9, 0.2, 5), lambda m: shaken(m, 0.15, 9)),
+    "soiled scan": marched(statue, lambda m: soiled(torn(m, 0.1, 10), 10)),
+    "decimated, torn": lambda n: torn(clustered(isosurface(gyroid)(n), 3.3 / n), 0.2, 11),
+    "terrain": terrain,
+    "torn terrain": lambda n: shaken(torn(terrain(n), 0.2, 12), 0.1, 12),
+}
+
+
+def asset(name: str, faces: int) -> Mesh:
+    """Return the mesh of this name with about this many triangles."""
+    make = ASSETS[name]
+    number, before, size = 24, 0, 0
+    for _ in range(6):
+        mesh = make(number)
+        size = len(mesh[1])
+        if abs(size / faces - 1) < 0.15 or number == before:
+            break
+        before, number = number, max(1, round(number * (faces / size) ** 0.5))
+    return mesh
+
+
+def spectral(
+    vertices: np.ndarray, triangles: np.ndarray, qc_limit: float | None = None
+) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
+    """Suggest seams, unwrap, pack: (triangles, (3 F, 2) map, seconds of the phases and failed islands)."""
+    import spectral_conformal as sc
+
+    from addon.core import placement
+
+    offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
+    start = time.process_time()
+    limits = {} if qc_limit is None else {"qc_limit": qc_limit}
+    seams = sc.suggest_seams(vertices, offsets, corners, **limits)
+    cut = time.process_time()
+    result = sc.unwrap(vertices, offsets, corners, seam_edges=seams, polish=True)
+    solved = time.process_time()
+    uv = placement.side_by_side(result.uv, np.repeat(result.chart_of_face, 3))
+    packed = time.process_time()
+    failed = [chart for chart in result.charts if chart.status == "failed"]
+    phases = {"seams": cut - start, "unwrap": solved - cut, "pack": packed - solved, "failed": len(failed)}
+    for chart in failed[:3]:
+        print(f"failed: {len(chart.faces)} faces: {chart.message}", file=sys.stderr)
+    return triangles, uv, phases
+
+
+def by_xatlas(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
+    """The same by xatlas with its default settings, packed."""
+    import xatlas
+
+    atlas = xatlas.Atlas()
+    atlas.add_mesh(vertices.astype(np.float32), triangles.astype(np.uint32))
+    atlas.generate()
+    _, indices, uv = atlas[0]
+    return triangles, (uv * [atlas.width, atlas.height])[indices.ravel()].astype(float), {}
+
+
+def smart_project(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
+    """The same by Blender's Smart UV Project with its default settings, packed."""
+    import bpy
+
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    data = bpy.data.meshes.new("asset")
+    data.from_pydata(vertices.tolist(), [], triangles.tolist())
+    solid = bpy.data.objects.new("asset", data)
+    bpy.context.collection.objects.link(solid)
+    bpy.context.view_layer.objects.active = solid
+    solid.select_set(True)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.smart_project()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uv = np.empty(2 * 3 * len(triangles), np.float32)
+    data.uv_layers.active.uv.foreach_get("vector", uv)
+    return triangles, uv.reshape(-1, 2).astype(float), {}
+
+
+METHODS = {"spectral": (spectral, None), "xatlas": (by_xatlas, "xatlas"), "Smart UV": (smart_project, "bpy")}
+
+
+def measured(name: str, faces: int, method: str, qc_limit: float | None) -> dict[str, float]:
+    """Make one map of one mesh and measure it."""
+    import spectral_conformal as sc
+
+    from tests.benchmarks.map_measures import measure
+
+    vertices, triangles = asset(name, faces)
+    start, used = time.perf_counter(), time.process_time()
+    own = {"qc_limit": qc_limit} if method == "spectral" else {}
+    triangles, uv, phases = METHODS[method][0](vertices, triangles, **own)
+    seconds, used = time.perf_counter() - start, time.process_time() - used
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+    offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
+    faced = sc.face_distortion(vertices, offsets, corners, uv)
+    qc = float(np.average(np.minimum(faced.qc, QC_CAP), weights=np.maximum(faced.area, 1e-300)))
+    common = {"faces": len(triangles), "seconds": seconds, "processor": used, "gigabytes": peak, "qc": qc}
+    return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}
+
+
+def in_process(name: str, faces: int, method: str, qc_limit: float | None = None) -> dict[str, float] | str:
+    """`measured` in a process of its own; what went wrong as text."""
+    module = "tests.benchmarks.generated_assets"
+    command = [sys.executable, "-m", module, "--faces", str(faces), "--measure", name, method]
+    command += [] if qc_limit is None else ["--qc-limit", str(qc_limit)]
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES << 30, GIGABYTES << 30))
+
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, preexec_fn=limit)
+    except subprocess.TimeoutExpired:
+        return f"no end after {SECONDS} s"
+    if done.returncode:
+        last = done.stderr.strip().splitlines()[-1:] or [""]
+        return f"exit code {done.returncode}: {last[0]}"
+    if done.stderr and method == "spectral":
+        print("\n".join(f"    {line}" for line in done.stderr.splitlines() if line.startswith("failed")), flush=True)
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--faces", type=int, default=20_000)
+    parser.add_argument("--only", nargs="*", choices=[*ASSETS], default=[*ASSETS], metavar="NAME")
+    there = [name for name, (_, needs) in METHODS.items() if not needs or importlib.util.find_spec(needs)]
+    parser.add_argument("--methods", nargs="*", choices=there, default=there, metavar="NAME")
+    parser.add_argument("--qc-limit", type=float, help="of the suggested seams, see SeamOptions")
+    parser.add_argument("--measure", nargs=2, metavar=("NAME", "METHOD"), help="one map, measured, as JSON")
+    arguments = parser.parse_args()
+    if arguments.measure:
+        name, method = arguments.measure
+        print(json.dumps(measured(name, arguments.faces, method, arguments.qc_limit)))
+        return
+    columns = ("islands", "QC", "seams", "flipped", "overlapping", "seconds", "processor s", "GB", "phases")
+    print(f"| mesh | faces | method | {' | '.join(columns)} |\n" + "|---" * (3 + len(columns)) + "|", flush=True)
+    for name in arguments.only:
+        for method in arguments.methods:
+            found = in_process(name, arguments.faces, method, arguments.qc_limit)
+            if isinstance(found, str):
+                print(f"| {name} | | {method} | {found} |", flush=True)
+                continue
+            phases = ", ".join(f"{key} {found[key]:.1f}" for key in ("seams", "unwrap", "pack") if key in found)
+            failed = f", {found['failed']} islands failed" if found.get("failed") else ""
+            print(
+                f"| {name} | {found['faces']} | {method} | {found['islands']} | {found['qc']:.4f} "
+                f"| {found['length']:.2f} | {found['flipped']} | {found['overlapping']} | {found['seconds']:.1f} "
+                f"| {found['processor']:.1f} | {found['gigabytes']:.2f} | {phases}{failed} |",
+                flush=True,
+            )
+
+
+if __name__ == "__main__":
+    main()
