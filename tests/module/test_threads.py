@@ -197,6 +197,20 @@ def test_a_limit_of_threads_keeps_all_work_in_the_callers_and_changes_no_result(
     assert all(np.array_equal(uv, uvs[0]) for uv in uvs)
 
 
+def test_suggested_seams_do_not_depend_on_the_number_of_threads():
+    # Parts that cover each other are parted in several charts at once.
+    body = meshes.limbs(1500, 8, 2)
+    seams = []
+    try:
+        for threads in (0, 1, 2, 3):
+            sc.limit_threads(threads)
+            seams.append(sc.suggest_seams(*body))
+    finally:
+        sc.limit_threads(0)
+    assert len(seams[0])
+    assert all(np.array_equal(other, seams[0]) for other in seams)
+
+
 @pytest.mark.parametrize("threads", [-1, 2**31, 1.0, True, "2", None])
 def test_a_limit_that_is_no_count_is_refused(threads):
     with pytest.raises(ValueError, match="threads must be a whole number from 0 to 2147483647"):
