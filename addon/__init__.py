@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectral Unwrap: UV unwrapping by Spectral Conformal Parameterization (Mullen, Tong, Alliez, Desbrun 2008)."""
 
-from . import handlers, manual, operators, preferences, properties, translations
-from .overlay import extender_arrows, map_overlay
-from .ui import menus, panels
+from types import ModuleType
 
 # Read by Blender 3.4 to 4.1, which parses this literal without running the file; 4.2 and later read
 # blender_manifest.toml. The version stands in pyproject.toml, and in both when they are packed (tools/packaging.py).
@@ -16,20 +14,30 @@ bl_info = {
     "category": "UV",
 }
 
-# Each may use those before it: they come in this order and go in the reverse one.
-_PARTS = (
-    *(translations, properties, handlers, operators, preferences, manual),
-    *(menus, panels, extender_arrows, map_overlay),
-)
+
+def _parts() -> tuple[ModuleType, ...]:
+    """Return the parts, each of which may use those before it: they come in this order and go in the reverse one.
+
+    Imported here, so that a Python without Blender can run the batch, which then looks for one.
+    """
+    from . import handlers, manual, operators, preferences, properties, translations
+    from .batch import blender_command
+    from .overlay import extender_arrows, map_overlay
+    from .ui import menus, panels
+
+    return (
+        *(translations, properties, handlers, operators, preferences, manual),
+        *(menus, panels, extender_arrows, map_overlay, blender_command),
+    )
 
 
 def register() -> None:
     """Add the translations, properties, operators, live unwrapping, menu entries, panels and drawing to Blender."""
-    for part in _PARTS:
+    for part in _parts():
         part.register()
 
 
 def unregister() -> None:
     """Remove everything that `register` added."""
-    for part in reversed(_PARTS):
+    for part in reversed(_parts()):
         part.unregister()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing that is shipped reaches files, network or processes: neither the add-on nor the module."""
+"""Nothing that is shipped reaches files, network or processes, neither the add-on nor the module, but the batch."""
 
 import ast
 import importlib.util
@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PYTHON = sorted([*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")])
+# The command that unwraps files, with which nothing begins but by a call of it on a command line.
+BATCH = {ROOT / "addon" / "__main__.py", *(ROOT / "addon" / "batch").glob("*.py")}
+PYTHON = sorted({*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")} - BATCH)
 CPP = sorted(path for kind in ("h", "cpp") for path in (ROOT / "native").rglob(f"*.{kind}"))
 
 # Everything of the standard library that may be imported: nothing that reaches outside the process.
@@ -158,11 +160,31 @@ def test_compiled_module_names_no_function_that_reaches_outside():
     assert {name for name in names if re.fullmatch(forbidden, name)} == set()
 
 
-def test_manifest_asks_for_no_permissions():
+def imported_at_once(path):
+    """Return the names of the add-on's modules that a file imports when it is itself imported."""
+    nodes = ast.parse(path.read_text(encoding="utf-8")).body
+    return {alias.name for node in nodes if isinstance(node, ast.ImportFrom) and node.level for alias in node.names}
+
+
+def test_the_batch_is_loaded_by_its_command_alone():
+    """The add-on registers the command; that module imports the others only when it is called."""
+    others = {path.stem for path in BATCH} - {"__init__", "__main__", "blender_command"}
+    assert {"command", "task", "pool"} <= others
+    assert imported_at_once(ROOT / "addon" / "batch" / "blender_command.py") == {"names"}
+    for path in PYTHON:
+        names = [
+            node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)
+        ]
+        batch = {
+            alias.name for node in names if (node.module or "").partition(".")[0] == "batch" for alias in node.names
+        }
+        assert batch <= ({"blender_command"} if path.name == "__init__.py" else set()), path
+
+
+def test_manifest_asks_for_what_the_batch_needs():
     manifest = (ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8")
     keys = set(re.findall(r"^\s*\[?([\w.]+)\]?\s*(?==|$)", manifest, re.MULTILINE))
     assert keys == {
         *("schema_version", "id", "name", "tagline", "type", "maintainer", "license", "copyright"),
-        *("tags", "blender_version_min"),
+        *("tags", "blender_version_min", "permissions", "files", "network"),
     }
-    assert "permissions" not in manifest

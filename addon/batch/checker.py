@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A render of all visible meshes with a checker in their UV maps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+from mathutils import Vector
+
+_CHECKS = 40.0
+_SAMPLES = 16
+_LENS_DISTANCE = 2.4
+
+
+def render(path: Path, size: int) -> None:
+    """Render the scene from obliquely above to a PNG of `size` pixels, by Cycles, which needs no graphics card.
+
+    What is added to the scene is removed again.
+    """
+    low, high = _bounds()
+    centre, radius = (low + high) / 2.0, max((high - low).length / 2.0, 1e-6)
+    scene = bpy.data.scenes.new("checker")
+    material = _material()
+    added: list[bpy.types.ID] = [material]
+    try:
+        for item in [item for item in bpy.context.view_layer.objects if item.type == "MESH" and item.visible_get()]:
+            mesh = item.data.copy()
+            mesh.materials.clear()
+            mesh.materials.append(material)
+            shown = bpy.data.objects.new("checker", mesh)
+            shown.matrix_world = item.matrix_world
+            scene.collection.objects.link(shown)
+            added += [mesh]
+        direction = Vector((1.0, -1.5, 0.9)).normalized()
+        camera = bpy.data.cameras.new("checker")
+        camera.clip_start, camera.clip_end = radius * 1e-3, radius * 20.0
+        holder = bpy.data.objects.new("checker", camera)
+        holder.location = centre + direction * radius * _LENS_DISTANCE * 1.2
+        holder.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()
+        scene.collection.objects.link(holder)
+        world = bpy.data.worlds.new("checker")
+        scene.camera, scene.world = holder, world
+        added += [camera, world]
+        _set_up(scene, world, path, size)
+        bpy.ops.render.render(scene=scene.name, write_still=True)
+    finally:
+        for item in list(scene.collection.objects):
+            bpy.data.objects.remove(item)
+        bpy.data.scenes.remove(scene)
+        bpy.data.batch_remove(added)
+
+
+def _bounds() -> tuple[Vector, Vector]:
+    corners = [
+        item.matrix_world @ Vector(corner)
+        for item in bpy.context.view_layer.objects
+        if item.type == "MESH" and item.visible_get()
+        for corner in item.bound_box
+    ]
+    low, high = (Vector(tuple(pick(corner[axis] for corner in corners) for axis in range(3))) for pick in (min, max))
+    return low, high
+
+
+def _material() -> bpy.types.Material:
+    material = bpy.data.materials.new("checker")
+    material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+    output, light = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeBsdfDiffuse")
+    checks, coordinates = nodes.new("ShaderNodeTexChecker"), nodes.new("ShaderNodeTexCoord")
+    checks.inputs["Scale"].default_value = _CHECKS
+    checks.inputs["Color1"].default_value = (0.8, 0.8, 0.8, 1.0)
+    checks.inputs["Color2"].default_value = (0.1, 0.2, 0.5, 1.0)
+    links.new(coordinates.outputs["UV"], checks.inputs["Vector"])
+    links.new(checks.outputs["Color"], light.inputs["Color"])
+    links.new(light.outputs["BSDF"], output.inputs["Surface"])
+    return material
+
+
+def _set_up(scene: bpy.types.Scene, world: bpy.types.World, path: Path, size: int) -> None:
+    world.use_nodes = True
+    for node in world.node_tree.nodes:
+        if node.type == "BACKGROUND":
+            node.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    scene.render.engine = "CYCLES"
+    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", _SAMPLES, False
+    # Equal renders of equal maps.
+    scene.cycles.seed = 0
+    scene.render.resolution_x = scene.render.resolution_y = size
+    scene.render.resolution_percentage = 100
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.filepath = str(path)

@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command: which assets, with what settings, by which workers; what became of them."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import assets, memory, overview, pool, progress, report_file
+from .assets import Asset, InputError
+from .settings import SETTINGS, BatchSettings, SettingsError, from_values
+from .worker_process import Launcher, Limits, StartError, command
+
+ALL_WORKED, SOME_WORKED, NONE_WORKED, INTERRUPTED, WRONG_USE = 0, 1, 2, 130, 64
+WORKED = ("unwrapped", "kept")
+LOG = "batch.log"
+WORKER_LOGS = "logs"
+_EXIT_CODES = (
+    f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
+    f"wrong arguments or no Blender, {INTERRUPTED} interrupted. An asset with islands that could not be unwrapped is "
+    "written, and counts as one that did not work."
+)
+
+_log = logging.getLogger(__name__)
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> None:
+        raise SettingsError(message)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    result = _Parser(prog="spectral_unwrap", description="Unwrap many files.", epilog=_EXIT_CODES)
+    result.add_argument("inputs", nargs="+", metavar="INPUT", help=f"file or folder; {', '.join(assets.READABLE)}")
+    result.add_argument("--out", required=True, type=Path, metavar="DIR", help="folder of the results")
+    result.add_argument("--format", default="", help=f"of the unwrapped files: {', '.join(assets.WRITABLE)}")
+    result.add_argument("--overwrite-source", action="store_true", help="write the unwrapped files over the sources")
+    result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
+    result.add_argument("--dry-run", action="store_true", help="say what would be done, and do nothing")
+    result.add_argument("--resume", action="store_true", help="leave out what an interrupted run has done already")
+    run = result.add_argument_group("running")
+    run.add_argument("--jobs", type=_positive, default=_cores(), help="assets at once (%(default)s)")
+    run.add_argument("--seconds", type=_positive_number, help="after which an asset is given up")
+    run.add_argument("--memory", type=_positive, metavar="MIB", help="that a worker may hold")
+    run.add_argument("--recycle", type=_positive, default=50, metavar="N", help="files per worker (%(default)s)")
+    run.add_argument("--threads", type=_positive, default=1, help="of a worker's linear algebra (%(default)s)")
+    run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
+    run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster that is to do the work")
+    run.add_argument("--quiet", action="store_true", help="print errors only")
+    group = result.add_argument_group("settings, also keys of the settings file with _ for -")
+    for setting in SETTINGS:
+        _add_setting(group, setting)
+    return result
+
+
+def _add_setting(group: Any, setting: Any) -> None:  # noqa: ANN401 - argparse keeps the name of its groups to itself
+    flag = f"--{setting.name.replace('_', '-')}"
+    shown = "" if setting.default in (None, "") else f" ({str(setting.default).replace('%', '%%')})"
+    text = f"{setting.description.replace('%', '%%')}{shown}"
+    options: dict[str, Any] = {"dest": f"setting_{setting.name}", "default": argparse.SUPPRESS, "help": text}
+    if setting.kind is bool:
+        group.add_argument(flag, action=argparse.BooleanOptionalAction, **options)
+    elif setting.kind is tuple:
+        group.add_argument(flag, nargs=3, type=float, metavar=("X", "Y", "Z"), **options)
+    else:
+        group.add_argument(flag, type=setting.kind, choices=setting.choices or None, **options)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _positive(text: str) -> int:
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not at least 1")
+    return int(text)
+
+
+def _positive_number(text: str) -> float:
+    if not float(text) > 0.0:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0")
+    return float(text)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a command line asks for.
+
+    Attributes:
+        assets: in the order of their names.
+        settings: of all of them.
+        out: folder of the results, absolute.
+        arguments: everything else.
+    """
+
+    assets: Sequence[Asset]
+    settings: BatchSettings
+    out: Path
+    arguments: argparse.Namespace
+
+
+def plan(arguments: Sequence[str]) -> Plan:
+    """Return what a command line asks for.
+
+    Raises:
+        SettingsError: an argument is unknown, or wrong.
+        InputError: the inputs cannot be a batch.
+    """
+    parsed = parser().parse_args(arguments)
+    values = _settings_file(parsed.settings) if parsed.settings else {}
+    given = {name[len("setting_") :]: value for name, value in vars(parsed).items() if name.startswith("setting_")}
+    settings = from_values({**values, **given})
+    if parsed.memory and not memory.is_measurable() and not parsed.scheduler:
+        raise SettingsError("--memory needs psutil on this system: pip install psutil, or leave it out.")
+    suffix = parsed.format.lower()
+    suffix = f".{suffix}" if suffix and not suffix.startswith(".") else suffix
+    out = parsed.out.resolve()
+    if out.exists() and not out.is_dir():
+        raise InputError(f"--out {parsed.out} is a file, and must be a folder.")
+    found = assets.find(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source)
+    return Plan(found, settings, out, parsed)
+
+
+def _settings_file(path: Path) -> dict[str, Any]:
+    try:
+        import tomllib
+    except ImportError:
+        try:
+            import tomli as tomllib
+        except ImportError as error:
+            raise SettingsError("--settings needs Python 3.11, or tomli in this one; give options instead.") from error
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise SettingsError(f"{path}: {error}") from error
+
+
+def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code.
+
+    `worker_words` start a worker in place of those that `worker_process.command` finds.
+    """
+    try:
+        wanted = plan(arguments)
+        if wanted.arguments.dry_run:
+            _print_plan(wanted)
+            return ALL_WORKED
+        return _run(wanted, worker_words)
+    except (SettingsError, InputError, StartError) as error:
+        print(f"spectral_unwrap: {error}", file=sys.stderr)
+        return WRONG_USE
+    except SystemExit as end:
+        # Of the help, with which argparse ends.
+        return int(end.code or 0)
+
+
+def _print_plan(wanted: Plan) -> None:
+    for asset in wanted.assets:
+        done = wanted.arguments.resume and _is_done(asset, wanted.settings)
+        print(f"{asset.name} -> {asset.target}{' (done already)' if done else ''}")
+    print(json.dumps(wanted.settings.as_json(), indent=1))
+
+
+def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
+    arguments = wanted.arguments
+    logs = wanted.out / WORKER_LOGS
+    logs.mkdir(parents=True, exist_ok=True)
+    handler = logging.FileHandler(wanted.out / LOG, encoding="utf-8")
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    _log.setLevel(logging.INFO)
+    _log.propagate = False
+    _log.addHandler(handler)
+    reports: dict[str, dict[str, Any]] = {}
+    try:
+        if arguments.resume:
+            reports.update(_done(wanted))
+        todo = [asset for asset in wanted.assets if asset.name not in reports]
+        _log.info("%d assets, %d of them done before; settings %s", len(wanted.assets), len(reports), wanted.settings)
+        is_interrupted = _work(wanted, todo, reports, worker_words)
+        overview.write(wanted.out, [reports.get(a.name) or _missing(a) for a in wanted.assets], is_interrupted)
+        return INTERRUPTED if is_interrupted else _exit_code(wanted, reports)
+    finally:
+        _log.removeHandler(handler)
+        handler.close()
+
+
+def _work(
+    wanted: Plan, todo: Sequence[Asset], reports: dict[str, dict[str, Any]], worker_words: Sequence[str] | None
+) -> bool:
+    """Unwrap the assets and enter their reports; return whether the user interrupted it."""
+    for asset in todo:
+        asset.folder.mkdir(parents=True, exist_ok=True)
+        _clean(asset)
+    with progress.bar(len(todo), wanted.arguments.quiet) as advance:
+        try:
+            for asset, report in _reports(wanted, todo, worker_words):
+                report = _completed(asset, report, wanted.settings)
+                reports[asset.name] = report
+                level = logging.INFO if report["status"] in WORKED else logging.ERROR
+                _log.log(level, "%s: %s", asset.name, overview.line(report))
+                advance(asset.name, report["status"], overview.line(report))
+        except KeyboardInterrupt:
+            _log.error("interrupted")
+            return True
+    return False
+
+
+def _reports(
+    wanted: Plan, todo: Sequence[Asset], worker_words: Sequence[str] | None
+) -> Iterator[tuple[Asset, dict[str, Any]]]:
+    arguments = wanted.arguments
+    if not todo:
+        return
+    lines = [request_line(asset, wanted.settings) for asset in todo]
+    limits = Limits(arguments.seconds, arguments.memory << 20 if arguments.memory else None, arguments.recycle)
+    if arguments.scheduler:
+        from . import dask_cluster
+
+        yield from ((todo[i], r) for i, r in dask_cluster.run(lines, arguments, limits, wanted.out / WORKER_LOGS))
+        return
+    words = worker_words or command(arguments.blender, arguments.threads)
+    launcher = Launcher(words, wanted.out / WORKER_LOGS, arguments.threads)
+    try:
+        yield from ((todo[i], r) for i, r in pool.run(lines, launcher, limits, arguments.jobs))
+    finally:
+        launcher.close()
+
+
+def request_line(asset: Asset, settings: BatchSettings) -> str:
+    """Return the request for an asset, as `task.request_of` reads it."""
+    paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
+    return json.dumps({"name": asset.name, **paths, "settings": settings.as_json()})
+
+
+def _clean(asset: Asset) -> None:
+    """Remove what an earlier run has left of an asset that is now made anew; the target waits until it is replaced."""
+    for name in (assets.REPORT, assets.LAYOUT, assets.CHECKER, assets.THUMBNAIL):
+        (asset.folder / name).unlink(missing_ok=True)
+
+
+def _completed(asset: Asset, report: dict[str, Any], settings: BatchSettings) -> dict[str, Any]:
+    """Return the report with what only this side knows, having written it."""
+    known = {"name": asset.name, "source": str(asset.source), "settings": settings.as_json()}
+    report = {**known, "warnings": [], **report}
+    asset.folder.mkdir(parents=True, exist_ok=True)
+    if report["status"] == "failed":
+        for path in asset.target.parent.glob(f".{asset.target.name}.*.partial"):
+            assets.remove(path)
+    report_file.write(asset.folder, report)
+    return report
+
+
+def _missing(asset: Asset) -> dict[str, Any]:
+    failure = {"kind": "interrupted", "message": "not begun, or not finished"}
+    return {"name": asset.name, "source": str(asset.source), "status": "failed", "failure": failure}
+
+
+def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
+    done = ((asset.name, _is_done(asset, wanted.settings)) for asset in wanted.assets)
+    return {name: report for name, report in done if report}
+
+
+def _is_done(asset: Asset, settings: BatchSettings) -> dict[str, Any] | None:
+    """Return the report of an asset that was made of the same file with the same settings, and is still there."""
+    report = report_file.read(asset.folder)
+    if report is None or report["status"] == "failed" or report["settings"] != settings.as_json():
+        return None
+    if not asset.target.is_file() or assets.digest(asset.target) != report["output_digest"]:
+        return None
+    # Written over its source, it is that no more.
+    unchanged = (report["source_digest"], report["output_digest"])[: 2 if asset.target == asset.source else 1]
+    return report if assets.digest(asset.source) in unchanged else None
+
+
+def _exit_code(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
+    worked = sum(reports[asset.name]["status"] in WORKED for asset in wanted.assets)
+    if worked == len(wanted.assets):
+        return ALL_WORKED
+    return SOME_WORKED if worked else NONE_WORKED

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A picture of a UV layout coloured by distortion, as a PNG file; NumPy alone, since Blender's Python has no more."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..core.color_ramp import GOOD_TO_BAD
+
+_BACKGROUND = (30, 30, 34)
+_TILE = (44, 44, 50)
+_INK = (225, 225, 225)
+# Pixels tested at once: bounds the memory.
+_BLOCK = 1 << 22
+
+# Glyphs of 5 x 7 pixels, a row per number, the highest bit to the left.
+_GLYPHS = {
+    "0": (14, 17, 19, 21, 25, 17, 14),
+    "1": (4, 12, 4, 4, 4, 4, 14),
+    "2": (14, 17, 1, 2, 4, 8, 31),
+    "3": (31, 2, 4, 2, 1, 17, 14),
+    "4": (2, 6, 10, 18, 31, 2, 2),
+    "5": (31, 16, 30, 1, 1, 17, 14),
+    "6": (6, 8, 16, 30, 17, 17, 14),
+    "7": (31, 1, 2, 4, 8, 8, 8),
+    "8": (14, 17, 17, 14, 17, 17, 14),
+    "9": (14, 17, 17, 15, 1, 2, 12),
+    ".": (0, 0, 0, 0, 0, 12, 12),
+    "+": (0, 4, 4, 31, 4, 4, 0),
+    "Q": (14, 17, 17, 17, 21, 18, 13),
+    "C": (14, 17, 16, 16, 16, 17, 14),
+    " ": (0, 0, 0, 0, 0, 0, 0),
+}
+_LEGEND_HEIGHT = 28
+_LEGEND_WIDTH = 64
+
+
+def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int) -> np.ndarray:
+    """Return the picture of a layout with its legend below, (size + 28, size, 3) uint8, the first row on top.
+
+    Args:
+        uv: (T, 3, 2), triangles in the map. The square from 0 to 1 is shown, or more where triangles lie outside.
+        values: (T,), quasi-conformal distortion of each.
+        low: the value of the first colour.
+        high: the value of the last colour, and of all above.
+        size: side of the square in pixels.
+    """
+    finite = np.isfinite(uv).all(axis=(1, 2))
+    uv, values = uv[finite], values[finite]
+    corner, extent = np.zeros(2), 1.0
+    if len(uv) and (uv.min() < 0.0 or uv.max() > 1.0):
+        corner = np.minimum(uv.min(axis=(0, 1)), 0.0)
+        extent = float((np.maximum(uv.max(axis=(0, 1)), 1.0) - corner).max())
+    picture = np.empty((size, size, 3), dtype=np.uint8)
+    picture[:] = _BACKGROUND
+    low_tile, high_tile = (np.clip((value - corner) / extent * size, 0, size).astype(int) for value in (0.0, 1.0))
+    picture[low_tile[1] : high_tile[1], low_tile[0] : high_tile[0]] = _TILE
+    # The worst last, so that it is seen where several meet in one pixel.
+    order = np.argsort(np.nan_to_num(values, nan=np.inf), kind="stable")
+    _fill(picture, (uv[order] - corner) / extent * size, _colors(values[order], low, high))
+    return np.concatenate([picture[::-1], _legend(size, low, high)])
+
+
+def _colors(values: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Return displayed colours, (T, 3) uint8."""
+    place = np.clip((np.nan_to_num(values, nan=high, posinf=high) - low) / (high - low), 0.0, 1.0)
+    channels = [np.interp(place, (0.0, 0.5, 1.0), channel) for channel in zip(*GOOD_TO_BAD)]
+    return np.rint(255.0 * np.stack(channels, axis=1)).astype(np.uint8)
+
+
+def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
+    """Colour the pixels whose centres lie in triangles, (T, 3, 2) in pixels, the later over the earlier."""
+    size = len(picture)
+    first = np.clip(np.floor(points.min(axis=1)).astype(int), 0, size - 1)
+    last = np.clip(np.floor(points.max(axis=1)).astype(int), 0, size - 1)
+    # Triangles of about one size together, in windows of that size.
+    level = np.ceil(np.log2((last - first).max(axis=1, initial=0) + 1.0)).astype(int)
+    owner = np.full(size * size, -1)
+    for exponent in np.unique(level):
+        side = 1 << int(exponent)
+        members = np.flatnonzero(level == exponent)
+        step = max(1, _BLOCK // (side * side))
+        for start in range(0, len(members), step):
+            _claim(owner, size, points, members[start : start + step], first, side)
+    flat = picture.reshape(-1, 3)
+    flat[owner >= 0] = colors[owner[owner >= 0]]
+
+
+def _claim(owner: np.ndarray, size: int, points: np.ndarray, members: np.ndarray, first: np.ndarray, side: int) -> None:
+    """Enter the greatest index of the triangles `members` that cover a pixel, of windows of `side`, into `owner`."""
+    offset = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2)
+    pixel = first[members][:, None] + offset
+    centre = pixel + 0.5
+    corners = points[members]
+    signs = []
+    for k in range(3):
+        start, end = corners[:, None, k], corners[:, None, (k + 1) % 3]
+        edge, to_centre = end - start, centre - start
+        signs.append(edge[..., 0] * to_centre[..., 1] - edge[..., 1] * to_centre[..., 0])
+    inside = np.minimum.reduce(signs) >= 0.0
+    inside |= np.maximum.reduce(signs) <= 0.0
+    # A triangle smaller than a pixel has that pixel, or many of them would be seen nowhere.
+    inside |= side == 1
+    inside &= (pixel < size).all(axis=-1)
+    place = (pixel[..., 1] * size + pixel[..., 0])[inside]
+    np.maximum.at(owner, place, np.broadcast_to(members[:, None], inside.shape)[inside])
+
+
+def _legend(width: int, low: float, high: float) -> np.ndarray:
+    """Return the legend: a name, and the colours between the numbers that they stand for."""
+    legend = np.empty((_LEGEND_HEIGHT, width, 3), dtype=np.uint8)
+    legend[:] = _BACKGROUND
+    cells = max(1, width - 2 * _LEGEND_WIDTH)
+    ramp = _colors(np.linspace(low, high, cells), low, high)
+    legend[8:20, _LEGEND_WIDTH : _LEGEND_WIDTH + cells] = ramp[: width - _LEGEND_WIDTH]
+    _write(legend, 4, f"QC {low:.2f}")
+    _write(legend, width - _LEGEND_WIDTH + 6, f"{high:.2f}+")
+    return legend
+
+
+def _write(picture: np.ndarray, left: int, text: str) -> None:
+    for index, character in enumerate(text):
+        rows = np.array(_GLYPHS[character])
+        bits = (rows[:, None] >> np.arange(4, -1, -1)) & 1
+        x = left + 6 * index
+        area = picture[10:17, x : x + 5]
+        area[bits[:, : area.shape[1]] == 1] = _INK
+
+
+def png(picture: np.ndarray) -> bytes:
+    """Return an image, (height, width, 3) uint8, as a PNG file (ISO/IEC 15948)."""
+    height, width, _ = picture.shape
+    rows = np.concatenate([np.zeros((height, 1), dtype=np.uint8), picture.reshape(height, -1)], axis=1)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    parts = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 6)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in parts)
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def thumbnail(picture: np.ndarray, size: int) -> np.ndarray:
+    """Return the picture with sides of at most `size`, by the means of whole blocks of pixels."""
+    step = -(-max(picture.shape[:2]) // size)
+    height, width = (length // step * step for length in picture.shape[:2])
+    blocks = picture[:height, :width].reshape(height // step, step, width // step, step, 3)
+    return np.rint(blocks.mean(axis=(1, 3))).astype(np.uint8)
+
+
+def triangles_of(maps: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]) -> tuple[np.ndarray, ...]:
+    """Return the triangles (T, 3, 2) of maps and their values (T,).
+
+    Each map is UVs (C, 2), the triangles' corners (T, 3), their faces (T,), and the faces' values (F,).
+    """
+    uv = [np.asarray(uv, dtype=np.float64)[corners] for uv, corners, _, _ in maps]
+    values = [values[faces] for _, _, faces, values in maps]
+    return np.concatenate([np.empty((0, 3, 2)), *uv]), np.concatenate([np.empty(0), *values])

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Worker processes from outside: started, fed, limited, ended and started anew."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import json
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core import native
+from . import memory, worker
+
+MAIN = Path(__file__).resolve().parents[1] / "__main__.py"
+# A script's own folder would go before all others on Python's path, and `locale` of the add-on before Python's.
+_RUN = "import runpy, sys; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='__main__')"
+_POLL_SECONDS = 0.05
+# A Blender on a slow disk may take this long until it is ready.
+_START_SECONDS = 300.0
+_LOG_LINES = 8
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class StartError(Exception):
+    """There is no Blender to start, or it does not get ready; the message says what to do."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What an asset may take.
+
+    Attributes:
+        seconds: until its worker is ended; None for any time.
+        memory: bytes that its worker may hold; None for any number.
+        files: after which a worker is replaced by a new one, since Blender's memory grows over many files.
+        retries: how often an asset is tried again whose worker crashed or was ended.
+    """
+
+    seconds: float | None = None
+    memory: int | None = None
+    files: int = 50
+    retries: int = 1
+
+
+def command(blender: str | None = None, threads: int = 1) -> list[str]:
+    """Return the words that start a worker.
+
+    In Blender that is another one of the same; in Python with `bpy` another Python; else a Blender that is on the path.
+
+    Raises:
+        StartError: there is none of them.
+    """
+    if blender is None:
+        own = _own_program()
+        if own is None and importlib.util.find_spec("bpy") is not None:
+            return [sys.executable, "-c", _RUN, str(MAIN), "--worker"]
+        blender = own or shutil.which("blender")
+    if blender is None or shutil.which(blender) is None:
+        missing = f"There is no program {blender}." if blender else "There is neither bpy in this Python nor a Blender."
+        raise StartError(f"{missing} Install one (pip install bpy), or name one with --blender.")
+    return [
+        *(shutil.which(blender), "--background", "--factory-startup", "--python-use-system-env"),
+        *("--python-exit-code", "1", "--threads", str(threads), "--python", str(MAIN), "--", "--worker"),
+    ]
+
+
+def _own_program() -> str | None:
+    """Return the Blender that this runs in; None in a Python, also one with `bpy`."""
+    bpy = sys.modules.get("bpy")
+    return (bpy.app.binary_path or None) if bpy and not getattr(bpy.app, "module", False) else None
+
+
+class Launcher:
+    """What starts workers: the command, and the environment that it needs."""
+
+    def __init__(self, words: Sequence[str], log_folder: Path, threads: int = 1) -> None:
+        """Take the words that start a worker; their output goes to files in `log_folder`, which must exist."""
+        self.words = list(words)
+        self.log_folder = log_folder
+        self._links = tempfile.mkdtemp(prefix="spectral_unwrap_")
+        # Several single-threaded workers are faster than one with several threads, and give the same bits everywhere.
+        self.environ = {**os.environ, **dict.fromkeys(_THREADS, str(threads))}
+        if not _is_python(self.words):
+            self._add_module()
+
+    def _add_module(self) -> None:
+        """Let a Blender with factory settings find `spectral_conformal`, and nothing else of where it is installed."""
+        found = importlib.util.find_spec(native.spectral_conformal().__name__)
+        folder = Path(found.origin).parent
+        for path in (folder, folder.with_name(f"{folder.name}.libs")):
+            if path.is_dir():
+                _link(path, Path(self._links) / path.name)
+        paths = [self._links, self.environ.get("PYTHONPATH", "")]
+        self.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
+
+    def close(self) -> None:
+        """Remove what it made."""
+        shutil.rmtree(self._links, ignore_errors=True)
+
+
+def _is_python(words: Sequence[str]) -> bool:
+    return Path(words[0]) == Path(sys.executable)
+
+
+def _link(path: Path, link: Path) -> None:
+    try:
+        link.symlink_to(path, target_is_directory=True)
+    except OSError:
+        # Windows lets not everybody make links.
+        shutil.copytree(path, link)
+
+
+class WorkerProcess:
+    """One worker at a time, replaced when it has died, was ended, or has seen enough files."""
+
+    def __init__(self, launcher: Launcher, number: int, limits: Limits) -> None:
+        """Start nothing yet; `number` tells the log files apart."""
+        self._launcher = launcher
+        self._limits = limits
+        self._log = launcher.log_folder / f"worker-{number}.log"
+        self._process: subprocess.Popen[str] | None = None
+        self._reports: queue.Queue[dict[str, Any] | None] = queue.Queue()
+        self._served = 0
+
+    @property
+    def pid(self) -> int | None:
+        """The process, None while there is none."""
+        return self._process.pid if self._process else None
+
+    def run(self, line: str) -> dict[str, Any]:
+        """Let a worker make the report of a request, within the limits.
+
+        A worker that dies or is ended for the limits leaves a report with the status "failed", and a `failure` of the
+        kind "crash", "time" or "memory", after `retries` further attempts. Its number is in `attempts`.
+
+        Raises:
+            StartError: no worker gets ready.
+        """
+        for attempt in range(1, self._limits.retries + 2):
+            report = self._attempt(line)
+            report["attempts"] = attempt
+            if report["status"] != "failed" or report["failure"]["kind"] == "error":
+                break
+        return report
+
+    def _attempt(self, line: str) -> dict[str, Any]:
+        if self._process is None or self._process.poll() is not None or self._served >= self._limits.files:
+            self.close()
+            self._start()
+        self._served += 1
+        try:
+            self._process.stdin.write(f"{line}\n")
+            self._process.stdin.flush()
+        except OSError:
+            return self._failure("crash", f"the worker had ended{self._exit_code()}")
+        return self._await(self._limits.seconds)
+
+    def _start(self) -> None:
+        self._served = 0
+        self._reports = queue.Queue()
+        with self._log.open("ab") as log:
+            self._process = subprocess.Popen(
+                self._launcher.words,
+                env=self._launcher.environ,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+                encoding="utf-8",
+                errors="replace",
+                # Ctrl-C is for the batch, which ends its workers itself.
+                start_new_session=True,
+            )
+        threading.Thread(target=_collect, args=(self._process, self._reports), daemon=True).start()
+        report = self._await(_START_SECONDS)
+        if report["status"] != worker.READY:
+            raise StartError(f"No worker gets ready: {report['failure']['message']}")
+
+    def _await(self, seconds: float | None) -> dict[str, Any]:
+        """Return the next report, or that of what became of the worker."""
+        end = None if seconds is None else time.monotonic() + seconds
+        limit = self._limits.memory
+        while True:
+            try:
+                report = self._reports.get(timeout=_POLL_SECONDS)
+            except queue.Empty:
+                held = memory.resident(self._process.pid) if limit else None
+                if held is not None and held > limit:
+                    self._kill()
+                    return self._failure("memory", f"more than {limit >> 20} MiB of memory")
+                if end is not None and time.monotonic() > end:
+                    self._kill()
+                    return self._failure("time", f"more than {seconds:g} seconds")
+                continue
+            if report is not None:
+                return report
+            self._process.wait()
+            return self._failure("crash", f"the worker ended{self._exit_code()}")
+
+    def _failure(self, kind: str, message: str) -> dict[str, Any]:
+        last = self._last_lines()
+        self.close()
+        return {"status": "failed", "failure": {"kind": kind, "message": message, "log": last}}
+
+    def _exit_code(self) -> str:
+        code = self._process.poll() if self._process else None
+        return "" if code is None else f" by signal {-code}" if code < 0 else f" with exit code {code}"
+
+    def _last_lines(self) -> list[str]:
+        lines = self._log.read_text(encoding="utf-8", errors="replace").splitlines() if self._log.exists() else []
+        return lines[-_LOG_LINES:]
+
+    def _kill(self) -> None:
+        self._process.kill()
+        self._process.wait()
+
+    def close(self) -> None:
+        """End the worker, if there is one."""
+        if self._process is None:
+            return
+        self._kill()
+        for stream in (self._process.stdin, self._process.stdout):
+            # What was still to be written goes nowhere any more.
+            with contextlib.suppress(OSError):
+                stream.close()
+        self._process = None
+
+
+def _collect(process: subprocess.Popen[str], reports: queue.Queue[dict[str, Any] | None]) -> None:
+    """Put every report of a worker into the queue, None when it has ended."""
+    try:
+        for line in process.stdout:
+            if line.startswith(worker.MARK):
+                reports.put(json.loads(line[len(worker.MARK) :]))
+    except ValueError:
+        # Closed while it was read, or half a line of a worker that died.
+        pass
+    reports.put(None)
