@@ -106,7 +106,7 @@ def _call(name: str, arguments: dict[str, Any], path: Path) -> None:
         status = operator(**{key: value for key, value in arguments.items() if key in known})
     except Exception as error:  # noqa: BLE001 - importers are others' Python, which a broken file may fail anywhere
         # Of a traceback, before the line that says where in Blender it was seen, the error itself.
-        lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
+        lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith((" ", "Location:"))]
         reason = lines or [type(error).__name__]
         raise FormatError(f"{path.name}: {name} failed: {reason[-1]}") from error
     if "FINISHED" not in status:

@@ -1,0 +1,432 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The batch command on generated assets, five of them broken; what ends, kills or interrupts it loses nothing."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.blender import batch_assets, blenders
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = ("-m", "spectral_unwrap")
+WITH_FAULTS = ("-m", "tests.blender.batch_with_faults")
+# What is another in every run.
+MEASURED = ("seconds", "peak_memory", "attempts")
+SECONDS = 500
+BPY = [blender for blender in blenders.all_blenders() if blender.python and not blender.system]
+
+pytestmark = pytest.mark.skipif(not BPY, reason="no bpy for this Python")
+
+
+@pytest.fixture(scope="module")
+def environ(tmp_path_factory):
+    """The environment in which `spectral_unwrap` is a package: that of a checkout in a folder of this name."""
+    folder = tmp_path_factory.mktemp("packages")
+    (folder / "spectral_unwrap").symlink_to(ROOT / "addon", target_is_directory=True)
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])}
+
+
+def start(environ, *arguments, command=WITH_FAULTS, python=None):
+    words = [python or sys.executable, *command, *map(str, arguments)]
+    return subprocess.Popen(
+        words, cwd="/", env=environ, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
+    )
+
+
+def run(environ, *arguments, **rest):
+    process = start(environ, *arguments, **rest)
+    try:
+        output, errors = process.communicate(timeout=SECONDS)
+    finally:
+        process.kill()
+    return process.returncode, output, errors
+
+
+def report_of(out, name):
+    return json.loads((out / name / "report.json").read_text())
+
+
+def summary_of(out):
+    return json.loads((out / "summary.json").read_text())
+
+
+def rows_of(out):
+    """Return the summary's rows by asset, without what is measured in them."""
+    rows = summary_of(out)["rows"]
+    return {row["name"]: {key: value for key, value in row.items() if key not in MEASURED} for row in rows}
+
+
+def results_of(out):
+    """Return the digest of every unwrapped file that the reports name."""
+    return {path.parent.name: json.loads(path.read_text()).get("output_digest") for path in out.rglob("report.json")}
+
+
+def left_behind(folder):
+    return [path for path in folder.rglob("*") if ".partial" in path.name]
+
+
+def wait_until(condition, seconds=120.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def children_of(process):
+    path = Path(f"/proc/{process}/task/{process}/children")
+    return [int(child) for task in path.parents[1].glob("*/children") for child in task.read_text().split()]
+
+
+def is_alive(process):
+    try:
+        return "State:\tZ" not in Path(f"/proc/{process}/status").read_text()
+    except OSError:
+        return False
+
+
+@pytest.fixture(scope="module")
+def batch(environ, tmp_path_factory):
+    """A run over 25 good assets and 5 broken ones."""
+    folder = tmp_path_factory.mktemp("batch")
+    good = batch_assets.write_good(folder / "in", 25)
+    batch_assets.write_broken(folder / "in")
+    before = {path: path.read_bytes() for path in (folder / "in").rglob("*.*") if path.is_file()}
+    code, _, errors = run(environ, folder / "in", "--out", folder / "out", "--jobs", 2)
+    return folder, good, before, code, errors
+
+
+def test_all_assets_are_accounted_for_and_only_broken_ones_fail(batch):
+    folder, good, _, code, errors = batch
+    rows = {row["name"]: row for row in summary_of(folder / "out")["rows"]}
+    assert set(rows) == {*good, *batch_assets.BROKEN}
+    assert {name for name, row in rows.items() if row["status"] == "failed"} == set(batch_assets.BROKEN), errors
+    assert {rows[name]["status"] for name in good} == {"unwrapped"}
+    assert code == 1
+    kinds = {name: rows[name]["failure"] for name in batch_assets.BROKEN}
+    assert kinds == {**dict.fromkeys(batch_assets.BROKEN, "error"), "crash.obj": "crash"}
+    assert rows["crash.obj"]["attempts"] == 2
+    assert rows["empty.obj"]["attempts"] == 1
+    messages = {name: rows[name]["message"] for name in batch_assets.BROKEN}
+    assert messages["empty.obj"] == "empty.obj is empty."
+    assert messages["nan.usda"].startswith("Coordinates are infinite or not numbers")
+    assert messages["notes.obj"] == "There is no visible mesh with faces in it."
+    assert "truncated.glb" in messages["truncated.glb"]
+    assert "signal 6" in messages["crash.obj"]
+
+
+def test_sources_are_untouched_and_nothing_is_left_behind(batch):
+    folder, _, before, *_ = batch
+    assert {path: path.read_bytes() for path in before} == before
+    assert left_behind(folder) == []
+
+
+def obj_uv(path):
+    """Return the UVs of an OBJ's corners, (C, 2), and the vertices of its faces."""
+    text = path.read_text()
+    uv = np.array([line.split()[1:3] for line in text.splitlines() if line.startswith("vt ")], dtype=float)
+    faces = [line.split()[1:] for line in text.splitlines() if line.startswith("f ")]
+    index = [[int(corner.split("/")[1]) - 1 for corner in face] for face in faces]
+    return uv[np.concatenate(index)], [[int(corner.split("/")[0]) - 1 for corner in face] for face in faces]
+
+
+def test_files_have_the_maps_that_their_reports_tell_of(batch):
+    folder, good, *_ = batch
+    for name in [name for name in good if name.endswith(".obj")]:
+        report = report_of(folder / "out", name)
+        uv, faces = obj_uv(folder / "out" / name / report["output"])
+        assert len(faces) == report["totals"]["faces"]
+        assert np.isfinite(uv).all()
+        assert uv.min() >= -1e-6 and uv.max() <= 1.0 + 1e-6 and np.ptp(uv, axis=0).max() > 0.5
+        source = (folder / "in" / name).read_text().splitlines()
+        assert faces == [[int(i) - 1 for i in line.split()[1:]] for line in source if line.startswith("f ")]
+
+
+def test_reports_tell_what_was_measured(batch):
+    folder, good, *_ = batch
+    for name in good:
+        report = report_of(folder / "out", name)
+        totals, islands = report["totals"], report["islands"]
+        assert totals["islands"] == len(islands) > 0
+        assert totals["flips"] == sum(island["flips"] for island in islands) == 0
+        assert totals["overlaps"] == sum(island["overlaps"] for island in islands) == 0
+        assert 1.0 <= totals["mean_qc"] <= totals["p99_qc"] + 1e-12 <= totals["max_qc"] + 1e-9
+        area = [island["area"] for island in islands]
+        mean = np.average([island["mean_qc"] for island in islands], weights=area)
+        assert mean == pytest.approx(totals["mean_qc"], rel=1e-9)
+        assert set(report["seconds"]) >= {"read", "seams", "solve", "pack", "measure", "picture", "write", "total"}
+        assert report["peak_memory"] > 50 << 20
+        assert report["versions"]["blender"] and report["versions"]["spectral_unwrap"] != "unknown"
+        assert report["settings"]["seams"] == "suggest"
+    # A closed torus has no border but seams, each on two sides.
+    torus = next(r for r in (report_of(folder / "out", name) for name in good) if r["totals"]["vertices"] % 8 == 0)
+    assert torus["totals"]["seam_length"] > 0.0
+
+
+def test_border_and_seam_lengths_of_a_closed_mesh_agree(batch):
+    folder, good, *_ = batch
+    closed = [report_of(folder / "out", name) for k, name in enumerate(good) if k // 3 % 3 == 1]
+    assert closed
+    for report in closed:
+        borders = sum(island["border_length"] for island in report["islands"])
+        assert borders == pytest.approx(2.0 * report["totals"]["seam_length"], rel=1e-5)
+
+
+def test_pictures_show_the_layout_with_its_legend(batch):
+    from matplotlib.image import imread
+
+    folder, good, *_ = batch
+    for name in good[:6]:
+        picture = imread(folder / "out" / name / "layout.png")
+        assert picture.shape == (540, 512, 3)
+        spread = np.ptp(picture, axis=2)
+        assert (spread[:512] > 0.2).mean() > 0.1
+        assert (spread[520:532, 64:-64] > 0.2).mean() > 0.8
+        assert max(imread(folder / "out" / name / "thumbnail.png").shape) <= 160
+
+
+def test_overviews_agree(batch):
+    folder, good, *_ = batch
+    out = folder / "out"
+    summary = summary_of(out)
+    assert summary["assets"] == 30
+    assert summary["status"] == {"failed": 5, "unwrapped": 25}
+    assert summary["failures"] == {"crash": 1, "error": 4}
+    with (out / "summary.csv").open(newline="") as file:
+        table = list(csv.DictReader(file))
+    assert (
+        [row["name"] for row in table]
+        == [row["name"] for row in summary["rows"]]
+        == sorted(row["name"] for row in table)
+    )
+    page = (out / "index.html").read_text()
+    assert not re.search(r'(?:src|href)="(?!data:|[^":]+/layout\.png")', page)
+    assert page.count("data:image/png;base64,") == 25
+    log = (out / "batch.log").read_text()
+    assert all(name in log for name in [*good, *batch_assets.BROKEN])
+
+
+SORT = """
+<script>
+const order = name => [...document.querySelectorAll("th")].findIndex(head => head.textContent === name);
+const names = () => [...document.querySelector("tbody").rows].map(row => row.cells[order("name")].textContent);
+const heads = document.querySelectorAll("th"), said = [names().join("|")];
+for (const column of ["faces", "faces", "name"]) { heads[order(column)].click(); said.push(names().join("|")); }
+const loaded = [...document.images].every(image => { image.loading = "eager"; return image.src.startsWith("data:"); });
+document.body.innerHTML = "<pre id=said></pre>";
+document.querySelector("#said").textContent = JSON.stringify({said, loaded});
+</script>
+"""
+
+
+@pytest.mark.skipif(not shutil.which("chromium"), reason="no chromium")
+def test_page_sorts_in_a_browser(batch, tmp_path):
+    folder, *_ = batch
+    page = (folder / "out" / "index.html").read_text()
+    changed = tmp_path / "index.html"
+    changed.write_text(page.replace("</body>", SORT + "</body>"))
+    words = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
+    dump = subprocess.run([*words, "--dump-dom", changed.as_uri()], capture_output=True, text=True, timeout=120)
+    found = re.search(r'<pre id="said">(.*?)</pre>', dump.stdout, re.DOTALL)
+    assert found, dump.stdout[-500:] + dump.stderr[-2000:]
+    result = json.loads(found.group(1))
+    first, up, down, by_name = (text.split("|") for text in result["said"])
+    faces = {row["name"]: row["faces"] for row in summary_of(folder / "out")["rows"]}
+    assert result["loaded"]
+    assert first == by_name == sorted(faces)
+    counted = [faces[name] for name in up if faces[name] is not None]
+    assert counted == sorted(counted) and [faces[name] for name in up[-5:]] == [None] * 5
+    assert [faces[name] for name in down[:25]] == sorted(counted, reverse=True)
+
+
+def test_interrupted_run_goes_on_with_the_same_result(environ, batch, tmp_path):
+    folder, good, *_ = batch
+    out = tmp_path / "out"
+    process = start(environ, folder / "in", "--out", out, "--jobs", 2)
+    wait_until(lambda: len(list(out.rglob("report.json"))) >= 6)
+    workers = children_of(process.pid)
+    assert workers
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    wait_until(lambda: not any(map(is_alive, workers)), 20.0)
+    done = {path: path.stat().st_mtime_ns for path in out.rglob("report.json")}
+    succeeded = {path: when for path, when in done.items() if json.loads(path.read_text())["status"] == "unwrapped"}
+    assert 0 < len(done) < 30
+    code, _, errors = run(environ, folder / "in", "--out", out, "--jobs", 2, "--resume")
+    assert code == 1, errors
+    assert {path: path.stat().st_mtime_ns for path in succeeded} == succeeded
+    assert rows_of(out) == rows_of(folder / "out")
+    assert results_of(out) == results_of(folder / "out")
+    assert left_behind(out) == []
+
+
+def test_resume_does_anew_what_has_changed(environ, tmp_path):
+    (tmp_path / "in").mkdir()
+    for k in range(3):
+        batch_assets.write_obj(tmp_path / "in" / f"{k}.obj", *batch_assets.grid(5, 0.2, k))
+    arguments = (tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1)
+    assert run(environ, *arguments)[0] == 0
+    reports = {k: tmp_path / "out" / f"{k}.obj" / "report.json" for k in range(3)}
+    before = {k: path.stat().st_mtime_ns for k, path in reports.items()}
+    batch_assets.write_obj(tmp_path / "in" / "1.obj", *batch_assets.grid(6, 0.2, 1))
+    (tmp_path / "out" / "2.obj" / "2.obj").write_text("cut off")
+    assert run(environ, *arguments, "--resume")[0] == 0
+    assert {k: path.stat().st_mtime_ns != before[k] for k, path in reports.items()} == {0: False, 1: True, 2: True}
+    assert report_of(tmp_path / "out", "1.obj")["totals"]["faces"] == 36
+    before = {k: path.stat().st_mtime_ns for k, path in reports.items()}
+    assert run(environ, *arguments, "--resume", "--area-blend", "0.5")[0] == 0
+    assert all(path.stat().st_mtime_ns != before[k] for k, path in reports.items())
+
+
+def test_limits_end_a_worker_and_the_others_go_on(environ, tmp_path):
+    (tmp_path / "in").mkdir()
+    for name in ("greedy", "hang", "good"):
+        batch_assets.write_obj(tmp_path / "in" / f"{name}.obj", *batch_assets.grid(5, 0.2, 0))
+    code, _, errors = run(
+        environ, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1, "--seconds", 12, "--memory", 1000
+    )
+    assert code == 1, errors
+    rows = {
+        row["name"]: (row["status"], row["failure"], row["attempts"]) for row in summary_of(tmp_path / "out")["rows"]
+    }
+    assert rows == {
+        "good.obj": ("unwrapped", None, 1),
+        "greedy.obj": ("failed", "memory", 2),
+        "hang.obj": ("failed", "time", 2),
+    }
+
+
+def test_killed_worker_is_replaced_and_its_asset_done_again(environ, tmp_path):
+    (tmp_path / "in").mkdir()
+    for name in ("slow", "zebra"):
+        batch_assets.write_obj(tmp_path / "in" / f"{name}.obj", *batch_assets.grid(5, 0.2, 0))
+    process = start(environ, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1)
+    log = tmp_path / "out" / "logs" / "worker-0.log"
+    wait_until(lambda: children_of(process.pid) and log.exists())
+    # Ready some time later, and within the two seconds that the asset takes.
+    (worker,) = children_of(process.pid)
+    wait_until(lambda: b"libgomp" in Path(f"/proc/{worker}/maps").read_bytes() or not is_alive(worker), 60.0)
+    time.sleep(1.0)
+    os.kill(worker, signal.SIGKILL)
+    _, errors = process.communicate(timeout=SECONDS)
+    rows = {row["name"]: (row["status"], row["attempts"]) for row in summary_of(tmp_path / "out")["rows"]}
+    assert process.returncode == 0, errors
+    assert rows["slow.obj"] == ("unwrapped", 2)
+    assert rows["zebra.obj"] == ("unwrapped", 1)
+
+
+def test_memory_does_not_grow(environ, tmp_path):
+    batch_assets.write_good(tmp_path / "in", 1)
+    (asset,) = [path for path in (tmp_path / "in").rglob("*.obj")]
+    points, faces = batch_assets.grid(40, 0.3, 0)
+    for k in range(60):
+        batch_assets.write_obj(asset.with_name(f"{k:03}.obj"), points, faces)
+    code, _, errors = run(environ, asset.parent, "--out", tmp_path / "out", "--jobs", 1, "--recycle", 100)
+    assert code == 0, errors
+    held = [row["peak_memory"] for row in summary_of(tmp_path / "out")["rows"][:60]]
+    assert max(held[-10:]) <= 1.02 * max(held[5:15])
+
+
+def test_source_is_written_over_where_asked(environ, tmp_path):
+    source = tmp_path / "in" / "grid.obj"
+    source.parent.mkdir()
+    batch_assets.write_obj(source, *batch_assets.grid(5, 0.2, 0))
+    arguments = (source.parent, "--out", tmp_path / "out", "--overwrite-source", "--jobs", 1)
+    assert run(environ, *arguments)[0] == 0
+    assert len(obj_uv(source)[0]) == 100
+    changed = source.stat().st_mtime_ns
+    assert run(environ, *arguments, "--resume")[0] == 0
+    assert source.stat().st_mtime_ns == changed
+
+
+def test_dry_run_does_nothing(environ, tmp_path):
+    batch_assets.write_good(tmp_path / "in", 3)
+    code, output, _ = run(environ, tmp_path / "in", "--out", tmp_path / "out", "--dry-run", "--seams", "sharp")
+    assert code == 0
+    assert output.count(" -> ") == 3 and '"seams": "sharp"' in output
+    assert not (tmp_path / "out").exists()
+
+
+def test_nothing_worked_and_wrong_use_have_their_exit_codes(environ, tmp_path):
+    (tmp_path / "empty.obj").write_bytes(b"")
+    assert run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out")[0] == 2
+    for wrong in (["--area-blende", "1"], ["--method", "magic"], ["--format", "stl"], ["--jobs", "0"]):
+        code, _, errors = run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out", *wrong)
+        assert code == 64, errors
+        assert wrong[0] in errors or wrong[1] in errors
+
+
+MAKE_FORMATS = """
+import bpy, sys
+folder = sys.argv[-1]
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_cube_add()
+# Nothing is left of the map that the operator makes.
+while bpy.context.object.data.uv_layers:
+    bpy.context.object.data.uv_layers.remove(bpy.context.object.data.uv_layers[0])
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/cube.blend")
+bpy.ops.wm.obj_export(filepath=folder + "/cube.obj")
+bpy.ops.export_scene.fbx(filepath=folder + "/cube.fbx")
+if hasattr(bpy.types, "WM_OT_usd_export"):
+    bpy.ops.wm.usd_export(filepath=folder + "/cube.usdc")
+    bpy.ops.export_scene.gltf(filepath=folder + "/cube.glb")
+    bpy.ops.export_scene.gltf(filepath=folder + "/cube.gltf", export_format="GLTF_SEPARATE")
+for module, name in (("wm", "ply_export"), ("export_mesh", "ply"), ("wm", "stl_export"), ("export_mesh", "stl")):
+    try:
+        getattr(getattr(bpy.ops, module), name)(filepath=folder + "/cube." + name[:3])
+    except AttributeError:
+        pass
+"""
+EVERYWHERE = [blender for blender in blenders.all_blenders() if not blender.system]
+
+
+def words_of(blender, folder):
+    """Return the command before the arguments of the batch, in a Blender."""
+    if blender.python:
+        return COMMAND, blender.python
+    return (*blenders.BACKGROUND, "--python", str(ROOT / "addon" / "__main__.py"), "--"), blenders.system_blender()
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_formats_that_a_blender_reads_come_back_with_a_map(environ, tmp_path, blender):
+    (tmp_path / "in").mkdir()
+    make = tmp_path / "make.py"
+    make.write_text(MAKE_FORMATS)
+    made = blender.script_command(make)
+    made += [] if blender.python else ["--"]
+    subprocess.run([*made, str(tmp_path / "in")], check=True, capture_output=True, timeout=SECONDS)
+    if not blender.python:
+        (tmp_path / "module").mkdir()
+        for path in blender.module():
+            (tmp_path / "module" / path.name).symlink_to(path)
+        environ = {**environ, "PYTHONPATH": str(tmp_path / "module")}
+    command, python = words_of(blender, tmp_path)
+    arguments = (tmp_path / "in", "--jobs", 1, "--uv-map", "batch", "--seams", "sharp", "--seconds", 200)
+    code, output, errors = run(environ, *arguments, "--out", tmp_path / "out", command=command, python=python)
+    assert code == 0, output + errors
+    rows = summary_of(tmp_path / "out")["rows"]
+    assert len(rows) >= 5
+    for row in rows:
+        assert row["status"] == "unwrapped", row
+        assert row["islands"] == 6, row
+        assert row["mean_qc"] < 1.001, row
+    # What was written has the map: unwrapped no more, it measures the same.
+    kept = tmp_path / "kept"
+    results = [path for path in (tmp_path / "out").rglob("cube.*") if path.is_file() and path.suffix != ".mtl"]
+    results = [path for path in results if path.suffix not in (".bin", ".png")]
+    arguments = ("--jobs", 1, "--seams", "keep", "--no-unwrap", "--no-pack", "--out", kept)
+    code, output, errors = run(environ, *results, *arguments, command=command, python=python)
+    assert code == 0, output + errors
+    for row in summary_of(kept)["rows"]:
+        assert row["status"] == "kept"
+        assert row["islands"] == 6, row
+        assert row["mean_qc"] < 1.001, row
