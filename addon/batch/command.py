@@ -224,7 +224,8 @@ def _reports(
     if arguments.scheduler:
         from . import dask_cluster
 
-        yield from ((todo[i], r) for i, r in dask_cluster.run(lines, arguments, limits, wanted.out / WORKER_LOGS))
+        place = (arguments.scheduler, limits, arguments.blender, arguments.threads, wanted.out / WORKER_LOGS)
+        yield from ((todo[i], r) for i, r in dask_cluster.run(lines, *place))
         return
     words = worker_words or command(arguments.blender, arguments.threads)
     launcher = Launcher(words, wanted.out / WORKER_LOGS, arguments.threads)

@@ -124,11 +124,11 @@ def _link(path: Path, link: Path) -> None:
 class WorkerProcess:
     """One worker at a time, replaced when it has died, was ended, or has seen enough files."""
 
-    def __init__(self, launcher: Launcher, number: int, limits: Limits) -> None:
-        """Start nothing yet; `number` tells the log files apart."""
+    def __init__(self, launcher: Launcher, name: object, limits: Limits) -> None:
+        """Start nothing yet; `name` tells the log files apart."""
         self._launcher = launcher
         self._limits = limits
-        self._log = launcher.log_folder / f"worker-{number}.log"
+        self._log = launcher.log_folder / f"worker-{name}.log"
         self._process: subprocess.Popen[str] | None = None
         self._reports: queue.Queue[dict[str, Any] | None] = queue.Queue()
         self._served = 0
@@ -157,7 +157,9 @@ class WorkerProcess:
     def _attempt(self, line: str) -> dict[str, Any]:
         if self._process is None or self._process.poll() is not None or self._served >= self._limits.files:
             self.close()
-            self._start()
+            report = self._start()
+            if report["status"] != worker.READY:
+                return report
         self._served += 1
         try:
             self._process.stdin.write(f"{line}\n")
@@ -166,7 +168,12 @@ class WorkerProcess:
             return self._failure("crash", f"the worker had ended{self._exit_code()}")
         return self._await(self._limits.seconds)
 
-    def _start(self) -> None:
+    def _start(self) -> dict[str, Any]:
+        """Start a worker; return what it says of itself, or its failure where the limit of memory ended it.
+
+        Raises:
+            StartError: it does not get ready.
+        """
         self._served = 0
         self._reports = queue.Queue()
         with self._log.open("ab") as log:
@@ -183,8 +190,10 @@ class WorkerProcess:
             )
         threading.Thread(target=_collect, args=(self._process, self._reports), daemon=True).start()
         report = self._await(_START_SECONDS)
-        if report["status"] != worker.READY:
-            raise StartError(f"No worker gets ready: {report['failure']['message']}")
+        if report["status"] != worker.READY and report["failure"]["kind"] != "memory":
+            last = "".join(f"\n  {line}" for line in report["failure"]["log"])
+            raise StartError(f"No worker gets ready: {report['failure']['message']}. It said:{last}")
+        return report
 
     def _await(self, seconds: float | None) -> dict[str, Any]:
         """Return the next report, or that of what became of the worker."""
@@ -197,7 +206,7 @@ class WorkerProcess:
                 held = memory.resident(self._process.pid) if limit else None
                 if held is not None and held > limit:
                     self._kill()
-                    return self._failure("memory", f"more than {limit >> 20} MiB of memory")
+                    return self._failure("memory", f"more than {limit >> 20} MiB of memory", limit=limit)
                 if end is not None and time.monotonic() > end:
                     self._kill()
                     return self._failure("time", f"more than {seconds:g} seconds")
@@ -207,10 +216,10 @@ class WorkerProcess:
             self._process.wait()
             return self._failure("crash", f"the worker ended{self._exit_code()}")
 
-    def _failure(self, kind: str, message: str) -> dict[str, Any]:
+    def _failure(self, kind: str, message: str, **further: object) -> dict[str, Any]:
         last = self._last_lines()
         self.close()
-        return {"status": "failed", "failure": {"kind": kind, "message": message, "log": last}}
+        return {"status": "failed", "failure": {"kind": kind, "message": message, "log": last, **further}}
 
     def _exit_code(self) -> str:
         code = self._process.poll() if self._process else None

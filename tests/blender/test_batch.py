@@ -430,3 +430,77 @@ def test_formats_that_a_blender_reads_come_back_with_a_map(environ, tmp_path, bl
         assert row["status"] == "kept"
         assert row["islands"] == 6, row
         assert row["mean_qc"] < 1.001, row
+
+
+def dask(environ, module, *arguments):
+    words = [sys.executable, "-m", f"distributed.cli.{module}", *map(str, arguments)]
+    return subprocess.Popen(words, env=environ, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+@pytest.fixture
+def cluster(environ, tmp_path):
+    """A scheduler and three Nannies with a worker each, of which the last has too little memory for Blender."""
+    pytest.importorskip("distributed")
+    file = tmp_path / "scheduler.json"
+    environ = {**environ, "DASK_DISTRIBUTED__WORKER__MEMORY__SPILL": "false"}
+    options = (
+        "--scheduler-file",
+        file,
+        "--nworkers",
+        1,
+        "--nthreads",
+        1,
+        "--local-directory",
+        tmp_path,
+        "--no-dashboard",
+    )
+    started = [dask(environ, "dask_scheduler", "--scheduler-file", file, "--port", 0, "--no-dashboard")]
+    try:
+        wait_until(file.exists)
+        started += [dask(environ, "dask_worker", *options, "--memory-limit", size) for size in ("4GB", "4GB", "200MB")]
+        yield json.loads(file.read_text())["address"], started[1:]
+    finally:
+        for process in started:
+            process.terminate()
+        for process in started:
+            process.wait(timeout=60)
+
+
+def test_dask_cluster_loses_a_worker_and_no_asset(environ, batch, cluster, tmp_path):
+    from distributed import Client
+
+    folder, good, *_ = batch
+    address, nannies = cluster
+    out = tmp_path / "out"
+    with Client(address) as client:
+        client.wait_for_workers(3, timeout=120)
+        limits = [worker["memory_limit"] for worker in client.scheduler_info()["workers"].values()]
+        assert sorted(limits)[0] < 300e6 < sorted(limits)[1]
+    sources = [folder / "in" / name for name in good]
+    process = start(environ, *sources, "--out", out, "--scheduler", address, command=COMMAND)
+    wait_until(lambda: len(list(out.rglob("report.json"))) >= 4)
+    (worker,) = [
+        child for child in children_of(nannies[0].pid) if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()
+    ]
+    unwrapping = children_of(worker)
+    os.kill(worker, signal.SIGKILL)
+    _, errors = process.communicate(timeout=SECONDS)
+    assert process.returncode == 0, errors
+    assert {row["status"] for row in summary_of(out)["rows"]} == {"unwrapped"}
+    assert len(summary_of(out)["rows"]) == len(good)
+    # Some were first given to the worker that is too small for them.
+    assert max(row["attempts"] for row in summary_of(out)["rows"]) > 1
+    wait_until(lambda: not any(map(is_alive, unwrapping)), 20.0)
+    expected = results_of(folder / "out")
+    assert {name: digest for name, digest in results_of(out).items()} == {
+        Path(name).name: expected[Path(name).name] for name in good
+    }
+
+
+def test_scheduler_that_does_not_answer_is_named(environ, tmp_path):
+    batch_assets.write_good(tmp_path / "in", 1)
+    pytest.importorskip("distributed")
+    arguments = (tmp_path / "in", "--out", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
+    code, _, errors = run(environ, *arguments, command=COMMAND)
+    assert code == 64
+    assert "No Dask scheduler answers at tcp://127.0.0.1:9" in errors
