@@ -11,18 +11,19 @@ import argparse
 import sys
 from pathlib import Path
 
-from tools import demo, environment, other_pythons, packaging
+from tools import batch, demo, environment, other_pythons, packaging
 from tools.cross import command as cross
 from tools.site import command as site
 from tools.steps import StepError
 
 
 def parse(arguments: list[str] | None = None) -> argparse.Namespace:
-    """Read the command line; arguments that `test`, `fuzz` and `fuzz-scenes` do not know are those of what they run."""
+    """Read the command line; arguments that some commands do not know are those of what they run."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
     command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
     command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; Suzanne when left out")
+    commands.add_parser("batch", help="unwrap many files: INPUTS... --out DIR; --help tells what else", add_help=False)
     command = commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
     command.add_argument("--quick", action="store_true", help="in under two minutes what needs no Blender")
     command = commands.add_parser(
@@ -44,7 +45,7 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
         "zips under build/cross/packages/"
     )  # fmt: skip
     options, rest = parser.parse_known_args(arguments)
-    if rest and options.command not in {"test", "fuzz", "fuzz-scenes"}:
+    if rest and options.command not in {"batch", "test", "fuzz", "fuzz-scenes"}:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
     options.further_arguments = rest
     return options
@@ -58,6 +59,9 @@ def main() -> int:
             mesh = demo.check_mesh(options.mesh)
             environment.set_up("build", "bpy", "demo")
             return demo.run(mesh)
+        if options.command == "batch":
+            environment.set_up("build", "bpy")
+            return batch.run(options.further_arguments)
         if options.command == "test":
             if options.quick:
                 environment.set_up("build", "docs", "quick")

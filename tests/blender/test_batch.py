@@ -15,7 +15,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import build_addon
 from tests.blender import batch_assets, blenders
+from tools import batch as tools_batch
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = ("-m", "spectral_unwrap")
@@ -363,6 +365,16 @@ def test_nothing_worked_and_wrong_use_have_their_exit_codes(environ, tmp_path):
         code, _, errors = run(environ, tmp_path / "empty.obj", "--out", tmp_path / "out", *wrong)
         assert code == 64, errors
         assert wrong[0] in errors or wrong[1] in errors
+
+
+def test_example_of_the_readme(tmp_path, monkeypatch):
+    (line,) = re.findall(r"`python3 build_addon\.py (batch [^`]*)`", (ROOT / "README.md").read_text(encoding="utf-8"))
+    options = build_addon.parse(line.split())
+    batch_assets.write_good(tmp_path / "assets", 3)
+    monkeypatch.chdir(tmp_path)
+    assert tools_batch.run(options.further_arguments) == 0
+    assert len(list((tmp_path / "unwrapped").rglob("report.json"))) == 3
+    assert (tmp_path / "unwrapped" / "index.html").is_file()
 
 
 MAKE_FORMATS = """
