@@ -92,22 +92,30 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
 
 def _claim(owner: np.ndarray, size: int, points: np.ndarray, members: np.ndarray, first: np.ndarray, side: int) -> None:
     """Enter the greatest index of the triangles `members` that cover a pixel, of windows of `side`, into `owner`."""
-    offset = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2)
-    pixel = first[members][:, None] + offset
-    centre = pixel + 0.5
-    corners = points[members]
-    signs = []
-    for k in range(3):
-        start, end = corners[:, None, k], corners[:, None, (k + 1) % 3]
-        edge, to_centre = end - start, centre - start
-        signs.append(edge[..., 0] * to_centre[..., 1] - edge[..., 1] * to_centre[..., 0])
-    inside = np.minimum.reduce(signs) >= 0.0
-    inside |= np.maximum.reduce(signs) <= 0.0
+    x, y = (first[members, axis][:, None] for axis in (0, 1))
+    covered = np.ones((len(members), 1), dtype=bool)
     # A triangle smaller than a pixel has that pixel, or many of them would be seen nowhere.
-    inside |= side == 1
-    inside &= (pixel < size).all(axis=-1)
-    place = (pixel[..., 1] * size + pixel[..., 0])[inside]
-    np.maximum.at(owner, place, np.broadcast_to(members[:, None], inside.shape)[inside])
+    if side > 1:
+        x, y = x + np.tile(np.arange(side), side), y + np.repeat(np.arange(side), side)
+        covered = (x < size) & (y < size) & _contains(points[members], x, y)
+    chosen, _ = np.nonzero(covered)
+    # Of equal places the last value stays, and that is the greatest.
+    block = np.full(len(owner), -1)
+    block[(y * size + x)[covered]] = members[chosen]
+    np.maximum(owner, block, out=owner)
+
+
+def _contains(corners: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return whether triangles (T, 3, 2) of either orientation contain the centres of pixels, (T, P) each."""
+    low, high = None, None
+    for k in range(3):
+        start, edge = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        # The signed area over the edge, without a temporary array for each of its terms.
+        side = (y + (0.5 - start[:, 1:])) * edge[:, :1]
+        side -= (x + (0.5 - start[:, :1])) * edge[:, 1:]
+        low = side if low is None else np.minimum(low, side)
+        high = side if high is None else np.maximum(high, side)
+    return (low >= 0.0) | (high <= 0.0)
 
 
 def _legend(width: int, low: float, high: float) -> np.ndarray:
