@@ -55,7 +55,8 @@ class BatchSettings:
         """Return the operator's settings with what `pack` and `margin_pixels` say of them."""
         margin = self.operator.margin
         if self.margin_pixels is not None:
-            margin = Margin(self.margin_pixels / self.texture_size, "FRACTION")
+            # Blender leaves the margin around each of two islands.
+            margin = Margin(0.5 * self.margin_pixels / self.texture_size, "FRACTION")
         return dataclasses.replace(self.operator, keep_in_place=not self.pack, margin=margin)
 
     def seam_options(self) -> seam_suggestion.Options:

@@ -27,6 +27,8 @@ MEASURED = ("seconds", "peak_memory", "attempts")
 SECONDS = 500
 BPY = [blender for blender in blenders.all_blenders() if blender.python and not blender.system]
 
+EVERYWHERE = [blender for blender in blenders.all_blenders() if not blender.system]
+
 pytestmark = pytest.mark.skipif(not BPY, reason="no bpy for this Python")
 
 
@@ -52,6 +54,17 @@ def run(environ, *arguments, **rest):
     finally:
         process.kill()
     return process.returncode, output, errors
+
+
+def door(blender, folder, environ):
+    """Return the words before the arguments of the batch in a Blender, the program, and the environment."""
+    if blender.python:
+        return COMMAND, blender.python, environ
+    (folder / "module").mkdir()
+    for path in blender.module():
+        (folder / "module" / path.name).symlink_to(path)
+    command = (*blenders.BACKGROUND, "--python", str(ROOT / "addon" / "__main__.py"), "--")
+    return command, blenders.system_blender(), {**environ, "PYTHONPATH": str(folder / "module")}
 
 
 def report_of(out, name):
@@ -377,6 +390,145 @@ def test_example_of_the_readme(tmp_path, monkeypatch):
     assert (tmp_path / "unwrapped" / "index.html").is_file()
 
 
+def cube(folder):
+    """Write a cube of quads, and return its path."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    path = folder / "in" / "cube.obj"
+    path.parent.mkdir(exist_ok=True)
+    batch_assets.write_obj(path, corners, np.array(quads))
+    return path
+
+
+def gaps(uv):
+    """Return the gaps between the bounding boxes of quads, (n, 4, 2), larger of both axes, for every pair."""
+    low, high = uv.min(axis=1), uv.max(axis=1)
+    between = np.maximum(low[:, None] - high, low - high[:, None]).max(axis=2)
+    return between[~np.eye(len(uv), dtype=bool)]
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_margin_is_that_many_pixels(environ, tmp_path, blender):
+    command, python, environ = door(blender, tmp_path, environ)
+    arguments = (cube(tmp_path), "--jobs", 1, "--seams", "sharp", "--texture-size", 256)
+    for pixels in (2, 12):
+        out = tmp_path / str(pixels)
+        code, _, errors = run(
+            environ, *arguments, "--out", out, "--margin-pixels", pixels, command=command, python=python
+        )
+        assert code == 0, errors
+        uv, _ = obj_uv(out / "cube.obj" / "cube.obj")
+        assert gaps(uv.reshape(6, 4, 2)).min() * 256 == pytest.approx(pixels, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("seams", "islands", "status"),
+    [("keep", 0, "failed"), ("suggest", 1, "unwrapped"), ("sharp", 6, "unwrapped"), ("smart", 6, "unwrapped")],
+)
+def test_seams_are_what_was_asked_for(environ, tmp_path, seams, islands, status):
+    cube(tmp_path)
+    code, *_ = run(environ, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1, "--seams", seams)
+    report = report_of(tmp_path / "out", "cube.obj")
+    assert report["status"] == status
+    assert code == (0 if islands else 2)
+    if islands:
+        assert report["totals"]["islands"] == islands
+        # Seven of the twelve edges open a cube into one piece.
+        assert report["totals"]["seam_length"] == pytest.approx(14.0 if islands == 1 else 24.0)
+    else:
+        assert "closed" in report["failure"]["message"]
+
+
+def test_islands_or_places_are_kept_where_asked(environ, tmp_path):
+    cube(tmp_path)
+    assert run(environ, tmp_path / "in", "--out", tmp_path / "one", "--jobs", 1, "--seams", "sharp")[0] == 0
+    first = tmp_path / "one" / "cube.obj" / "cube.obj"
+    text = re.sub(
+        r"^vt (\S+) (\S+)", lambda m: f"vt {0.5 * float(m[1])} {0.5 * float(m[2])}", first.read_text(), flags=re.M
+    )
+    (tmp_path / "half").mkdir()
+    (tmp_path / "half" / "half.obj").write_text(text)
+    small, _ = obj_uv(tmp_path / "half" / "half.obj")
+    base = (tmp_path / "half", "--jobs", 1, "--seams", "keep", "--no-unwrap")
+    assert run(environ, *base, "--no-pack", "--out", tmp_path / "kept")[0] == 0
+    kept, _ = obj_uv(tmp_path / "kept" / "half.obj" / "half.obj")
+    assert np.abs(kept - small).max() < 1e-5
+    assert run(environ, *base, "--out", tmp_path / "packed")[0] == 0
+    packed, _ = obj_uv(tmp_path / "packed" / "half.obj" / "half.obj")
+    assert np.ptp(packed, axis=0).max() > 1.5 * np.ptp(small, axis=0).max()
+    code, _, _ = run(
+        environ, tmp_path / "in", "--jobs", 1, "--no-unwrap", "--seams", "keep", "--out", tmp_path / "none"
+    )
+    assert code == 2
+    assert "There is no UV map" in report_of(tmp_path / "none", "cube.obj")["failure"]["message"]
+
+
+def test_checker_is_rendered(environ, tmp_path):
+    from matplotlib.image import imread
+
+    cube(tmp_path)
+    options = ("--jobs", 1, "--seams", "sharp", "--checker", "--picture-size", 96)
+    assert run(environ, tmp_path / "in", "--out", tmp_path / "out", *options)[0] == 0
+    picture = imread(tmp_path / "out" / "cube.obj" / "checker.png")[..., :3]
+    assert picture.shape == (96, 96, 3)
+    # Blue and grey fields in turn, seen in a row through the middle.
+    blueness = picture[48, 20:-20, 2] - picture[48, 20:-20, 0]
+    assert np.count_nonzero(np.diff(blueness > 0.1)) >= 4
+
+
+CHECK_LAYER = """
+import sys
+import bpy
+bpy.utils.expose_bundled_modules()
+from pxr import Usd, UsdGeom
+import numpy as np
+stage = Usd.Stage.Open(sys.argv[1])
+(mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+variable = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st")
+uv = np.array(variable.ComputeFlattened())
+counts = np.array(mesh.GetFaceVertexCountsAttr().Get())
+extent = np.ptp(uv, axis=0).max()
+print("RESULT", variable.GetInterpolation(), len(uv), counts.sum(), np.isfinite(uv).all(), extent > 0.5)
+"""
+
+
+@pytest.mark.parametrize("handedness", ["rightHanded", "leftHanded"])
+def test_usd_layer_leaves_the_source_untouched(environ, tmp_path, handedness):
+    points, faces = batch_assets.grid(6, 0.2, 0)
+    source = tmp_path / "in" / "grid.usda"
+    source.parent.mkdir()
+    batch_assets.write_usd(source, points, faces)
+    text = source.read_text().replace(
+        "    int[] faceVertexCounts", f'    uniform token orientation = "{handedness}"\n    int[] faceVertexCounts'
+    )
+    source.write_text(text)
+    code, _, errors = run(environ, source, "--out", tmp_path / "out", "--jobs", 1, "--usd-over")
+    assert code == 0, errors + json.dumps(report_of(tmp_path / "out", "grid.usda"))
+    assert source.read_text() == text
+    layer = tmp_path / "out" / "grid.usda" / "grid.uv.usda"
+    assert "points" not in layer.read_text() and "over " in layer.read_text()
+    check = tmp_path / "check.py"
+    check.write_text(CHECK_LAYER)
+    told = subprocess.run([sys.executable, check, layer], check=True, capture_output=True, text=True).stdout
+    assert "RESULT faceVarying 144 144 True True" in told
+
+
+def test_command_of_blender_runs_the_batch(environ, tmp_path):
+    """What is registered is called here, as a Blender does that has a program of its own, from 4.2 on."""
+    cube(tmp_path)
+    script = tmp_path / "call.py"
+    script.write_text(
+        "import sys, bpy\ncalls = {}\nreal = bpy.utils.register_cli_command\n"
+        "bpy.utils.register_cli_command = lambda name, call: [calls.update({name: call}), real(name, call)][1]\n"
+        "import spectral_unwrap\nspectral_unwrap.register()\ncode = calls['spectral_unwrap'](sys.argv[1:])\n"
+        "spectral_unwrap.unregister()\nsys.exit(code)\n"
+    )
+    arguments = (tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1, "--seams", "sharp")
+    code, _, errors = run(environ, *arguments, command=(script,))
+    assert code == 0, errors
+    assert report_of(tmp_path / "out", "cube.obj")["status"] == "unwrapped"
+
+
 MAKE_FORMATS = """
 import bpy, sys
 folder = sys.argv[-1]
@@ -398,14 +550,6 @@ for module, name in (("wm", "ply_export"), ("export_mesh", "ply"), ("wm", "stl_e
     except AttributeError:
         pass
 """
-EVERYWHERE = [blender for blender in blenders.all_blenders() if not blender.system]
-
-
-def words_of(blender, folder):
-    """Return the command before the arguments of the batch, in a Blender."""
-    if blender.python:
-        return COMMAND, blender.python
-    return (*blenders.BACKGROUND, "--python", str(ROOT / "addon" / "__main__.py"), "--"), blenders.system_blender()
 
 
 @pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
@@ -416,12 +560,7 @@ def test_formats_that_a_blender_reads_come_back_with_a_map(environ, tmp_path, bl
     made = blender.script_command(make)
     made += [] if blender.python else ["--"]
     subprocess.run([*made, str(tmp_path / "in")], check=True, capture_output=True, timeout=SECONDS)
-    if not blender.python:
-        (tmp_path / "module").mkdir()
-        for path in blender.module():
-            (tmp_path / "module" / path.name).symlink_to(path)
-        environ = {**environ, "PYTHONPATH": str(tmp_path / "module")}
-    command, python = words_of(blender, tmp_path)
+    command, python, environ = door(blender, tmp_path, environ)
     arguments = (tmp_path / "in", "--jobs", 1, "--uv-map", "batch", "--seams", "sharp", "--seconds", 200)
     code, output, errors = run(environ, *arguments, "--out", tmp_path / "out", command=command, python=python)
     assert code == 0, output + errors

@@ -59,7 +59,8 @@ def test_wrong_values_are_named(values, said):
 
 def test_margin_in_pixels_is_a_fraction_of_the_texture():
     margin = from_values({"margin_pixels": 4.0, "texture_size": 512}).operator_settings().margin
-    assert (margin.size, margin.method) == (4.0 / 512, "FRACTION")
+    # Around each of two islands.
+    assert (margin.size, margin.method) == (2.0 / 512, "FRACTION")
     assert from_values({"margin": 0.25}).operator_settings().margin.size == 0.25
     assert from_values({"pack": False}).operator_settings().keep_in_place
     assert not BatchSettings().operator_settings().keep_in_place
