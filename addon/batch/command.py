@@ -25,7 +25,7 @@ WORKER_LOGS = "logs"
 _EXIT_CODES = (
     f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
     f"wrong arguments or no Blender, {INTERRUPTED} interrupted. An asset with islands that could not be unwrapped is "
-    "written, and counts as one that did not work."
+    "written, and counts as one that did not work. A part has worked when all of its assets are accounted for."
 )
 
 _log = logging.getLogger(__name__)
@@ -46,6 +46,12 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
     result.add_argument("--dry-run", action="store_true", help="say what would be done, and do nothing")
     result.add_argument("--resume", action="store_true", help="leave out what an interrupted run has done already")
+    result.add_argument(
+        "--part", type=_part, metavar="K/N", help="do the K-th of N parts of the assets, and write no overview"
+    )
+    result.add_argument(
+        "--overview", action="store_true", help="write the overview of what parts have done, do no more"
+    )
     run = result.add_argument_group("running")
     run.add_argument("--jobs", type=_positive, metavar="N", default=_cores(), help="assets at once (%(default)s)")
     run.add_argument("--seconds", type=_positive_number, metavar="N", help="after which an asset is given up")
@@ -79,6 +85,13 @@ def _add_setting(group: Any, setting: Any) -> None:  # noqa: ANN401 - argparse k
 
 def _cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _part(text: str) -> tuple[int, int]:
+    part, _, parts = text.partition("/")
+    if not (part.isdecimal() and parts.isdecimal() and 1 <= int(part) <= int(parts)):
+        raise argparse.ArgumentTypeError(f"{text} is not a part and a number of parts, such as 1/4")
+    return int(part), int(parts)
 
 
 def _positive(text: str) -> int:
@@ -129,6 +142,9 @@ def plan(arguments: Sequence[str]) -> Plan:
     if out.exists() and not out.is_dir():
         raise InputError(f"--out {parsed.out} is a file, and must be a folder.")
     found = assets.find(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source)
+    if parsed.part:
+        part, parts = parsed.part
+        found = found[part - 1 :: parts]
     return Plan(found, settings, out, parsed)
 
 
@@ -176,18 +192,24 @@ def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
     arguments = wanted.arguments
     logs = wanted.out / WORKER_LOGS
     logs.mkdir(parents=True, exist_ok=True)
-    handler = logging.FileHandler(wanted.out / LOG, encoding="utf-8")
+    # Parts may run at once, on machines that share the folder.
+    name = LOG if not arguments.part else "batch-{}-{}.log".format(*arguments.part)
+    handler = logging.FileHandler(wanted.out / name, encoding="utf-8")
     handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     _log.setLevel(logging.INFO)
     _log.propagate = False
     _log.addHandler(handler)
     reports: dict[str, dict[str, Any]] = {}
     try:
-        if arguments.resume:
+        if arguments.overview:
+            reports.update(_found(wanted))
+        elif arguments.resume:
             reports.update(_done(wanted))
         todo = [asset for asset in wanted.assets if asset.name not in reports]
         _log.info("%d assets, %d of them done before; settings %s", len(wanted.assets), len(reports), wanted.settings)
-        is_interrupted = _work(wanted, todo, reports, worker_words)
+        is_interrupted = not arguments.overview and _work(wanted, todo, reports, worker_words)
+        if arguments.part:
+            return INTERRUPTED if is_interrupted else ALL_WORKED
         overview.write(wanted.out, [reports.get(a.name) or _missing(a) for a in wanted.assets], is_interrupted)
         return INTERRUPTED if is_interrupted else _exit_code(wanted, reports)
     finally:
@@ -284,8 +306,13 @@ def _is_done(asset: Asset, settings: BatchSettings) -> dict[str, Any] | None:
     return report if assets.digest(asset.source) in unchanged else None
 
 
+def _found(wanted: Plan) -> dict[str, dict[str, Any]]:
+    found = ((asset.name, report_file.read(asset.folder)) for asset in wanted.assets)
+    return {name: report for name, report in found if report}
+
+
 def _exit_code(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
-    worked = sum(reports[asset.name]["status"] in WORKED for asset in wanted.assets)
+    worked = sum(asset.name in reports and reports[asset.name]["status"] in WORKED for asset in wanted.assets)
     if worked == len(wanted.assets):
         return ALL_WORKED
     return SOME_WORKED if worked else NONE_WORKED

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import socket
+import platform
 import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -33,7 +33,7 @@ def unwrap(line: str, limits: Limits, blender: str | None, threads: int, log_fol
     kept = getattr(_own, "kept", None)
     if kept is None or kept[1:] != (limits, blender, threads, log_folder):
         launcher = Launcher(command(blender, threads), Path(log_folder), threads)
-        name = f"{socket.gethostname()}-{os.getpid()}-{threading.get_ident()}"
+        name = f"{platform.node()}-{os.getpid()}-{threading.get_ident()}"
         kept = _own.kept = (WorkerProcess(launcher, name, limits), limits, blender, threads, log_folder)
         _started.append(kept[0])
     return kept[0].run(line)

@@ -655,3 +655,59 @@ def test_scheduler_that_does_not_answer_is_named(environ, tmp_path):
     code, _, errors = run(environ, *arguments, command=COMMAND)
     assert code == 64
     assert "No Dask scheduler answers at tcp://127.0.0.1:9" in errors
+
+
+AUTHOR = """
+const tasks = [];
+const author = {
+    Task: (name, type) => ({ name, type, commands: [], dependencies: [],
+        addCommand(command) { this.commands.push(command); },
+        addDependency(task) { this.dependencies.push(task.name); } }),
+    Command: (name, parameters) => ({ name, parameters }),
+};
+"""
+# What Flamenco's schema AvailableJobSetting lists.
+SETTING_KEYS = {"key", "type", "subtype", "choices", "propargs", "description", "label", "default", "eval", "evalInfo"}
+SETTING_KEYS |= {"visible", "required", "editable"}
+SETTING_TYPES = {"string", "int32", "float", "bool"}
+SETTING_SUBTYPES = {"file_path", "dir_path", "file_name", "hashed_file_path"}
+TASK_TYPES = {"blender", "ffmpeg", "file-management", "misc"}
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="no node to run the job type in")
+def test_flamenco_job_type_makes_tasks_that_do_the_batch(environ, tmp_path):
+    names = batch_assets.write_good(tmp_path / "in", 5)
+    (tmp_path / "in" / "empty.obj").write_bytes(b"")
+    settings = {
+        "inputs": str(tmp_path / "in"),
+        "out": str(tmp_path / "out"),
+        "parts": 2,
+        "options": "--jobs 1  --quiet",
+    }
+    settings["script"] = str(ROOT / "addon" / "__main__.py")
+    source = (ROOT / "tools" / "flamenco" / "spectral_unwrap.js").read_text(encoding="utf-8")
+    job = f"const job = {{ settings: {json.dumps(settings)}, addTask: (task) => tasks.push(task) }};"
+    program = f"{AUTHOR}{source}{job}compileJob(job);console.log(JSON.stringify({{ JOB_TYPE, tasks }}));"
+    told = subprocess.run(["node", "--eval", program], check=True, capture_output=True, text=True, timeout=60)
+    found = json.loads(told.stdout)
+    assert {"label", "settings"} <= set(found["JOB_TYPE"])
+    for setting in found["JOB_TYPE"]["settings"]:
+        assert set(setting) <= SETTING_KEYS
+        assert setting["type"] in SETTING_TYPES
+        assert setting.get("subtype", "file_path") in SETTING_SUBTYPES
+        assert setting["key"] in settings
+    tasks = found["tasks"]
+    assert [task["name"] for task in tasks] == ["unwrap-1", "unwrap-2", "overview"]
+    assert tasks[2]["dependencies"] == ["unwrap-1", "unwrap-2"]
+    assert {task["type"] for task in tasks} <= TASK_TYPES
+    command, _, environ = door(blenders.Blender("system"), tmp_path, environ)
+    codes = []
+    for task in tasks:
+        (only,) = task["commands"]
+        assert (only["name"], only["parameters"]["exe"]) == ("exec", "{blender}")
+        arguments = only["parameters"]["args"]
+        assert tuple(arguments[: len(command)]) == command
+        codes.append(run(environ, *arguments, command=(), python=blenders.system_blender())[0])
+    assert codes == [0, 0, 1]
+    rows = {row["name"]: row["status"] for row in summary_of(tmp_path / "out")["rows"]}
+    assert rows == {**dict.fromkeys(names, "unwrapped"), "empty.obj": "failed"}

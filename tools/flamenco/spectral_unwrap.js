@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Job type for Flamenco 3: goes into the folder `scripts` beside Flamenco Manager; docs/batch.md tells more.
+
+const JOB_TYPE = {
+    label: "Spectral Unwrap",
+    description: "Unwrap a folder of assets, a part of them per task, and write an overview",
+    settings: [
+        { key: "inputs", type: "string", subtype: "dir_path", required: true, visible: "submission",
+          description: "Folder of the assets, on a disk that all workers share" },
+        { key: "out", type: "string", subtype: "dir_path", required: true, visible: "submission",
+          description: "Folder of the results, on a disk that all workers share" },
+        { key: "script", type: "string", subtype: "file_path", required: true, visible: "submission",
+          description: "The file __main__.py of the add-on's folder, on a disk that all workers share" },
+        { key: "parts", type: "int32", default: 16, visible: "submission",
+          description: "Number of tasks" },
+        { key: "options", type: "string", default: "", visible: "submission",
+          description: "Further options of the batch, such as: --seams sharp --seconds 600" },
+    ],
+};
+
+function compileJob(job) {
+    const settings = job.settings;
+    const options = settings.options ? settings.options.split(" ").filter((word) => word.length > 0) : [];
+    const parts = Math.max(1, settings.parts);
+
+    const overview = authorTask("overview", settings, ["--overview", ...options]);
+    for (let part = 1; part <= parts; part++) {
+        // A task that Flamenco gives out again goes on where the first try was.
+        const task = authorTask(`unwrap-${part}`, settings, ["--part", `${part}/${parts}`, "--resume", ...options]);
+        job.addTask(task);
+        overview.addDependency(task);
+    }
+    job.addTask(overview);
+}
+
+function authorTask(name, settings, further) {
+    const task = author.Task(name, "blender");
+    task.addCommand(author.Command("exec", {
+        exe: "{blender}",
+        args: ["--background", "--factory-startup", "--python-use-system-env", "--python-exit-code", "1",
+               "--python", settings.script, "--", settings.inputs, "--out", settings.out, ...further],
+    }));
+    return task;
+}
