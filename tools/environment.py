@@ -45,8 +45,6 @@ APT: dict[str, list[str]] = {
     "quick": ["git"],
     "test": [
         "blender",
-        # The batch's page is looked at in it.
-        "chromium",
         "clang-tidy",
         "doctest-dev",
         "imagemagick",

@@ -243,13 +243,17 @@ document.querySelector("#said").textContent = JSON.stringify({said, loaded});
 """
 
 
-@pytest.mark.skipif(not shutil.which("chromium"), reason="no chromium")
+# Ubuntu has no such package, so that the set-up installs none.
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+@pytest.mark.skipif(not BROWSER, reason="no browser: apt-get install chromium")
 def test_page_sorts_in_a_browser(batch, tmp_path):
     folder, *_ = batch
     page = (folder / "out" / "index.html").read_text()
     changed = tmp_path / "index.html"
     changed.write_text(page.replace("</body>", SORT + "</body>"))
-    words = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
+    words = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
     dump = subprocess.run([*words, "--dump-dom", changed.as_uri()], capture_output=True, text=True, timeout=120)
     found = re.search(r'<pre id="said">(.*?)</pre>', dump.stdout, re.DOTALL)
     assert found, dump.stdout[-500:] + dump.stderr[-2000:]
@@ -337,6 +341,20 @@ def test_killed_worker_is_replaced_and_its_asset_done_again(environ, tmp_path):
     assert process.returncode == 0, errors
     assert rows["slow.obj"] == ("unwrapped", 2)
     assert rows["zebra.obj"] == ("unwrapped", 1)
+
+
+def test_a_worker_in_the_middle_of_an_asset_ends_with_the_batch(environ, tmp_path):
+    (tmp_path / "in").mkdir()
+    batch_assets.write_obj(tmp_path / "in" / "hang.obj", *batch_assets.grid(5, 0.2, 0))
+    process = start(environ, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1)
+    wait_until(lambda: children_of(process.pid))
+    (worker,) = children_of(process.pid)
+    # Blender is there, so that the asset is being read soon after.
+    wait_until(lambda: b"bpy" in Path(f"/proc/{worker}/maps").read_bytes())
+    time.sleep(6.0)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    wait_until(lambda: not is_alive(worker), 20.0)
 
 
 def test_memory_does_not_grow(environ, tmp_path):
@@ -674,7 +692,7 @@ SETTING_SUBTYPES = {"file_path", "dir_path", "file_name", "hashed_file_path"}
 TASK_TYPES = {"blender", "ffmpeg", "file-management", "misc"}
 
 
-@pytest.mark.skipif(not shutil.which("node"), reason="no node to run the job type in")
+@pytest.mark.skipif(not shutil.which("node"), reason="nothing to run the job type in: apt-get install nodejs")
 def test_flamenco_job_type_makes_tasks_that_do_the_batch(environ, tmp_path):
     names = batch_assets.write_good(tmp_path / "in", 5)
     (tmp_path / "in" / "empty.obj").write_bytes(b"")
