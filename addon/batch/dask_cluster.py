@@ -22,7 +22,7 @@ _PACKAGE = "spectral_unwrap.batch"
 _CONNECT_SECONDS = 30.0
 
 _own = threading.local()
-_started: list[WorkerProcess] = []
+_started: list[tuple[WorkerProcess, Launcher]] = []
 
 
 def unwrap(line: str, limits: Limits, blender: str | None, threads: int, log_folder: str) -> dict[str, Any]:
@@ -35,7 +35,7 @@ def unwrap(line: str, limits: Limits, blender: str | None, threads: int, log_fol
         launcher = Launcher(command(blender, threads), Path(log_folder), threads)
         name = f"{platform.node()}-{os.getpid()}-{threading.get_ident()}"
         kept = _own.kept = (WorkerProcess(launcher, name, limits), limits, blender, threads, log_folder)
-        _started.append(kept[0])
+        _started.append((kept[0], launcher))
     return kept[0].run(line)
 
 
@@ -53,7 +53,9 @@ def _memory_limit() -> int | None:
 
 def _close() -> None:
     while _started:
-        _started.pop().close()
+        process, launcher = _started.pop()
+        process.close()
+        launcher.close()
     _own.__dict__.clear()
 
 

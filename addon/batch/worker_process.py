@@ -88,7 +88,7 @@ class Launcher:
         """Take the words that start a worker; their output goes to files in `log_folder`, which must exist."""
         self.words = list(words)
         self.log_folder = log_folder
-        self._links = tempfile.mkdtemp(prefix="spectral_unwrap_")
+        self._links: str | None = None
         # Several single-threaded workers are faster than one with several threads, and give the same bits everywhere.
         self.environ = {**os.environ, **dict.fromkeys(_THREADS, str(threads))}
         if not _is_python(self.words):
@@ -96,6 +96,7 @@ class Launcher:
 
     def _add_module(self) -> None:
         """Let a Blender with factory settings find `spectral_conformal`, and nothing else of where it is installed."""
+        self._links = tempfile.mkdtemp(prefix="spectral_unwrap_")
         found = importlib.util.find_spec(native.spectral_conformal().__name__)
         folder = Path(found.origin).parent
         for path in (folder, folder.with_name(f"{folder.name}.libs")):
@@ -106,7 +107,8 @@ class Launcher:
 
     def close(self) -> None:
         """Remove what it made."""
-        shutil.rmtree(self._links, ignore_errors=True)
+        if self._links is not None:
+            shutil.rmtree(self._links, ignore_errors=True)
 
 
 def _is_python(words: Sequence[str]) -> bool:
