@@ -14,6 +14,8 @@ from typing import Any, TextIO
 # Before a report, since Blender and its importers print what they like.
 MARK = "@spectral_unwrap "
 READY = "ready"
+# In the environment: how many threads a worker may use.
+THREADS = "SPECTRAL_UNWRAP_THREADS"
 _POLL_SECONDS = 1.0
 
 
@@ -27,8 +29,10 @@ def main(run: Callable[[str], dict[str, Any]] | None = None) -> int:
     os.dup2(2, 1)
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
     if run is None:
+        from ..core import native
         from . import task
 
+        native.limit_threads(int(os.environ[THREADS]))
         run = lambda line: task.run(task.request_of(line))  # noqa: E731
     _send(channel, {"status": READY})
     for line in sys.stdin:

@@ -29,7 +29,7 @@ _POLL_SECONDS = 0.05
 # A Blender on a slow disk may take this long until it is ready.
 _START_SECONDS = 300.0
 _LOG_LINES = 8
-_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+_THREADS = (worker.THREADS, "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class StartError(Exception):
