@@ -57,9 +57,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--seconds", type=_positive_number, metavar="N", help="after which an asset is given up")
     run.add_argument("--memory", type=_positive, metavar="MIB", help="that a worker may hold")
     run.add_argument("--recycle", type=_positive, default=50, metavar="N", help="files per worker (%(default)s)")
-    run.add_argument(
-        "--threads", type=_positive, metavar="N", default=1, help="that a worker may use (%(default)s)"
-    )
+    run.add_argument("--threads", type=_positive, metavar="N", default=1, help="that a worker may use (%(default)s)")
     run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
     run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster that is to do the work")
     run.add_argument("--quiet", action="store_true", help="print errors only")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing that is shipped reaches files, network or processes, neither the add-on nor the module, but the batch."""
+"""Nothing that is shipped reaches files, network or processes, neither add-on nor module, but for their commands."""
 
 import ast
 import importlib.util
@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# The command that unwraps files, with which nothing begins but by a call of it on a command line.
+# The commands that unwrap files, with which nothing begins but by a call of them on a command line.
 BATCH = {ROOT / "addon" / "__main__.py", *(ROOT / "addon" / "batch").glob("*.py")}
-PYTHON = sorted({*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")} - BATCH)
+MODULE = ROOT / "native" / "python" / "spectral_conformal"
+COMMAND = {MODULE / "__main__.py", MODULE / "_mesh_files.py"}
+PYTHON = sorted({*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")} - BATCH - COMMAND)
 CPP = sorted(path for kind in ("h", "cpp") for path in (ROOT / "native").rglob(f"*.{kind}"))
 
 # Everything of the standard library that may be imported: nothing that reaches outside the process.
@@ -179,6 +181,12 @@ def test_the_batch_is_loaded_by_its_command_alone():
             alias.name for node in names if (node.module or "").partition(".")[0] == "batch" for alias in node.names
         }
         assert batch <= ({"blender_command"} if path.name == "__init__.py" else set()), path
+
+
+def test_the_modules_command_is_loaded_by_itself_alone():
+    for path in set(MODULE.glob("*.py")) - COMMAND:
+        assert not re.search(r"\b(_mesh_files|__main__)\b", path.read_text(encoding="utf-8")), path
+    assert "_mesh_files" in (MODULE / "__main__.py").read_text(encoding="utf-8")
 
 
 def test_manifest_asks_for_what_the_batch_needs():
