@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -37,6 +38,9 @@ constexpr int one = 1;
 /// entries of the factor.
 constexpr double min_multiplications_to_share = 2e7;
 constexpr double min_entries_to_share = 1e6;
+/// Width times height squared of the largest front, and the columns of the widest, that are small.
+constexpr double max_small_front = 8000;
+constexpr int max_small_width = 24;
 
 /// A = L L^H in place, (n, n) lower. False when it is not positive definite.
 bool eliminate_columns(int n, double* a, int stride) {
@@ -70,6 +74,66 @@ void multiply(int n, int k, const Complex* b, int stride, Complex* c) {
   constexpr double minus = -1;
   constexpr double zero = 0;
   zherk_("L", "N", &n, &k, &minus, b, &stride, &zero, c, &n);
+}
+
+// Small fronts have the same three steps here. OpenBLAS locks a mutex of the process in each call, at which threads
+// that factorise small matrices wait for each other: on two cores they were no faster than one.
+
+template <class Scalar>
+using Block = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
+
+/// Whether a front has so few multiplications that calls would take longer.
+bool is_small(int width, int height) { return static_cast<double>(width) * height * height <= max_small_front; }
+
+template <class Scalar>
+bool eliminate_small_columns(Block<Scalar> a) {
+  for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    const double pivot = std::real(a(j, j));
+    if (!(pivot > 0)) return false;
+    const double root = std::sqrt(pivot);
+    a(j, j) = root;
+    const Eigen::Index below = a.rows() - j - 1;
+    auto column = a.col(j).tail(below);
+    column *= 1 / root;
+    for (Eigen::Index k = j + 1; k < a.cols(); ++k) {
+      a.col(k).tail(a.rows() - k) -= column.tail(a.rows() - k) * Eigen::numext::conj(a(k, j));
+    }
+  }
+  return true;
+}
+
+/// C = -B B^H, lower.
+template <class Scalar>
+void multiply_small(const Block<Scalar>& b, Block<Scalar> c) {
+  for (Eigen::Index j = 0; j < c.cols(); ++j) {
+    auto column = c.col(j).tail(c.rows() - j);
+    column.setZero();
+    for (Eigen::Index k = 0; k < b.cols(); ++k) column -= b.col(k).tail(c.rows() - j) * Eigen::numext::conj(b(j, k));
+  }
+}
+
+/// b <- L^-1 b, and b <- L^-H b, (n,).
+void solve_small_lower(int n, const Complex* l, int stride, Complex* b) {
+  for (int j = 0; j < n; ++j, l += stride) {
+    b[j] /= l[j].real();
+    const double re = b[j].real();
+    const double im = b[j].imag();
+    for (int i = j + 1; i < n; ++i) {
+      b[i] -= Complex(l[i].real() * re - l[i].imag() * im, l[i].real() * im + l[i].imag() * re);
+    }
+  }
+}
+void solve_small_upper(int n, const Complex* l, int stride, Complex* b) {
+  for (int j = n - 1; j >= 0; --j) {
+    const Complex* const column = l + static_cast<std::ptrdiff_t>(j) * stride;
+    double re = b[j].real();
+    double im = b[j].imag();
+    for (int i = j + 1; i < n; ++i) {
+      re -= column[i].real() * b[i].real() + column[i].imag() * b[i].imag();
+      im -= column[i].real() * b[i].imag() - column[i].imag() * b[i].real();
+    }
+    b[j] = Complex(re, im) / column[j].real();
+  }
 }
 
 template <class Scalar>
@@ -282,16 +346,27 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
     own[entries_[e].target] = part_of<Scalar>(value);
   }
   for_each_child<Scalar>(k, [&](int child, const auto* from) { add_to_columns(child, from, own, height, width); });
-  if (!eliminate_columns(width, own, height)) return false;
+  const bool small = is_small(width, height);
+  if (small) {
+    // With the rows below, which are divided by the way.
+    if (!eliminate_small_columns<Scalar>({own, height, width, Eigen::OuterStride<>(height)})) return false;
+  } else if (!eliminate_columns(width, own, height)) {
+    return false;
+  }
   if (below == 0) {
     for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) passed_[children_[i]].reset();
     return true;
   }
-  divide(below, width, own, own + width, height);
+  if (!small) divide(below, width, own, own + width, height);
   constexpr int doubles = std::is_same_v<Scalar, double> ? 1 : 2;
   passed_[k] = uninitialized(static_cast<std::ptrdiff_t>(below) * below * doubles);
   auto* const passed = reinterpret_cast<Scalar*>(passed_[k].get());
-  multiply(below, width, own + width, height, passed);
+  if (small) {
+    multiply_small<Scalar>({own + width, below, width, Eigen::OuterStride<>(height)},
+                           {passed, below, below, Eigen::OuterStride<>(below)});
+  } else {
+    multiply(below, width, own + width, height, passed);
+  }
   for_each_child<Scalar>(k, [&](int child, const auto* from) {
     add_below(child, from, passed, below, width);
     passed_[child].reset();
@@ -405,7 +480,11 @@ void SupernodalFactor::forward(const Path& path, ComplexVector& work) {
       return;
     }
     const auto* const values = reinterpret_cast<const Complex*>(block(k));
-    ztrsv_("L", "N", "N", &width, values, &height, own, &one);
+    if (width <= max_small_width) {
+      solve_small_lower(width, values, height, own);
+    } else {
+      ztrsv_("L", "N", "N", &width, values, &height, own, &one);
+    }
     if (below > 0) zgemv_("N", &below, &width, &minus, values + width, &height, own, &one, &unit, passed, &one);
   });
 }
@@ -428,7 +507,11 @@ void SupernodalFactor::backward(const Path& path, ComplexVector& work) {
     }
     const auto* const values = reinterpret_cast<const Complex*>(block(k));
     if (below > 0) zgemv_("C", &below, &width, &minus, values + width, &height, above, &one, &unit, own, &one);
-    ztrsv_("L", "C", "N", &width, values, &height, own, &one);
+    if (width <= max_small_width) {
+      solve_small_upper(width, values, height, own);
+    } else {
+      ztrsv_("L", "C", "N", &width, values, &height, own, &one);
+    }
   });
 }
 

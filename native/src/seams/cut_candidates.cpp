@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
+#include "graph/parallel_calls.h"
 #include "seams/separating_cut.h"
 
 namespace spectral_conformal {
@@ -15,6 +17,19 @@ constexpr std::size_t max_cones = 32;
 
 /// Faces of a chart times the number of parts of its defects that it is cut at, for 3 to 8 of these.
 constexpr std::size_t parted_faces = 20000;
+
+/// A tenth of a search goes into cuts that part faces.
+constexpr unsigned max_searching_threads = 4;
+
+/// What is found by each of some searches that do not depend on each other.
+std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
+  std::vector<SeamEdges> result(searches.size());
+  run_in_parallel(
+      static_cast<int>(searches.size()), max_searching_threads,
+      [&](int i, const Progress&) { result[static_cast<std::size_t>(i)] = searches[static_cast<std::size_t>(i)](); },
+      {}, "seams");
+  return result;
+}
 
 int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, int from) {
   const std::vector<double> distance = face_distances(faces, {from});
@@ -140,36 +155,39 @@ std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<in
 std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<int>& defective) const {
   const SeparableFaces faces = separable(chart);
   const auto parts = connected_parts(faces, faces_of_piece(chart, defective));
-  std::vector<SeamEdges> result;
-  const auto cut_apart = [&](const std::vector<int>& sources, const std::vector<int>& sinks) {
-    result.push_back(seams_.cut_apart(faces, sources, sinks, chart, chart_of_face_));
-  };
-  if (seams_.self_mirrored(chart, chart_of_face_)) result.push_back(seams_.cut_along_axis(faces));
+  std::vector<std::function<SeamEdges()>> searches;
+  const bool halved = seams_.self_mirrored(chart, chart_of_face_);
+  if (halved) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
   // Each costs two solves, so large charts get fewer. Half as many gave 8 % longer seams on 12 meshes at the same
   // distortion.
   const std::size_t max_parts = std::clamp<std::size_t>(parted_faces / charts_[chart]->chart.faces.size(), 3, 8);
   for (std::size_t i = 0; i < std::min(parts.size(), max_parts); ++i) {
-    std::vector<int> others;
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      if (j != i) others.insert(others.end(), parts[j].begin(), parts[j].end());
-    }
-    if (!others.empty()) cut_apart(parts[i], others);
+    searches.emplace_back([&, i] {
+      std::vector<int> others;
+      for (std::size_t j = 0; j < parts.size(); ++j) {
+        if (j != i) others.insert(others.end(), parts[j].begin(), parts[j].end());
+      }
+      return others.empty() ? SeamEdges{} : seams_.cut_apart(faces, parts[i], others, chart, chart_of_face_);
+    });
     // One part can cover itself: its ends are farthest apart.
-    const int one = farthest_face(faces, parts[i], parts[i].front());
-    const int two = farthest_face(faces, parts[i], one);
-    if (one != two) cut_apart({one}, {two});
+    searches.emplace_back([&, i] {
+      const int one = farthest_face(faces, parts[i], parts[i].front());
+      const int two = farthest_face(faces, parts[i], one);
+      return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
+    });
   }
   // A slit to a flipped face gives it room.
   const TrialMap& mapped = *charts_[chart];
   const Piece& piece = seams_.piece();
-  const bool halved = seams_.self_mirrored(chart, chart_of_face_);
   constexpr std::size_t max_slits = 4;
   for (std::size_t i = 0; i < std::min(mapped.flipped.size(), max_slits); ++i) {
     const int face = mapped.chart.faces[static_cast<std::size_t>(mapped.flipped[i])];
     const int vertex = piece.corner_vertices[static_cast<std::size_t>(piece.face_offsets[face])];
-    result.push_back(seams_.cut_to(halved ? seams_.on_positive_side(vertex) : vertex, false, chart, chart_of_face_));
+    searches.emplace_back([&, vertex] {
+      return seams_.cut_to(halved ? seams_.on_positive_side(vertex) : vertex, false, chart, chart_of_face_);
+    });
   }
-  return result;
+  return found_by(searches);
 }
 
 std::vector<SeamEdges> CutCandidates::halves() const {
@@ -180,19 +198,23 @@ std::vector<SeamEdges> CutCandidates::halves() const {
     if (quality.distortion() > 0) worst.emplace_back(-quality.area * quality.distortion(), static_cast<int>(i));
   }
   std::sort(worst.begin(), worst.end());
-  std::vector<SeamEdges> result;
+  std::vector<std::function<SeamEdges()>> searches;
   constexpr std::size_t max_halved = 3;
   for (std::size_t i = 0; i < std::min(worst.size(), max_halved); ++i) {
     const int chart = worst[i].second;
-    const std::vector<int>& all = charts_[chart]->chart.faces;
-    if (all.size() < 2) continue;
-    const SeparableFaces faces = separable(chart);
-    const int one = farthest_face(faces, all, all.front());
-    const int two = farthest_face(faces, all, one);
-    result.push_back(seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_));
-    if (seams_.self_mirrored(chart, chart_of_face_)) result.push_back(seams_.cut_along_axis(faces));
+    if (charts_[chart]->chart.faces.size() < 2) continue;
+    searches.emplace_back([&, chart] {
+      const std::vector<int>& all = charts_[chart]->chart.faces;
+      const SeparableFaces faces = separable(chart);
+      const int one = farthest_face(faces, all, all.front());
+      const int two = farthest_face(faces, all, one);
+      return seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
+    });
+    if (seams_.self_mirrored(chart, chart_of_face_)) {
+      searches.emplace_back([&, chart] { return seams_.cut_along_axis(separable(chart)); });
+    }
   }
-  return result;
+  return found_by(searches);
 }
 
 SeamEdges CutCandidates::blind_cut() const {

@@ -113,6 +113,7 @@ class Cutter {
   bool finished_ = false;
   bool exhausted_ = false;  ///< no cut gains any more
   bool cones_tried_ = false;
+  int losses_together_ = 0;
   int blind_cuts_ = 0;
   bool fallbacks_ = false;  ///< are allowed to trial maps
   int losing_splits_ = 0;
