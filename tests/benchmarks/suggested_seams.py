@@ -1,6 +1,7 @@
 """What suggested seams cost and bring, beside xatlas and Blender's Smart UV Project on the same mesh.
 
     build/venv/bin/python -m tests.benchmarks.suggested_seams [file.obj or folder ...]
+    build/venv/bin/python -m tests.benchmarks.suggested_seams limbs     # nine bodies with many limbs
 
 Runs in the environment's `bpy`; xatlas is left out where it is not installed (pip install xatlas). Without arguments:
 Suzanne in three resolutions, boxes, a creature, and, where the meshes beside the project exist, those that are closed.
@@ -30,6 +31,11 @@ except ImportError:
     xatlas = None
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
+# Vertices, limbs, seed.
+LIMBS = (
+    *((4000, 16, 6), (4000, 16, 5), (3000, 14, 3), (2500, 12, 1), (3500, 20, 2)),
+    *((4500, 18, 4), (3200, 16, 7), (4000, 12, 8), (3000, 20, 9)),
+)
 Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
@@ -93,6 +99,10 @@ METHODS: dict[str, Callable[[Arrays], tuple[Arrays, np.ndarray, float]]] = {
 
 
 def cases(arguments: list[str]) -> Iterator[tuple[str, Arrays]]:
+    if arguments == ["limbs"]:
+        for body in LIMBS:
+            yield "{} vertices, {} limbs, seed {}".format(*body), meshes.limbs(*body)
+        return
     for argument in map(Path, arguments):
         for path in sorted(argument.rglob("*.obj")) if argument.is_dir() else [argument]:
             yield path.stem, loaded(path)
