@@ -59,12 +59,18 @@ class PolygonMesh:
         return self.pinned_corners & np.isfinite(self.uv).all(axis=1) & self.selected_faces[self.face_of_corner()]
 
     def isotropic_uv(self) -> np.ndarray | None:
-        """Return `uv` in coordinates in which a square of the image is a square and areas are those of `uv`."""
-        return None if self.uv is None else self.uv * self._isotropy()
+        """Return `uv` in coordinates in which a square of the image is a square and areas are those of `uv`.
+
+        For a square image this is `uv` itself.
+        """
+        return self.uv if self.uv is None or self.aspect == 1.0 else self.uv * self._isotropy()
 
     def from_isotropic_uv(self, uv: np.ndarray) -> np.ndarray:
-        """Return the coordinates for the image, given those that `isotropic_uv` speaks of, both (C, 2)."""
-        return uv / self._isotropy()
+        """Return the coordinates for the image, given those that `isotropic_uv` speaks of, both (C, 2).
+
+        For a square image these are `uv` itself.
+        """
+        return uv if self.aspect == 1.0 else uv / self._isotropy()
 
     def _isotropy(self) -> np.ndarray:
         return np.array([self.aspect**0.5, self.aspect**-0.5])

@@ -30,34 +30,47 @@ _NO_SHAPE = 0.6
 
 @dataclass(frozen=True)
 class _Charts:
-    """Corners grouped by chart: K charts, `corners` sorted so that chart k starts at `starts[k]`."""
+    """Corners grouped by chart: K charts, `corners` sorted so that chart k has `counts[k]` from `starts[k]` on."""
 
     corners: np.ndarray
     starts: np.ndarray
-    rank: np.ndarray  # (len(corners),) 0..K-1, the chart of every entry of `corners`
+    counts: np.ndarray
 
-    def bounds(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the lower and upper corners of the charts' bounding boxes, (K, 2) each."""
-        points = uv[self.corners]
-        return np.minimum.reduceat(points, self.starts), np.maximum.reduceat(points, self.starts)
+    def points(self, uv: np.ndarray) -> np.ndarray:
+        """Return the `uv` (C, 2) of the corners, (len(corners), 2)."""
+        # NumPy indexes an array of rows ten times as slowly.
+        return uv.take(self.corners, axis=0)
+
+    def bounds(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the lower and upper corners of the boxes round the charts' `points` (len(corners), 2), (K, 2) each."""
+        columns = np.ascontiguousarray(points.T)
+        return tuple(bound.reduceat(columns, self.starts, axis=1).T for bound in (np.minimum, np.maximum))
 
     def spread(self, values: np.ndarray) -> np.ndarray:
-        """Return the `values` (K, ...) of the charts for every entry of `corners`; for one chart a row for all."""
-        return values[self.rank] if len(self.starts) > 1 else values
+        """Return the `values` (K, ...) of the charts for every entry of `corners`."""
+        return np.repeat(values, self.counts, axis=0)
 
     def centred(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return `points` (len(corners), 2) as complex numbers about the charts' means, and the means, (K,)."""
         values = points[:, 0] + 1j * points[:, 1]
-        centre = np.add.reduceat(values, self.starts) / np.diff(np.append(self.starts, len(self.corners)))
-        return values - centre[self.rank], centre
+        centre = np.add.reduceat(values, self.starts) / self.counts
+        return values - self.spread(centre), centre
 
 
 def _group(chart: np.ndarray) -> _Charts:
     corners = np.flatnonzero(chart >= 0)
-    corners = corners[np.argsort(chart[corners], kind="stable")]
-    number = chart[corners]
-    first = np.diff(number, prepend=-1) != 0
-    return _Charts(corners, np.flatnonzero(first), np.cumsum(first) - 1)
+    number = chart.take(corners)
+    if (number[1:] < number[:-1]).any():
+        order = np.argsort(number, kind="stable")
+        corners, number = corners.take(order), number.take(order)
+    starts = np.flatnonzero(np.concatenate([number[:1] >= 0, number[1:] != number[:-1]]))
+    return _Charts(corners, starts, np.diff(starts, append=len(corners)))
+
+
+def _put(uv: np.ndarray, corners: np.ndarray, points: np.ndarray) -> None:
+    """Set the rows `corners` of `uv` (C, 2) to the `points`, both float64 and contiguous."""
+    # Pairs of numbers at once, as indexing rows is slow.
+    uv.view(np.complex128)[corners, 0] = points.view(np.complex128)[:, 0]
 
 
 def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> np.ndarray:
@@ -66,16 +79,17 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> n
     With `may_turn`, charts higher than wide are laid on their side, by a quarter turn clockwise. This is no packing: it
     gives Blender's packer islands of the right relative size that do not touch. Returns a copy of `uv`, (C, 2) float64.
     """
-    result = np.array(uv, dtype=np.float64)
+    result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
     if len(charts.corners) == 0:
         return result
-    low, high = charts.bounds(result)
+    points = charts.points(result)
+    low, high = charts.bounds(points)
     if may_turn:
         size = high - low
         quarters = np.where(size[:, 1] > size[:, 0] * _EQUAL, 3, 0)
-        result[charts.corners] = _turned(result[charts.corners], charts.spread(quarters))
-        low, high = charts.bounds(result)
+        points = _turned(points, charts.spread(quarters))
+        low, high = charts.bounds(points)
     # Any magnitude is possible; dividing first keeps squares and sums in range.
     unit = (high - low).max()
     unit = unit if unit > 0.0 else 1.0
@@ -83,8 +97,10 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> n
     gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
     position, side = _shelves(size + gap)
     offset = (position + gap / 2.0) / side
-    moved = (result[charts.corners] - charts.spread(low)) / (unit * side)
-    result[charts.corners] = moved + charts.spread(offset)
+    points -= charts.spread(low)
+    points /= unit * side
+    points += charts.spread(offset)
+    _put(result, charts.corners, points)
     return result
 
 
@@ -96,13 +112,15 @@ def _shelves(size: np.ndarray) -> tuple[np.ndarray, float]:
     width = max(size[:, 0].max(), np.sqrt(size.prod(axis=1).sum()))
     position = np.empty_like(size)
     x = y = row_height = 0.0
-    for box in np.argsort(-size[:, 1], kind="stable"):
-        box_width, box_height = size[box]
+    order = np.argsort(-size[:, 1], kind="stable")
+    positions = []
+    for box_width, box_height in size[order].tolist():
         if x > 0.0 and x + box_width > width:
             x, y, row_height = 0.0, y + row_height, 0.0
-        position[box] = x, y
+        positions.append((x, y))
         x += box_width
         row_height = max(row_height, box_height)
+    position[order] = positions
     return position, max(width, y + row_height)
 
 
@@ -116,43 +134,51 @@ def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) ->
 
     Returns a copy of `uv`, (C, 2) float64, and which corners were placed, (C,) bool.
     """
-    result = np.array(uv, dtype=np.float64)
+    result = np.array(uv, dtype=np.float64, order="C")
     placed = np.zeros(len(result), dtype=bool)
     charts = _group(chart)
     if len(charts.corners) == 0:
         return result, placed
-    former_low, former_high = charts.bounds(former)
+    former_points = charts.points(former)
+    former_low, former_high = charts.bounds(former_points)
     former_centre = (former_low + former_high) / 2.0
     with np.errstate(invalid="ignore"):
         room = np.nan_to_num(former_high - former_low, nan=0.0, posinf=0.0)
     fits = (room > 0.0).all(axis=1)
 
-    low, high = charts.bounds(result)
+    points = charts.points(result)
+    low, high = charts.bounds(points)
     size = high - low
-    points = result[charts.corners] - ((low + high) / 2.0)[charts.rank]
-    quarters = np.where(fits, _quarters_towards(points, former, charts, size, room), 0)
-    points = _turned(points, quarters[charts.rank])
+    points -= charts.spread((low + high) / 2.0)
+    quarters = np.where(fits, _quarters_towards(points, former_points, charts, size, room), 0)
+    points = _turned(points, charts.spread(quarters))
     odd = quarters % 2 == 1
     size[odd] = size[odd, ::-1]
 
     scale = _largest_scale(size, room)
-    keep = (fits & np.isfinite(scale))[charts.rank]
-    rank = charts.rank[keep]
-    result[charts.corners[keep]] = points[keep] * scale[rank, None] + former_centre[rank]
-    placed[charts.corners[keep]] = True
+    is_kept = fits & np.isfinite(scale)
+    # What is not kept may have no finite scale or centre.
+    scale[~is_kept], former_centre[~is_kept] = 1.0, 0.0
+    points *= charts.spread(scale)[:, None]
+    points += charts.spread(former_centre)
+    keep = charts.spread(is_kept)
+    kept = charts.corners[keep]
+    _put(result, kept, points[keep])
+    placed[kept] = True
     return result, placed
 
 
 def _quarters_towards(
-    points: np.ndarray, former: np.ndarray, charts: _Charts, size: np.ndarray, room: np.ndarray
+    points: np.ndarray, former_points: np.ndarray, charts: _Charts, size: np.ndarray, room: np.ndarray
 ) -> np.ndarray:
     """Return by how many quarter turns every chart is to be turned to lie as in `former`, (K,) integer from 0 to 3.
 
-    `points` (len(charts.corners), 2) are the charts' corners, in boxes of `size` (K, 2), which are to fit into `room`.
+    `points` (len(charts.corners), 2) are the charts' corners, in boxes of `size` (K, 2), which are to fit into `room`;
+    `former_points` those of the former map.
     """
     moved, _ = charts.centred(points)
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-        target, _ = charts.centred(former[charts.corners])
+        target, _ = charts.centred(former_points)
         along = np.add.reduceat(np.conj(moved) * target, charts.starts)
         squares = [np.add.reduceat(np.abs(values) ** 2, charts.starts) for values in (moved, target)]
         correlation = np.abs(along) / np.sqrt(squares[0] * squares[1])
@@ -204,17 +230,17 @@ def turned_onto(uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale:
 
     Near in the sense of least squares over the corners. Returns a copy of `uv`, (C, 2) float64.
     """
-    result = np.array(uv, dtype=np.float64)
+    result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
     if len(charts.corners) == 0:
         return result
     number = chart[charts.corners[charts.starts]]
 
-    moved, _ = charts.centred(result[charts.corners])
-    target, centre = charts.centred(reference[charts.corners])
+    moved, _ = charts.centred(charts.points(result))
+    target, centre = charts.centred(charts.points(reference))
     along = np.add.reduceat(np.conj(moved) * target, charts.starts)
     turn = np.where(along == 0.0, 1.0, along) / np.where(along == 0.0, 1.0, np.abs(along))
-    placed = (scale[number] * turn)[charts.rank] * moved + centre[charts.rank]
+    placed = charts.spread(scale[number] * turn) * moved + charts.spread(centre)
     result[charts.corners] = np.stack([placed.real, placed.imag], axis=1)
     return result
 
