@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.inside import scenes
+from tests.blender.inside import digest, scenes
 
 
 def test_unselected_faces_keep_their_uvs():
@@ -112,6 +112,40 @@ def test_everything_but_the_uvs_survives(use_sync, all_solved, placement):
         after = scenes.state(edited)
         assert {name: after[name] for name in after if after[name] != before[name]} == {}
     np.testing.assert_array_equal(scenes.read_uv(other), other_uv)
+
+
+@pytest.mark.parametrize("placement", ["PACK", "KEEP"])
+def test_layers_of_all_kinds_and_elements_that_a_script_holds_survive(placement):
+    grid = scenes.bumpy_grid(4, 3)
+    grid.data.uv_layers.new(name="Second").active = False
+    grid.shape_key_add(name="Basis")
+    grid.shape_key_add(name="Key").data[5].co.z = 4.0
+    scenes.edit(grid)
+    bm = scenes.edit_mesh(grid)
+    random = np.random.default_rng(2)
+    for kind in ("verts", "edges", "faces", "loops"):
+        layers = getattr(bm, kind).layers
+        for of_type, layer_name in ((layers.float, "Number"), (layers.string, "Name"), (layers.float_color, "Color")):
+            of_type.new(layer_name)
+        # Only now, as a new layer moves the others in memory.
+        number, name, color = layers.float["Number"], layers.string["Name"], layers.float_color["Color"]
+        loops = (loop for face in bm.faces for loop in face.loops)
+        for element in loops if kind == "loops" else getattr(bm, kind):
+            element[number], element[name], element[color] = random.random(), b"kept", random.random(4).tolist()
+    other = bm.loops.layers.uv["Second"]
+    for face in bm.faces:
+        for loop in face.loops:
+            loop[other].uv, loop[other].pin_uv = random.random(2).tolist(), random.random() < 0.5
+    bpy.context.tool_settings.mesh_select_mode = (True, True, False)
+    for elements in (bm.verts, bm.edges, bm.faces):
+        elements.ensure_lookup_table()
+    held = [bm.verts[3], bm.edges[4], bm.faces[5]]
+    before = digest.digest()
+    uv = scenes.read_uv(grid)
+    assert bpy.ops.uv.spectral_unwrap(placement=placement) == {"FINISHED"}
+    assert digest.changes(before, digest.digest()) == []
+    assert [element.is_valid and element.index for element in held] == [3, 4, 5]
+    assert not np.array_equal(scenes.read_uv(grid), uv)
 
 
 def test_shape_keys_survive_topology_edits_in_the_same_edit_session():
