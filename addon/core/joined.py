@@ -60,18 +60,23 @@ def parts(meshes: Sequence[PolygonMesh], result: Any) -> Iterator[Part]:  # noqa
     owners = np.searchsorted(faces, [chart.faces[0] for chart in charts], side="right") - 1
     first_charts = np.searchsorted(owners, np.arange(len(meshes) + 1))
     owners_of_last = np.searchsorted(faces, [] if last is None else last.faces, side="right") - 1
-    for k in range(len(meshes)):
-        own = charts[first_charts[k] : first_charts[k + 1]]
-        if (owners_of_last == k).any():
+    with_last = set(owners_of_last.tolist())
+    # A mesh's faces in the last chart count that as the last of its own.
+    number = result.chart_of_face
+    own_number = np.where(number < 0, -1, number - np.repeat(first_charts[:-1], np.diff(faces)))
+    is_last = number == len(charts)
+    own_number[is_last] = np.repeat(np.diff(first_charts), np.diff(faces))[is_last]
+    starts = list(zip(*(array.tolist() for array in (faces, corners, first_charts))))
+    for k, ((face, corner, first), (face_end, corner_end, end)) in enumerate(zip(starts, starts[1:])):
+        own = charts[first:end]
+        if k in with_last:
             own.append(replace(last, faces=last.faces[owners_of_last == k]))
         for chart in own:
-            chart.faces[:] -= faces[k]
-        number = result.chart_of_face[faces[k] : faces[k + 1]]
-        of_own = np.where(number == len(charts), len(own) - 1, number - first_charts[k])
+            chart.faces[:] -= face
         yield Part(
-            result.uv[corners[k] : corners[k + 1]],
-            result.solved_corners[corners[k] : corners[k + 1]],
-            np.where(number < 0, -1, of_own),
+            result.uv[corner:corner_end],
+            result.solved_corners[corner:corner_end],
+            own_number[face:face_end],
             own,
             result.unused_extenders,
         )

@@ -2,6 +2,7 @@
 """The mesh as arrays, in the layout that both Blender and `spectral_conformal.unwrap` use."""
 
 import functools
+import hashlib
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -34,6 +35,14 @@ class PolygonMesh:
     aspect: float = 1.0
     extenders: tuple[tuple[int, int, float], ...] = ()
     stretch_direction: np.ndarray | None = None
+
+    @functools.cached_property
+    def topology(self) -> bytes:
+        """A digest of the faces and of their vertices, without the places of these."""
+        digest = hashlib.blake2b(repr(self.face_offsets.shape).encode())
+        for array in (self.face_offsets, self.corner_vertices):
+            digest.update(np.ascontiguousarray(array).data)
+        return digest.digest()
 
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solve the charts of polygon meshes: what runs in the thread of a job."""
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -38,21 +39,23 @@ class Solution:
     error: str = ""
     unused_extenders: int = 0
 
-    @property
+    @functools.cached_property
     def failed_faces(self) -> np.ndarray:
         """(F,) bool, the faces of failed charts."""
         return self.failed_islands >= 0
 
-    @property
+    @functools.cached_property
     def solved_corners(self) -> np.ndarray:
         """(C,) bool, the corners that get new coordinates."""
         return self.chart_of_corner >= 0
 
-    @property
+    @functools.cached_property
     def pinned_corners(self) -> np.ndarray:
         """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
-        pinned = np.array([chart.n_pins > 0 for chart in self.charts] + [False])
-        return pinned[self.chart_of_corner] if pinned.any() else np.zeros(len(self.chart_of_corner), dtype=bool)
+        pinned = [chart.n_pins > 0 for chart in self.charts]
+        if not any(pinned):
+            return np.zeros(len(self.chart_of_corner), dtype=bool)
+        return np.array([*pinned, False])[self.chart_of_corner]
 
 
 def too_small_faces(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> int:
@@ -79,15 +82,17 @@ def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray) 
 
     `chart` (F,) is -1 for faces of none; the result has the length of the others, in the order of their charts.
     """
-    low, high = mesh.face_bounds(positions)
+    low, high = (np.ascontiguousarray(bound.T) for bound in mesh.face_bounds(positions))
     if len(chart) and chart[0] >= 0 and (chart == chart[0]).all():
-        return (high - low).max(axis=1) / (high.max(axis=0) - low.min(axis=0)).max()
-    order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
-    low, high, chart = low[order], high[order], chart[order]
+        return (high - low).max(axis=0) / (high.max(axis=1) - low.min(axis=1)).max()
+    if (chart[1:] < chart[:-1]).any() or (chart[:1] < 0).any():
+        order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
+        low, high, chart = low.take(order, axis=1), high.take(order, axis=1), chart.take(order)
+    if not len(chart):
+        return np.empty(0)
     starts = np.flatnonzero(np.diff(chart, prepend=-1))
-    size = np.maximum.reduceat(high, starts) - np.minimum.reduceat(low, starts) if len(starts) else low
-    rank = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(chart)))
-    return (high - low).max(axis=1) / size.max(axis=1)[rank]
+    size = np.maximum.reduceat(high, starts, axis=1) - np.minimum.reduceat(low, starts, axis=1)
+    return (high - low).max(axis=0) / np.repeat(size.max(axis=0), np.diff(starts, append=len(chart)))
 
 
 def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None) -> Solution:
@@ -120,13 +125,18 @@ def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None) -> A
 
 
 def _solution(mesh: PolygonMesh, result: Any) -> Solution:  # noqa: ANN401 - of the module, or a part of it
-    chart_of_corner = result.chart_of_face[mesh.face_of_corner()]
-    failed = np.array([chart.status != "solved" for chart in result.charts] + [False])
+    chart_of_corner = np.repeat(result.chart_of_face, np.diff(mesh.face_offsets))
+    chart_of_corner[~result.solved_corners] = -1
+    failed = [chart.status != "solved" for chart in result.charts]
+    if any(failed):
+        failed_islands = np.where(np.array([*failed, False])[result.chart_of_face], result.chart_of_face, -1)
+    else:
+        failed_islands = np.full_like(result.chart_of_face, -1)
     return Solution(
         result.uv,
-        np.where(result.solved_corners, chart_of_corner, -1),
+        chart_of_corner,
         result.charts,
-        np.where(failed[result.chart_of_face], result.chart_of_face, -1),
+        failed_islands,
         unused_extenders=_count_unused(mesh, result.unused_extenders),
     )
 

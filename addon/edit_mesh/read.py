@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Edit-mode meshes, and their UVs, to arrays."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import bmesh
@@ -49,10 +51,7 @@ def read_mesh(
     """
     mesh = edit_object.data
     bm = bmesh.from_edit_mesh(mesh)
-    # Copying to a mesh and reading its arrays takes a fifth of the time that going through bmesh elements takes.
-    copy = bpy.data.meshes.new(names.TEMPORARY_MESH)
-    try:
-        bm.to_mesh(copy)
+    with _copied(bm) as copy:
         polygons = _read_arrays(copy, all_visible)
         layer = bm.loops.layers.uv.active
         pinned = None
@@ -69,10 +68,19 @@ def read_mesh(
             stretch_direction=_active_edge(bm),
         )
         subdivided = _subdivide(copy, edit_object, polygons) if use_subsurf else None
+    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), tuple(without_strength))
+
+
+@contextmanager
+def _copied(bm: BMesh) -> Iterator[bpy.types.Mesh]:
+    """Yield a temporary copy of an edit mesh: its arrays are read in a fifth of the time that bmesh elements take."""
+    copy = bpy.data.meshes.new(names.TEMPORARY_MESH)
+    try:
+        bm.to_mesh(copy)
+        yield copy
     finally:
         # Nothing refers to it, so that nothing needs to be searched for references, nor redrawn.
         bpy.data.meshes.remove(copy, do_unlink=False, do_ui_user=False)
-    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), tuple(without_strength))
 
 
 def _active_edge(bm: BMesh) -> np.ndarray | None:
@@ -115,11 +123,8 @@ def _read_arrays(mesh: bpy.types.Mesh, all_visible: bool = False) -> PolygonMesh
 
 def read_uv(edit_mesh: EditMesh) -> np.ndarray:
     """Return the active UV map as it is now, (C, 2) float64."""
-    bm, layer = active_uv_layer(edit_mesh.mesh)
-    uv = np.empty((len(edit_mesh.polygons.corner_vertices), 2))
-    for corner, loop in enumerate(loop for face in bm.faces for loop in face.loops):
-        uv[corner] = loop[layer].uv
-    return uv
+    with _copied(bmesh.from_edit_mesh(edit_mesh.mesh)) as copy:
+        return compatibility.corner_uv(copy).astype(np.float64)
 
 
 def active_uv_layer(mesh: bpy.types.Mesh) -> tuple[BMesh, BMLayerItem]:

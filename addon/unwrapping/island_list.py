@@ -13,7 +13,6 @@ from ..core.solve import Solution
 from ..core.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_mesh
-from . import last_result
 
 # More would make the list slow and are not read.
 _MAX_ROWS = 500
@@ -43,13 +42,10 @@ def show(
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
-    found = []
-    for edit_mesh, solution in zip(edit_meshes, solutions):
-        topology = last_result.topology(edit_mesh.polygons)
-        found.extend((chart, _Island(edit_mesh.mesh.name_full, topology, chart.faces)) for chart in solution.charts)
+    found = [(chart, edit_mesh) for edit_mesh, solution in zip(edit_meshes, solutions) for chart in solution.charts]
     found.sort(key=lambda each: _order(each[0]))
-    for chart, island in found[:_MAX_ROWS]:
-        _islands.append(island)
+    for chart, edit_mesh in found[:_MAX_ROWS]:
+        _islands.append(_Island(edit_mesh.mesh.name_full, edit_mesh.polygons.topology, chart.faces))
         row = rows.add()
         row.name = _text(chart)
         row.is_bad = chart.status != "solved" or bool(chart.flipped or chart.overlapping)
@@ -73,7 +69,7 @@ def select(context: bpy.types.Context, index: int) -> None:
         if edit_object.data.name_full != island.mesh:
             continue
         edit_mesh = read_mesh(edit_object, all_visible=True)
-        if last_result.topology(edit_mesh.polygons) != island.topology:
+        if edit_mesh.polygons.topology != island.topology:
             break
         faces = np.zeros(len(edit_mesh.polygons.selected_faces), dtype=bool)
         faces[island.faces] = True

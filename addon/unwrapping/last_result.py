@@ -5,14 +5,12 @@ Faces are known by their index, so a result holds for the topology that the mesh
 brings that back. Meshes are known by name: pointers change with undo.
 """
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
-from ..core.mesh import PolygonMesh
 from ..core.solve import Solution
 from ..edit_mesh.read import EditMesh
 
@@ -32,13 +30,13 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
     """Remember what failed. Faces that were not unwrapped this time keep what is remembered of them."""
     for edit_mesh, solution in zip(edit_meshes, solutions):
         polygons = edit_mesh.polygons
-        digest, name = topology(polygons), edit_mesh.mesh.name_full
+        name = edit_mesh.mesh.name_full
         failed = solution.failed_islands.copy()
         before = _results.get(name)
-        if before is not None and before.topology == digest:
+        if before is not None and before.topology == polygons.topology:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        _results[name] = _Result(failed, digest)
+        _results[name] = _Result(failed, polygons.topology)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
@@ -49,17 +47,9 @@ def is_remembered(mesh: bpy.types.Mesh) -> bool:
 def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
     """Return the failed island of every face, (F,) intp, -1 for others; None if the topology was another then."""
     result = _results[edit_mesh.mesh.name_full]
-    return result.failed_islands if result.topology == topology(edit_mesh.polygons) else None
+    return result.failed_islands if result.topology == edit_mesh.polygons.topology else None
 
 
 def forget() -> None:
     """Forget everything, as names mean other meshes in another file."""
     _results.clear()
-
-
-def topology(polygons: PolygonMesh) -> bytes:
-    """Return a digest of the faces of a mesh and of their vertices, without the places of these."""
-    digest = hashlib.blake2b(repr(polygons.face_offsets.shape).encode())
-    for array in (polygons.face_offsets, polygons.corner_vertices):
-        digest.update(np.ascontiguousarray(array).data)
-    return digest.digest()
