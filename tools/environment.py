@@ -45,6 +45,8 @@ APT: dict[str, list[str]] = {
     "quick": ["git"],
     "test": [
         "blender",
+        # The batch's overview is a page.
+        "chromium",
         "clang-tidy",
         "doctest-dev",
         "imagemagick",
@@ -52,6 +54,8 @@ APT: dict[str, list[str]] = {
         "make",
         # For other releases of Debian (systems.py).
         "mmdebstrap",
+        # Flamenco's job types are JavaScript.
+        "nodejs",
         "python3-numpy",
         # Counts instructions, for a limit on them.
         "valgrind",
@@ -65,6 +69,8 @@ APT: dict[str, list[str]] = {
 }
 # Ubuntu 22.04 has no such package: what it holds elsewhere comes with clang there.
 IN_CLANG_OR_OWN_PACKAGE = "libclang-rt-dev"
+# Ubuntu has its browsers as snaps.
+IN_SOME_RELEASES = {IN_CLANG_OR_OWN_PACKAGE, "chromium"}
 CLANG_RUNTIME = "lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a"
 # Debian's own interpreter comes without these; another one (pyenv) brings them along.
 APT_SYSTEM_PYTHON = ["python3-dev", "python3-venv"]
@@ -136,7 +142,7 @@ def install_system_packages(groups: Sequence[str]) -> None:
     if any(Path("/usr").glob(CLANG_RUNTIME)):
         installed.add(IN_CLANG_OR_OWN_PACKAGE)
     missing = sorted(set(wanted) - installed)
-    if not missing:
+    if all(name in IN_SOME_RELEASES and not is_offered(name) for name in missing):
         return
     prefix = as_root()
     if prefix is None:
@@ -149,7 +155,7 @@ def install_system_packages(groups: Sequence[str]) -> None:
     steps.run("completing earlier installations", [*prefix, "dpkg", "--configure", "-a"], log="apt", environ=quiet)
     apt = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-o", "DPkg::Lock::Timeout=300"]
     steps.run("apt-get update", [*apt, "update"], log="apt")
-    missing = [name for name in missing if name != IN_CLANG_OR_OWN_PACKAGE or is_offered(name)]
+    missing = [name for name in missing if name not in IN_SOME_RELEASES or is_offered(name)]
     steps.run(
         f"apt-get install {' '.join(missing)}", [*apt, "install", "-y", "--no-install-recommends", *missing], log="apt"
     )

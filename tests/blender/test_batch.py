@@ -243,7 +243,7 @@ document.querySelector("#said").textContent = JSON.stringify({said, loaded});
 """
 
 
-# Ubuntu has no such package, so that the set-up installs none.
+# Ubuntu has no such package.
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
