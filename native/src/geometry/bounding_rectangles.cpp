@@ -67,7 +67,8 @@ std::vector<Rectangle> smallest_rectangles(const std::vector<Complex>& hull, dou
     while (top < i + n && height(top + 1) > height(top)) ++top;
     left = std::max(left, top);
     while (left < i + n && along(left + 1) < along(left)) ++left;
-    const Rectangle rectangle{direction, along(right) - along(left), height(top)};
+    // Of points that are nearly in a line, rounding makes small numbers negative.
+    const Rectangle rectangle{direction, std::max(0.0, along(right) - along(left)), std::max(0.0, height(top))};
     found.push_back(rectangle);
     smallest = std::min(smallest, rectangle.width * rectangle.height);
   }

@@ -45,6 +45,16 @@ TEST_CASE("points in a line have their ends as hull, equal points themselves") {
   CHECK(smallest_rectangles({1.0}, 0.01).size() == 1);
 }
 
+TEST_CASE("points that are nearly in a line have rectangles, none of negative size") {
+  // By rounding, the third lies on the wrong side of the others' line.
+  const std::vector<Complex> line = {{-0x1.1e63db6843119p-2, -0x1.5ec3db6001641p-2},
+                                     {0x1.eeda4c5520346p-2, 0x1.2f0b069666a8fp-1},
+                                     {0x1.e3333377ef906p-2, 0x1.27e834a4524a6p-1}};
+  const std::vector<Rectangle> found = smallest_rectangles(convex_hull(line), 1e-6);
+  REQUIRE(!found.empty());
+  for (const Rectangle& r : found) CHECK((r.width >= 0 && r.height >= 0));
+}
+
 TEST_CASE("a bounding rectangle is as wide and high as the turned points") {
   const std::vector<Complex> hull = {0.0, 4.0, Complex(4, 1), Complex(0, 1)};
   const Rectangle along = bounding_rectangle(hull, Complex(0, 1));
