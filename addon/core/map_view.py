@@ -47,16 +47,22 @@ class MapArrays:
         return self.positions.astype(np.float64), self.face_offsets, self.corner_vertices
 
     def has_mesh_of(self, other: MapArrays) -> bool:
-        """Return whether the mesh is the same, and which of its faces are visible; NaN equals NaN."""
+        """Return whether the mesh is the same, bit by bit, and which of its faces are visible."""
         return self._agrees(other, ("positions", "face_offsets", "corner_vertices", "visible_faces"))
 
     def has_map_of(self, other: MapArrays) -> bool:
-        """Return whether everything else is the same; NaN equals NaN."""
+        """Return whether everything else is the same, bit by bit."""
         return self._agrees(other, ("uv", "uv_faces", "aspect"))
 
     def _agrees(self, other: MapArrays, names: Sequence[str]) -> bool:
-        pairs = [(np.asarray(getattr(self, name)), np.asarray(getattr(other, name))) for name in names]
-        return all(np.array_equal(mine, yours, equal_nan=mine.dtype.kind == "f") for mine, yours in pairs)
+        return all(_same_bits(np.asarray(getattr(self, name)), np.asarray(getattr(other, name))) for name in names)
+
+
+def _same_bits(mine: np.ndarray, yours: np.ndarray) -> bool:
+    """Return whether arrays are the same; unlike with `equal_nan`, which takes three times as long, 0 is not -0."""
+    if mine.dtype == yours.dtype == np.float32:
+        mine, yours = mine.view(np.int32), yours.view(np.int32)
+    return mine is yours or np.array_equal(mine, yours)
 
 
 @dataclass(frozen=True)
@@ -99,10 +105,10 @@ class MapView:
     @functools.cached_property
     def _distortion(self) -> object:
         arrays = self.arrays
-        shown = arrays.uv.astype(np.float64)
+        shown = arrays.uv
         if arrays.aspect != 1.0:
             # As the image shows it, at the same area.
-            shown *= (arrays.aspect**0.5, arrays.aspect**-0.5)
+            shown = shown * np.array((arrays.aspect**0.5, arrays.aspect**-0.5))
         return native.spectral_conformal().face_distortion(*arrays.mesh(), shown, selected_faces=arrays.visible_faces)
 
     @property

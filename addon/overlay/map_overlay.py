@@ -35,6 +35,7 @@ class _ShownMesh:
     def __init__(self) -> None:
         self._view: MapView | None = None
         self._is_stale = True
+        self._trusts_faces = False
         self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
         self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
         self._places: gpu.types.GPUVertBuf | None = None
@@ -48,14 +49,25 @@ class _ShownMesh:
     def view(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
         """Return what the object shows now; None without faces or a UV map."""
         if self._is_stale:
-            self._is_stale = False
-            most = user_preferences.read("overlay_max_faces", user_preferences.MAX_FACES)
-            self.is_too_large = read_map.n_faces(context, shown) > most
-            arrays = None
-            if not self.is_too_large:
-                arrays = read_map.read_map(context, shown, _preview.get(shown.name_full))
-            self._show(arrays)
+            self._read(context, shown, self._view and self._view.arrays)
         return self._view
+
+    def confirm(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
+        """Return what `view` returns, after reading again what it took for granted to be fast."""
+        if self._trusts_faces:
+            self._read(context, shown, None)
+        return self._view
+
+    def _read(self, context: bpy.types.Context, shown: bpy.types.Object, before: MapArrays | None) -> None:
+        self._is_stale = False
+        most = user_preferences.read("overlay_max_faces", user_preferences.MAX_FACES)
+        self.is_too_large = read_map.n_faces(context, shown) > most
+        arrays = None
+        if not self.is_too_large:
+            arrays = read_map.read_map(context, shown, _preview.get(shown.name_full), before)
+        are_known = arrays is not None and before is not None
+        self._trusts_faces = are_known and arrays.face_offsets is before.face_offsets
+        self._show(arrays)
 
     def _show(self, arrays: MapArrays | None) -> None:
         """Take up what was read, and keep what it does not change."""
@@ -335,8 +347,11 @@ def _look_at_islands() -> float | None:
     if left > 0.0:
         return left
     try:
-        for _each, shown, view in views(bpy.context):
+        for each, shown, _view in views(bpy.context):
             if not shown.islands_known:
+                view = shown.confirm(bpy.context, each)
+                if view is None:
+                    continue
                 shown.numbers, shown.islands_known = view.numbers(), True
                 _range.clear()
                 redraw(bpy.context)

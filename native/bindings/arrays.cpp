@@ -2,6 +2,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
+#include <utility>
+
 namespace spectral_conformal::python {
 
 MeshArrays triangle_mesh(const Array<double>& vertices, const Array<int>& triangles) {
@@ -19,6 +22,15 @@ py::array_t<double> real_view(const ComplexVector& z) {
 
 py::array_t<double> copy(const Eigen::VectorXd& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array_t<double> moved(Eigen::VectorXd&& values) {
+  auto owner = std::make_unique<Eigen::VectorXd>(std::move(values));
+  const double* data = owner->data();
+  const auto n = static_cast<py::ssize_t>(owner->size());
+  const py::capsule release(owner.get(), [](void* vector) { delete static_cast<Eigen::VectorXd*>(vector); });
+  owner.release();
+  return py::array_t<double>(n, data, release);
 }
 
 py::array_t<int> copy(const std::vector<int>& values) {

@@ -49,6 +49,8 @@ MeshArrays triangle_mesh(const Array<double>& vertices, const Array<int>& triang
 /// (V, 2)
 py::array_t<double> real_view(const ComplexVector& z);
 py::array_t<double> copy(const Eigen::VectorXd& values);
+/// The values themselves, not a copy: their memory is released with the array.
+py::array_t<double> moved(Eigen::VectorXd&& values);
 py::array_t<int> copy(const std::vector<int>& values);
 py::array_t<bool> copy(const std::vector<bool>& values);
 

@@ -64,8 +64,10 @@ MeshArrays polygon_mesh(const Array<double>& vertices, const Array<int>& face_of
   return {vertices, face_offsets, corner_vertices, std::nullopt, selected_faces};
 }
 
+/// Real is the type of the UVs: those of Blender's maps are read as they are.
+template <class Real>
 py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_offsets,
-                         const Array<int>& corner_vertices, const Array<double>& corner_uv,
+                         const Array<int>& corner_vertices, const Array<Real>& corner_uv,
                          const std::optional<Array<bool>>& selected_faces) {
   const MeshArrays arrays = polygon_mesh(vertices, face_offsets, corner_vertices, selected_faces);
   FaceDistortion measured;
@@ -74,8 +76,9 @@ py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_o
     const py::gil_scoped_release unlocked;
     measured = measure_face_distortion(mesh, corner_uv.data());
   }
-  return py::dict(py::arg("qc") = copy(measured.qc), py::arg("log2_scale") = copy(measured.log2_scale),
-                  py::arg("area") = copy(measured.area), py::arg("image_area") = copy(measured.image_area));
+  return py::dict(
+      py::arg("qc") = moved(std::move(measured.qc)), py::arg("log2_scale") = moved(std::move(measured.log2_scale)),
+      py::arg("area") = moved(std::move(measured.area)), py::arg("image_area") = moved(std::move(measured.image_area)));
 }
 
 py::tuple face_triangles(const Array<double>& vertices, const Array<int>& face_offsets,
@@ -99,7 +102,9 @@ py::tuple face_triangles(const Array<double>& vertices, const Array<int>& face_o
 void bind_quality(py::module_& module) {
   module.def("distortion", &distortion);
   module.def("map_defects", &map_defects);
-  module.def("face_distortion", &face_distortion);
+  module.def("face_distortion", &face_distortion<float>, py::arg("vertices"), py::arg("face_offsets"),
+             py::arg("corner_vertices"), py::arg("corner_uv").noconvert(), py::arg("selected_faces"));
+  module.def("face_distortion", &face_distortion<double>);
   module.def("face_triangles", &face_triangles);
 }
 

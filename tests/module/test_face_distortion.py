@@ -47,6 +47,32 @@ def test_faces_that_are_not_selected_or_not_finite():
     assert (np.delete(faces.area[:100], 7) > 0.0).all()
 
 
+def test_single_precision_is_read_as_it_is():
+    mesh = saddle()
+    uv = (mesh[0][mesh[2]][:, :2] * [1.0, 2.0]).astype(np.float32)
+    uv[5] = np.nan
+    single, double = sc.face_distortion(*mesh, uv), sc.face_distortion(*mesh, uv.astype(np.float64))
+    for name in ("qc", "log2_scale", "area", "image_area"):
+        np.testing.assert_array_equal(getattr(single, name), getattr(double, name))
+
+
+def test_faces_of_all_sizes_are_measured_beside_one_another():
+    vertices, triangles = meshes.random_disk(50)
+    uv = vertices[triangles.ravel()][:, :2] * [1.0, 2.0]
+    parts = [(1.0, 1.0), (1e150, 1.0), (1.0, 1e-170), (1e-150, 1e150)]
+    together = np.concatenate([vertices * scale for scale, _ in parts])
+    corners = np.concatenate([triangles.ravel() + k * len(vertices) for k in range(len(parts))])
+    offsets = np.arange(0, len(corners) + 1, 3)
+    found = sc.face_distortion(together, offsets, corners, np.concatenate([uv * scale for _, scale in parts]))
+    alone = sc.face_distortion(vertices, *meshes.polygons(triangles), uv)
+    np.testing.assert_array_equal(found.qc[: len(triangles)], alone.qc)
+    for k, (scale, uv_scale) in enumerate(parts[1:2], start=1):
+        part = slice(k * len(triangles), (k + 1) * len(triangles))
+        np.testing.assert_allclose(found.qc[part], alone.qc, rtol=1e-9)
+        shift = np.log2(uv_scale) - np.log2(scale)
+        np.testing.assert_allclose(found.log2_scale[part], alone.log2_scale + shift, rtol=1e-9)
+
+
 def test_the_number_of_threads_does_not_matter():
     mesh = saddle(150)  # more faces than a thread takes at once
     uv = mesh[0][mesh[2]][:, :2] * [1.0, 2.0]

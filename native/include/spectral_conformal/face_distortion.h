@@ -22,5 +22,6 @@ struct FaceDistortion {
 ///
 /// mesh: seams are not used. corner_uv (n_corners, 2). Throws InvalidMesh as validate does.
 FaceDistortion measure_face_distortion(const PolygonMesh& mesh, const double* corner_uv);
+FaceDistortion measure_face_distortion(const PolygonMesh& mesh, const float* corner_uv);
 
 }  // namespace spectral_conformal

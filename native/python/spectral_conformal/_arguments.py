@@ -121,19 +121,23 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     return array
 
 
-def contiguous_floats(array: np.ndarray, name: str) -> npt.NDArray[np.float64]:
+def contiguous_floats(array: np.ndarray, name: str, keep_single: bool = False) -> npt.NDArray[np.floating]:
+    """Return the array as float64, or as float32 where it is that already and `keep_single` is set."""
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     # Wider floats that a double does not hold become infinite, and are named as such.
     with np.errstate(over="ignore"):
-        return np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
+        kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
+        return np.require(array, kind, ["C_CONTIGUOUS", "ALIGNED"])
 
 
-def checked_floats(values: npt.ArrayLike, name: str, columns: int) -> npt.NDArray[np.float64]:
+def checked_floats(
+    values: npt.ArrayLike, name: str, columns: int, keep_single: bool = False
+) -> npt.NDArray[np.floating]:
     array = checked_array(values, name)
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
-    return contiguous_floats(array, name)
+    return contiguous_floats(array, name, keep_single)
 
 
 def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -262,8 +266,8 @@ def checked_corner_pins(
     return pinned, checked_corner_uv(corner_uv, n_corners)
 
 
-def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int) -> npt.NDArray[np.float64]:
-    uv = checked_floats(corner_uv, "corner_uv", 2)
+def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int, keep_single: bool = False) -> npt.NDArray[np.floating]:
+    uv = checked_floats(corner_uv, "corner_uv", 2, keep_single)
     if len(uv) != n_corners:
         raise ValueError(f"corner_uv has {len(uv)} rows, but there are {n_corners} corners.")
     return uv

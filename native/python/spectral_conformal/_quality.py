@@ -82,7 +82,7 @@ def face_distortion(
         vertices: as in `unwrap`, but may have values that are not finite.
         face_offsets: as in `unwrap`.
         corner_vertices: as in `unwrap`.
-        corner_uv: (C, 2) the map; may have values that are not finite.
+        corner_uv: (C, 2) the map; may have values that are not finite. Single precision is read as it is.
         selected_faces: (faces,) bool, all faces when left out; others are not looked at.
 
     Raises:
@@ -91,7 +91,7 @@ def face_distortion(
     vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
         vertices, face_offsets, corner_vertices, None, selected_faces
     )
-    uv = _arguments.checked_corner_uv(corner_uv, len(corners))
+    uv = _arguments.checked_corner_uv(corner_uv, len(corners), keep_single=True)
     return FaceDistortion(**_native.face_distortion(vertices, offsets, corners, uv, selected))
 
 

@@ -12,11 +12,10 @@ void BinaryUnit::enlarge(double coordinate) {
   int exponent = 0;
   std::frexp(largest_, &exponent);
   exponent_ = std::clamp(exponent, -bound, bound);
-  factor_ = std::ldexp(1.0, -exponent_);
+  length_ = std::ldexp(1.0, exponent_);
+  factor_ = 1 / length_;
 }
 
 int BinaryUnit::exponent() const { return exponent_; }
-
-double BinaryUnit::area_of(double scaled_area) const { return std::ldexp(scaled_area, 2 * exponent_); }
 
 }  // namespace spectral_conformal

@@ -19,13 +19,14 @@ class BinaryUnit {
   /// A length in this unit.
   double scaled(double length) const { return length * factor_; }
   /// An area in squares of this unit, in those of the coordinates.
-  double area_of(double scaled_area) const;
+  double area_of(double scaled_area) const { return scaled_area * length_ * length_; }
 
  private:
   void enlarge(double coordinate);
 
   double largest_ = 0;
   int exponent_ = 0;
+  double length_ = 1;
   double factor_ = 1;
 };
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "geometry/binary_unit.h"
@@ -21,121 +20,205 @@ namespace {
 constexpr int block_size = 8192;
 constexpr unsigned max_measuring_threads = 16;
 
-/// One face after the other, in units in which squares neither overflow nor vanish.
+/// Squares of lengths between these bounds, whose squares neither overflow nor vanish, need no unit.
+constexpr double least_square = 0x1p-400;
+constexpr double largest_square = 0x1p400;
+
+/// Whether lengths can be calculated with as they are, given a sum of their squares.
+bool is_moderate(double square) { return square > least_square && square < largest_square; }
+
+/// What the triangles of a face add up to.
+struct FaceSums {
+  double area = 0;
+  double image_area = 0;
+  double qc = 0;
+
+  /// The corners of a triangle in 3D and in the map; one without area in 3D does not count.
+  void add(const std::array<Eigen::Vector3d, 3>& p, const std::array<Complex, 3>& z) {
+    const TriangleShape shape = local_isometric_frame(p[0], p[1], p[2]);
+    if (shape.clamped) return;
+    area += shape.area();
+    image_area += signed_area(z[0], z[1], z[2]);
+    qc += shape.area() * shape.quasi_conformal_distortion(z[1] - z[0], z[2] - z[0]);
+  }
+};
+
+/// The units in which a face is measured: those of the coordinates, or a face's own, in which squares neither overflow
+/// nor vanish.
+struct Units {
+  BinaryUnit position;
+  BinaryUnit image;
+  bool are_own = false;
+};
+
+/// One face after the other; Real is the type of the UVs.
+template <class Real>
 class FaceMeasure {
  public:
-  FaceMeasure(const PolygonMesh& mesh, const double* corner_uv, BinaryUnit unit, BinaryUnit image_unit)
-      : mesh_(mesh), corner_uv_(corner_uv), unit_(unit), image_unit_(image_unit) {}
+  FaceMeasure(const PolygonMesh& mesh, const Real* corner_uv) : mesh_(mesh), corner_uv_(corner_uv) {}
 
   void measure(int face, FaceDistortion& result) {
     const int n = mesh_.n_corners(face);
     if (n < 3 || !mesh_.is_selected(face)) return;
-    if (!read(face, n)) {
+    units_ = Units();
+    Fit fit = add(face, n);
+    if (fit == Fit::in_units_only) {
+      units_ = units_of(face);
+      fit = add(face, n);
+    }
+    if (fit == Fit::none) {
       result.qc[face] = result.log2_scale[face] = std::numeric_limits<double>::quiet_NaN();
       return;
     }
-    triangulate_polygon(corners_, polygon_);
-    const bool second = has_both_splits() && second_split_is_better({image(0), image(1), image(2), image(3)});
-    const std::size_t first = second ? 2 : 0;
-    const std::size_t count = has_both_splits() ? 2 : polygon_.triangles.size();
-    double area = 0;
-    double image_area = 0;
-    double qc = 0;
-    for (std::size_t t = first; t < first + count; ++t) {
-      const auto& [a, b, c] = polygon_.triangles[t];
-      const TriangleShape shape = local_isometric_frame(corners_.row(a), corners_.row(b), corners_.row(c));
-      if (shape.clamped) continue;
-      area += shape.area();
-      image_area += image(t);
-      qc += shape.area() * shape.quasi_conformal_distortion(z_[b] - z_[a], z_[c] - z_[a]);
-    }
-    if (!(area > 0)) return;
-    result.qc[face] = qc / area;
-    result.log2_scale[face] = 0.5 * std::log2(std::abs(image_area) / area) + image_unit_.exponent() - unit_.exponent();
-    result.area[face] = unit_.area_of(area);
-    result.image_area[face] = image_unit_.area_of(is_mirrored_ ? -image_area : image_area);
+    if (!(sums_.area > 0)) return;
+    result.qc[face] = sums_.qc / sums_.area;
+    result.log2_scale[face] =
+        0.5 * std::log2(std::abs(sums_.image_area) / sums_.area) + units_.image.exponent() - units_.position.exponent();
+    result.area[face] = units_.position.area_of(sums_.area);
+    result.image_area[face] = units_.image.area_of(is_mirrored_ ? -sums_.image_area : sums_.image_area);
   }
 
  private:
-  /// The face in 3D, and its image, mirrored if it is wound clockwise; false where a coordinate is not finite.
-  bool read(int face, int n) {
+  /// What can be done with a face: `none` where a coordinate is not finite.
+  enum class Fit { as_it_is, in_units_only, none };
+
+  const double* coordinates(int corner) const {
+    return mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner]);
+  }
+  Eigen::Vector3d position(int corner) const {
+    const double* p = coordinates(corner);
+    const BinaryUnit& unit = units_.position;
+    return {unit.scaled(p[0]), unit.scaled(p[1]), unit.scaled(p[2])};
+  }
+  Complex image(int corner) const {
+    const Real* uv = corner_uv_ + 2 * static_cast<std::size_t>(corner);
+    return {units_.image.scaled(uv[0]), units_.image.scaled(uv[1])};
+  }
+
+  Units units_of(int face) const {
+    Units units;
+    units.are_own = true;
+    for (int corner = mesh_.face_offsets[face]; corner < mesh_.face_offsets[face + 1]; ++corner) {
+      for (int k = 0; k < 3; ++k) units.position.include(coordinates(corner)[k]);
+      for (int k = 0; k < 2; ++k) units.image.include(corner_uv_[2 * static_cast<std::size_t>(corner) + k]);
+    }
+    return units;
+  }
+
+  /// Tells what can be done with a face given sums of the squares of its lengths and of those in the map; they are not
+  /// finite where a coordinate is not, nor where one is too large.
+  Fit fit_of(int face, double square, double image_square) const {
+    if (is_moderate(square) && is_moderate(image_square)) return Fit::as_it_is;
+    const int first = mesh_.face_offsets[face];
+    bool is_point = true;
+    for (int corner = first; corner < mesh_.face_offsets[face + 1]; ++corner) {
+      const Complex z = image(corner);
+      if (!position(corner).allFinite() || !std::isfinite(z.real()) || !std::isfinite(z.imag())) return Fit::none;
+      is_point = is_point && z == image(first);
+    }
+    return units_.are_own || (is_moderate(square) && is_point) ? Fit::as_it_is : Fit::in_units_only;
+  }
+
+  /// Adds what a face has in the units that are set.
+  Fit add(int face, int n) {
+    sums_ = FaceSums();
+    // Large meshes have hardly anything but triangles and quads; a triangle needs no triangulation.
+    return n == 3 ? add_triangle(face) : add_polygon(face, n);
+  }
+
+  /// Adds a face of three corners, its image mirrored if that is wound clockwise.
+  Fit add_triangle(int face) {
+    const int first = mesh_.face_offsets[face];
+    const std::array<Eigen::Vector3d, 3> p = {position(first), position(first + 1), position(first + 2)};
+    std::array<Complex, 3> z = {image(first), image(first + 1), image(first + 2)};
+    // A sum, unlike a maximum, is not finite if one of them is not.
+    const double square = (p[1] - p[0]).squaredNorm() + (p[2] - p[0]).squaredNorm();
+    const Fit fit = fit_of(face, square, std::norm(z[1] - z[0]) + std::norm(z[2] - z[0]));
+    if (fit != Fit::as_it_is) return fit;
+    is_mirrored_ = signed_area(z[0], z[1], z[2]) < 0;
+    if (is_mirrored_) z = {std::conj(z[0]), std::conj(z[1]), std::conj(z[2])};
+    sums_.add(p, z);
+    return fit;
+  }
+
+  /// Adds a face of more corners, likewise.
+  Fit add_polygon(int face, int n) {
+    const Fit fit = read(face, n);
+    if (fit != Fit::as_it_is) return fit;
+    triangulate_polygon(corners_, polygon_);
+    const bool second = has_both_splits() && second_split_is_better({area_of(0), area_of(1), area_of(2), area_of(3)});
+    const std::size_t first = second ? 2 : 0;
+    const std::size_t count = has_both_splits() ? 2 : polygon_.triangles.size();
+    for (std::size_t t = first; t < first + count; ++t) {
+      const auto& [a, b, c] = polygon_.triangles[t];
+      sums_.add({corners_.row(a), corners_.row(b), corners_.row(c)}, {z_[a], z_[b], z_[c]});
+    }
+    return fit;
+  }
+
+  /// The face in 3D, and its image, mirrored if it is wound clockwise.
+  Fit read(int face, int n) {
     if (corners_.rows() != n) {
       corners_ = Positions(n, 3);
       z_ = ComplexVector(n);
     }
+    double square = 0;
+    double image_square = 0;
     for (int i = 0; i < n; ++i) {
-      const auto corner = static_cast<std::size_t>(mesh_.face_offsets[face]) + static_cast<std::size_t>(i);
-      const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner]);
-      corners_.row(i) << unit_.scaled(p[0]), unit_.scaled(p[1]), unit_.scaled(p[2]);
-      z_[i] = Complex(image_unit_.scaled(corner_uv_[2 * corner]), image_unit_.scaled(corner_uv_[2 * corner + 1]));
+      const int corner = mesh_.face_offsets[face] + i;
+      corners_.row(i) = position(corner);
+      z_[i] = image(corner);
+      square += (corners_.row(i) - corners_.row(0)).squaredNorm();
+      image_square += std::norm(z_[i] - z_[0]);
     }
-    if (!corners_.allFinite() || !z_.allFinite()) return false;
+    const Fit fit = fit_of(face, square, image_square);
+    if (fit != Fit::as_it_is) return fit;
     double image_area = 0;
     for (int i = 1; i + 1 < n; ++i) image_area += signed_area(z_[0], z_[i], z_[i + 1]);
     is_mirrored_ = image_area < 0;
     if (is_mirrored_) z_ = z_.conjugate().eval();
-    return true;
+    return fit;
   }
   bool has_both_splits() const { return begins_quad(polygon_.triangle_weights.front()); }
-  double image(std::size_t t) const {
+  double area_of(std::size_t t) const {
     const auto& [a, b, c] = polygon_.triangles[t];
     return signed_area(z_[a], z_[b], z_[c]);
   }
 
   const PolygonMesh& mesh_;
-  const double* corner_uv_;
-  BinaryUnit unit_;
-  BinaryUnit image_unit_;
+  const Real* corner_uv_;
+  Units units_;
   Positions corners_;
   ComplexVector z_;
   bool is_mirrored_ = false;
   PolygonTriangulation polygon_;
+  FaceSums sums_;
 };
 
-int n_blocks(int n) { return (n + block_size - 1) / block_size; }
-
-/// The units of a mesh and of its map. The largest of the blocks' lengths is the same whoever finds them.
-std::pair<BinaryUnit, BinaryUnit> units_of(const PolygonMesh& mesh, const double* corner_uv) {
-  std::vector<std::pair<BinaryUnit, BinaryUnit>> units(static_cast<std::size_t>(n_blocks(mesh.n_corners())));
-  run_in_parallel(
-      static_cast<int>(units.size()), max_measuring_threads,
-      [&](int block, const Progress&) {
-        BinaryUnit unit;
-        BinaryUnit image_unit;
-        const int end = std::min(mesh.n_corners(), (block + 1) * block_size);
-        for (int c = block * block_size; c < end; ++c) {
-          const double* p = mesh.positions + 3 * static_cast<std::size_t>(mesh.corner_vertices[c]);
-          for (int k = 0; k < 3; ++k) unit.include(p[k]);
-          for (int k = 0; k < 2; ++k) image_unit.include(corner_uv[2 * static_cast<std::size_t>(c) + k]);
-        }
-        units[static_cast<std::size_t>(block)] = {unit, image_unit};
-      },
-      {}, "distortion");
-  std::pair<BinaryUnit, BinaryUnit> all;
-  for (const auto& [unit, image_unit] : units) {
-    all.first.include(unit);
-    all.second.include(image_unit);
-  }
-  return all;
+template <class Real>
+FaceDistortion measured(const PolygonMesh& mesh, const Real* corner_uv) {
+  validate(mesh);
+  FaceDistortion result;
+  result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
+  result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
+  run_in_parallel((mesh.n_faces + block_size - 1) / block_size, max_measuring_threads,
+                  [&](int block, const Progress&) {
+                    FaceMeasure<Real> measure(mesh, corner_uv);
+                    const int end = std::min(mesh.n_faces, (block + 1) * block_size);
+                    for (int face = block * block_size; face < end; ++face) measure.measure(face, result);
+                  },
+                  {}, "distortion");
+  return result;
 }
 
 }  // namespace
 
 FaceDistortion measure_face_distortion(const PolygonMesh& mesh, const double* corner_uv) {
-  validate(mesh);
-  const std::pair<BinaryUnit, BinaryUnit> units = units_of(mesh, corner_uv);
-  FaceDistortion result;
-  result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
-  result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  run_in_parallel(
-      n_blocks(mesh.n_faces), max_measuring_threads,
-      [&](int block, const Progress&) {
-        FaceMeasure measure(mesh, corner_uv, units.first, units.second);
-        const int end = std::min(mesh.n_faces, (block + 1) * block_size);
-        for (int face = block * block_size; face < end; ++face) measure.measure(face, result);
-      },
-      {}, "distortion");
-  return result;
+  return measured(mesh, corner_uv);
+}
+
+FaceDistortion measure_face_distortion(const PolygonMesh& mesh, const float* corner_uv) {
+  return measured(mesh, corner_uv);
 }
 
 }  // namespace spectral_conformal

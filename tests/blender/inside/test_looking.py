@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Looking at a map: what the overlay shows, the list of islands, and selecting what is distorted."""
 
+import dataclasses
 import importlib
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -73,6 +75,33 @@ def test_hidden_faces_are_not_shown():
     arrays = read_map.read_map(bpy.context, grid)
     assert not arrays.visible_faces[0]
     assert arrays.visible_faces[1:].all()
+
+
+def test_offsets_are_read_again_where_the_corners_are_others():
+    grid = stretched_grid()
+    before = read_map.read_map(bpy.context, grid)
+    assert read_map.read_map(bpy.context, grid, before=before).face_offsets is before.face_offsets
+    bm = scenes.edit_mesh(grid)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.triangulate(bm, faces=bm.faces[:1])
+    after = read_map.read_map(bpy.context, grid, before=before)
+    assert len(after.face_offsets) == len(before.face_offsets) + 1
+    assert np.diff(after.face_offsets).min() == 3
+
+
+def test_what_was_taken_for_granted_is_read_again():
+    grid = stretched_grid()
+    shown = map_overlay._ShownMesh()
+    shown.view(bpy.context, grid)
+    view = shown.confirm(bpy.context, grid)
+    right = view.arrays
+    # Faces of three and of five corners in place of two of four: the corners are the same.
+    wrong = right.face_offsets.copy()
+    wrong[1] -= 1
+    view.arrays = dataclasses.replace(right, face_offsets=wrong)
+    shown.edited()
+    assert shown.view(bpy.context, grid).arrays.face_offsets is wrong
+    assert np.array_equal(shown.confirm(bpy.context, grid).arrays.face_offsets, right.face_offsets)
 
 
 def test_without_a_map_nothing_is_shown():

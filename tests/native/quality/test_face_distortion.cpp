@@ -96,6 +96,29 @@ TEST_CASE("units do not matter, up to the largest and the smallest there are") {
   CHECK((scaled.log2_scale.array() + 1300 - plain.log2_scale.array()).abs().maxCoeff() < 1e-9);
 }
 
+TEST_CASE("single precision is read as it is, and faces of any size are measured beside one another") {
+  const Mesh mesh = quad_grid(3, 2);
+  const std::vector<Complex> uv = at_corners(mesh, bent(mesh));
+  std::vector<float> single;
+  std::vector<Complex> rounded;
+  for (const Complex z : uv) {
+    for (const double x : {z.real(), z.imag()}) single.push_back(static_cast<float>(x));
+    rounded.emplace_back(single[single.size() - 2], single.back());
+  }
+  const FaceDistortion expected = measure(mesh.view(), rounded);
+  CHECK(measure_face_distortion(mesh.view(), single.data()).qc == expected.qc);
+
+  Mesh both = mesh;
+  Mesh large = mesh;
+  for (auto& p : large.points) p *= 0x1p600;
+  both.append(large);
+  std::vector<Complex> both_uv = rounded;
+  for (const Complex z : rounded) both_uv.push_back(z * 0x1p-700);
+  const FaceDistortion found = measure(both.view(), both_uv);
+  CHECK(found.qc.head(mesh.n_faces()) == expected.qc);
+  CHECK(found.qc.tail(mesh.n_faces()) == expected.qc);
+}
+
 TEST_CASE("faces without area, without image, without a finite point, and those that are not selected") {
   const Mesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}},
                   {{0, 1, 2}, {0, 1, 3}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1}});
@@ -118,7 +141,7 @@ TEST_CASE("faces without area, without image, without a finite point, and those 
   PolygonMesh bad = mesh.view();
   bad.n_vertices = 2;
   CHECK_THROWS_AS(measure(bad, uv), InvalidMesh);
-  CHECK(measure_face_distortion(PolygonMesh{}, nullptr).qc.size() == 0);
+  CHECK(measure(PolygonMesh{}, {}).qc.size() == 0);
 }
 
 TEST_SUITE_END();
