@@ -8,6 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import operators
+from .core import kept_maps
 from .extenders import storage, tracking
 from .live import adjusted_map, following
 from .overlay import map_overlay
@@ -47,6 +48,7 @@ def _before_load(*_arguments: object) -> None:
     tracking.forget()
     storage.forget()
     map_overlay.forget()
+    kept_maps.forget()
 
 
 @persistent
@@ -104,3 +106,4 @@ def unregister() -> None:
         bpy.app.timers.unregister(_begin)
     following.stop()
     tracking.forget()
+    kept_maps.forget()

@@ -95,8 +95,13 @@ def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray) 
     return (high - low).max(axis=0) / np.repeat(size.max(axis=0), np.diff(starts, append=len(chart)))
 
 
-def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None) -> Solution:
-    """Unwrap the selected faces of `mesh`, chart by chart.
+def solve(
+    mesh: PolygonMesh,
+    options: Options,
+    progress: Progress | None = None,
+    kept: Any = None,  # noqa: ANN401 - a KeptMaps of the native module
+) -> Solution:
+    """Unwrap the selected faces of `mesh`, chart by chart; those whose maps are `kept` are not solved.
 
     A mesh that the solver refuses as a whole comes back as a `Solution` with an `error` and no charts, so that the
     other meshes of the same call can still be unwrapped.
@@ -106,14 +111,14 @@ def solve(mesh: PolygonMesh, options: Options, progress: Progress | None = None)
         spectral_conformal.Cancelled: `progress` returned False.
     """
     try:
-        return _solution(mesh, _unwrap(mesh, options, progress))
+        return _solution(mesh, _unwrap(mesh, options, progress, kept))
     except ValueError as error:
         corners = len(mesh.corner_vertices)
         refused = np.where(mesh.selected_faces, 0, -1)
         return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), refused, str(error))
 
 
-def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None) -> Any:  # noqa: ANN401 - of the module
+def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
     return native.spectral_conformal().unwrap(
         mesh.vertices,
         mesh.face_offsets,
@@ -121,6 +126,7 @@ def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None) -> A
         **soft_constraints(mesh, options),
         **arguments(mesh, options),
         progress=progress,
+        kept_maps=kept,
     )
 
 
@@ -198,10 +204,15 @@ def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": pinned, "soft_pins": options.soft_pins}
 
 
-def solve_all(meshes: Sequence[PolygonMesh], options: Options, progress: Progress | None = None) -> list[Solution]:
+def solve_all(
+    meshes: Sequence[PolygonMesh],
+    options: Options,
+    progress: Progress | None = None,
+    kept: Any = None,  # noqa: ANN401 - as in solve
+) -> list[Solution]:
     """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
     groups = _groups(meshes, options)
-    solved = [_solve_group(group, options, part) for group, part in zip(groups, parts(groups, progress))]
+    solved = [_solve_group(group, options, part, kept) for group, part in zip(groups, parts(groups, progress))]
     return [solution for solutions in solved for solution in solutions]
 
 
@@ -225,15 +236,20 @@ def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
     return is_constrained or not np.isfinite(mesh.vertices).all()
 
 
-def _solve_group(group: Sequence[PolygonMesh], options: Options, progress: Progress | None) -> list[Solution]:
+def _solve_group(
+    group: Sequence[PolygonMesh],
+    options: Options,
+    progress: Progress | None,
+    kept: Any,  # noqa: ANN401 - as in solve
+) -> list[Solution]:
     """Return the solution of every mesh of a `group` that can be joined."""
     if len(group) > 1:
         try:
-            result = _unwrap(joined(group), options, progress)
+            result = _unwrap(joined(group), options, progress, kept)
         except ValueError:
             # One of them is refused, which the others must not suffer from.
             pass
         else:
             return [_solution(mesh, part) for mesh, part in zip(group, joined_parts(group, result))]
     each = [progress] if len(group) == 1 else parts([[mesh] for mesh in group], progress)
-    return [solve(mesh, options, part) for mesh, part in zip(group, each)]
+    return [solve(mesh, options, part, kept) for mesh, part in zip(group, each)]

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from .. import user_preferences
-from ..core import quality, seam_suggestion, texts
+from ..core import kept_maps, quality, seam_suggestion, texts
 from ..core.placement import place
 from ..core.progress import Progress
 from ..core.quality import MapQuality
@@ -150,7 +150,7 @@ class SeamPreview:
         measured = {}
         for count in counts:
             meshes = seam_suggestion.cut_open(self._target.polygons, self._suggestion.part(0, count))
-            solutions = solve_all(meshes, self._target.settings.options, progress)
+            solutions = solve_all(meshes, self._target.settings.options, progress, kept_maps.of_session())
             placed = place(self._target.polygons, solutions, False, False).uv
             maps = {
                 name: np.where(solution.solved_corners[:, None], uv, 0.0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core import obstacles, texts
+from ..core import kept_maps, obstacles, texts
 from ..core.options import Margin, Settings
 from ..core.placement import place
 from ..core.progress import Progress
@@ -42,7 +42,9 @@ class Outcome:
 
 
 def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> list[Solution]:
-    """Solve the meshes that `read` returned. Touches nothing of Blender's, so that any thread may call it.
+    """Solve what has changed of the meshes that `read` returned since it was last solved.
+
+    Touches nothing of Blender's, so that any thread may call it.
 
     `progress` gets the fraction done of all meshes.
 
@@ -55,7 +57,7 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
         edit_mesh.polygons if subdivision is None else subdivision.mesh
         for edit_mesh, subdivision in zip(edit_meshes, subdivisions)
     ]
-    solutions = solve_all(meshes, settings.options, progress)
+    solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
     return [
         solution if subdivision is None else subdivision.on_coarse(solution)
         for solution, subdivision in zip(solutions, subdivisions)

@@ -1,7 +1,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "bindings/solve_record.h"
 #include "bindings/space_metric.h"
 #include "bindings/turns.h"
+#include "spectral_conformal/kept_maps.h"
 #include "spectral_conformal/unwrap.h"
 
 namespace spectral_conformal::python {
@@ -34,6 +37,7 @@ py::dict result_of(const Unwrap& unwrapped) {
     record["n_pins"] = chart.n_pins;
     record["n_vertices"] = chart.n_vertices;
     record["area"] = chart.area;
+    record["reused"] = chart.reused;
     charts.append(record);
   }
   py::dict timings;
@@ -76,14 +80,59 @@ struct UnwrapArguments {
   UnwrapArguments& operator=(const UnwrapArguments&) = delete;
 };
 
-py::dict unwrap_mesh(UnwrapArguments& arguments, const ExtenderList& extenders, const py::object& progress) {
+/// Kept maps for one unwrap at a time; others that are made meanwhile do without. Never waits: a progress function,
+/// too, may call it. Its pointer is guarded by the GIL.
+class SharedKeptMaps {
+  struct Store {
+    std::mutex mutex;
+    KeptMaps maps;
+    std::atomic<std::size_t> size{0};
+    explicit Store(std::size_t max_bytes) : maps(max_bytes) {}
+  };
+
+ public:
+  explicit SharedKeptMaps(std::size_t max_bytes) : max_bytes_(max_bytes) { clear(); }
+
+  /// Holds the maps as long as it lives, where they are free; made with the GIL.
+  class Hold {
+   public:
+    explicit Hold(const SharedKeptMaps* shared) {
+      if (!shared) return;
+      store_ = shared->store_;
+      lock_ = std::unique_lock(store_->mutex, std::try_to_lock);
+    }
+    ~Hold() {
+      if (lock_) store_->size = store_->maps.size();
+    }
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+    KeptMaps* maps() const { return lock_ ? &store_->maps : nullptr; }
+
+   private:
+    std::shared_ptr<Store> store_;
+    std::unique_lock<std::mutex> lock_;  // after what it locks, so that it ends before
+  };
+
+  /// A call that uses the maps goes on with them.
+  void clear() { store_ = std::make_shared<Store>(max_bytes_); }
+  /// As after the last call that has ended.
+  std::size_t size() const { return store_->size; }
+
+ private:
+  std::size_t max_bytes_;
+  std::shared_ptr<Store> store_;
+};
+
+py::dict unwrap_mesh(UnwrapArguments& arguments, const ExtenderList& extenders, const py::object& progress,
+                     SharedKeptMaps* kept) {
   arguments.options.extenders = extenders_of(extenders);
   const PolygonMesh mesh = arguments.arrays.view();
   const Progress callback = progress_of(progress);
   Unwrap unwrapped;
   {
+    const SharedKeptMaps::Hold hold(kept);
     const py::gil_scoped_release unlocked;
-    unwrapped = unwrap(mesh, arguments.options, callback);
+    unwrapped = unwrap(mesh, arguments.options, callback, hold.maps());
   }
   return result_of(unwrapped);
 }
@@ -124,6 +173,10 @@ void bind_unwrap(py::module_& module) {
   py::class_<MeshUnwrapper>(module, "Unwrapper", py::module_local())
       .def(py::init<const UnwrapArguments&>(), py::keep_alive<1, 2>())
       .def("solve", &MeshUnwrapper::solve);
+  py::class_<SharedKeptMaps>(module, "KeptMaps", py::module_local())
+      .def(py::init<std::size_t>())
+      .def("clear", &SharedKeptMaps::clear)
+      .def("size", &SharedKeptMaps::size);
   module.def("unwrap", &unwrap_mesh);
 }
 

@@ -144,19 +144,28 @@ def extender_change(n: int) -> runs.Figures:
     return {**figures, "back_substitution": bare_cholmod.seconds_to_solve(_shifted_energy(vertices, triangles))}
 
 
-def seam_change(meshes: Sequence[Mesh]) -> runs.Figures:
-    """`unwrap` again after one edge more has become a seam, beside the whole solve before; of a grid."""
+def seam_change(meshes: Sequence[Mesh], parts: int) -> runs.Figures:
+    """`unwrap` again with kept maps after one edge more has become a seam, beside the whole solve; of a grid.
+
+    Seams cut the grid into `parts` times `parts` islands; the one that grows ends in the first.
+    """
     (mesh,) = meshes
     side = round(len(mesh.vertices) ** 0.5)
-    middle = side // 2 * side
-    seam = np.array([(middle + k, middle + k + 1) for k in range(side // 2)])
-    seconds: list[list[float]] = [[], []]
+    number = np.arange(side * side).reshape(side, side)
+    inner = [k * side // parts for k in range(1, parts)]
+    lines = [*number[inner], *number[:, inner].T, number[side // (2 * parts), : side // (2 * parts)]]
+    seams = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
+    whole, again = [], []
     for _ in range(_rounds(len(mesh.vertices))):
-        for part, seams in zip(seconds, (seam[:-1], seam)):
-            start = time.perf_counter()
-            sc.unwrap(*mesh, seam_edges=seams)
-            part.append(time.perf_counter() - start)
-    return {"vertices": len(mesh.vertices), "whole": min(seconds[0]), "again": min(seconds[1])}
+        start = time.perf_counter()
+        sc.unwrap(*mesh, seam_edges=seams)
+        whole.append(time.perf_counter() - start)
+        kept = sc.KeptMaps()
+        sc.unwrap(*mesh, seam_edges=seams[:-1], kept_maps=kept)
+        start = time.perf_counter()
+        sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
+        again.append(time.perf_counter() - start)
+    return {"vertices": len(mesh.vertices), "whole": min(whole), "again": min(again)}
 
 
 def peer(meshes: Sequence[Mesh], name: str, program: str | None = None) -> runs.Figures:

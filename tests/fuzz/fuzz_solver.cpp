@@ -3,6 +3,7 @@
 
 #include "fuzzed_mesh.h"
 #include "spectral_conformal/errors.h"
+#include "spectral_conformal/kept_maps.h"
 #include "spectral_conformal/unwrap.h"
 
 namespace spectral_conformal::fuzz {
@@ -74,6 +75,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       check(unwrapper.solve(options.extenders, rigidity, options.solve.tolerance, listen));
     } catch (const Cancelled&) {
       require(reports <= 0);
+    }
+    if (bytes.flag()) {
+      KeptMaps kept(1'000'000);
+      const Unwrap plain = unwrap(mesh.view(), options, {}, &kept);
+      const Unwrap again = unwrap(mesh.view(), options, {}, &kept);
+      require(again.uv == plain.uv && again.charts.size() == plain.charts.size());
+      check(again);
     }
   } catch (const InvalidMesh&) {
     return 0;  // said so

@@ -4,11 +4,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/polygon_mesh.h"
 
 namespace spectral_conformal {
+
+class KeptMaps;
 
 /// An extender (section 4.2) between two mesh vertices. It acts in every chart that has copies of both; where a seam
 /// gives a vertex several copies in one chart, on their barycentre, so that symmetric meshes keep symmetric maps.
@@ -43,7 +47,8 @@ struct UnwrappedChart : SolveRecord {
   int overlapping = 0;  ///< faces that cover part of another face; duplicates are ignored
   int n_pins = 0;       ///< pinned vertices
   int n_vertices = 0;
-  double area = 0;  ///< in 3D
+  double area = 0;      ///< in 3D
+  bool reused = false;  ///< whether its map was taken from KeptMaps
 
   UnwrappedChart() {
     eigenvalue = residual = unknown;
@@ -67,8 +72,11 @@ struct Unwrap {
 /// reported as failed; degenerate faces together make one failed chart, the last. Each chart is placed as by place().
 /// Pins are those of mesh vertices, on all of their copies, and of corners (which win). A chart with several is solved
 /// by pinned LSCM, or, with solve.soft_pins, by the spectral method attracted by them; with one it is solved free and
-/// moved onto the pin. Throws InvalidMesh for arrays that do not describe a mesh, and Cancelled.
-Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress);
+/// moved onto the pin. With `kept`, charts whose maps are there are not solved, and the maps of the others go there;
+/// only timings and UnwrappedChart::reused tell the difference. Throws InvalidMesh for arrays that do not describe a
+/// mesh, and Cancelled.
+Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress,
+              KeptMaps* kept = nullptr);
 
 /// The same for several solves that differ in extenders, hole rigidity and tolerance: keeps the charts and their
 /// factors, and every solve starts from the maps of the last.

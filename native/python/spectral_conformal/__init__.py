@@ -23,6 +23,7 @@ on results.
 from ._arguments import Extenders, Pins, Progress
 from ._build import build_info
 from ._charts import chart_of_face
+from ._kept_maps import KeptMaps
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
@@ -40,6 +41,7 @@ __all__ = [
     "Extenders",
     "FaceDistortion",
     "InvalidMeshError",
+    "KeptMaps",
     "MapDefects",
     "OptionChanges",
     "Options",

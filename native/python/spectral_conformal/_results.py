@@ -192,6 +192,8 @@ class Chart:
     """Vertices of the chart; a mesh vertex on a seam counts once for every copy."""
     area: float
     """In 3D."""
+    reused: bool
+    """Whether the map was taken from the `kept_maps` of `unwrap`, not solved for."""
 
 
 @dataclass(frozen=True)

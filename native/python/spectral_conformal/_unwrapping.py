@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Pins, Progress
+from ._kept_maps import KeptMaps, native_of
 from ._options import OptionChanges, Options, ResolveChanges, changed, takes_options
 from ._results import Chart, Unwrap
 
@@ -33,6 +34,7 @@ def unwrap(
     extenders: Extenders | None = None,
     metric: npt.ArrayLike | None = None,
     progress: Progress | None = None,
+    kept_maps: KeptMaps | None = None,
     **changes: Unpack[OptionChanges],
 ) -> Unwrap:
     """Cut a polygon mesh into charts and map each to the plane. A chart that cannot be solved does not stop the others.
@@ -61,6 +63,7 @@ def unwrap(
             and the map is conformal for these lengths; positive definite on the face's plane. For a mesh of triangles
             also (faces, 2, 2) as in `parameterize`.
         progress: as in `parameterize`.
+        kept_maps: maps to take where charts are the same as in earlier calls, and to keep those of this call in.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is not of the kind described here.
@@ -86,6 +89,7 @@ def unwrap(
             arguments,
             _arguments.checked_extenders(extenders, used.method, n_vertices),
             _arguments.checked_progress(progress),
+            native_of(kept_maps),
         )
     )
 

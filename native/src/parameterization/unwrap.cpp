@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "conformal/conformal_energy.h"
 #include "graph/parallel_calls.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
+#include "parameterization/chart_description.h"
 #include "parameterization/chart_metric.h"
 #include "parameterization/stopwatch.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/distortion.h"
+#include "spectral_conformal/kept_maps.h"
 
 namespace spectral_conformal {
 
@@ -55,7 +59,9 @@ struct Cut {
 /// Solves one chart, again and again; reports what it cannot do instead of throwing.
 class ChartUnwrapper {
  public:
-  ChartUnwrapper(const Cut& cut, Chart chart, const UnwrapOptions& options) : cut_(cut), chart_(std::move(chart)) {
+  /// `cut` and `options` must outlive this object.
+  ChartUnwrapper(const Cut& cut, Chart chart, const UnwrapOptions& options)
+      : cut_(cut), chart_(std::move(chart)), patch_(options.patch), metric_(options.metric) {
     report_.n_vertices = chart_.n_vertices();
     report_.method = options.solve.method;
     report_.weights = options.patch.weights;
@@ -71,8 +77,7 @@ class ChartUnwrapper {
       options_.extenders.clear();
       options_.hole_rigidity = 0;
       report_.method = options_.method = method_with_pins(options.solve, pins_.size());
-      solver_ = std::make_unique<Solver>(chart_, chart_.positions(cut.mesh), options.patch,
-                                         chart_metric(cut.mesh, chart_, options.metric));
+      is_possible_ = true;
     } catch (const InvalidMesh& problem) {
       report_.message = problem.what();
     }
@@ -84,33 +89,33 @@ class ChartUnwrapper {
     ComplexVector z;
     std::vector<std::size_t> acting;  ///< extenders
     Timings timings;
+    std::string description;  ///< see describe_chart; empty where nothing is to be kept
   };
 
+  /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first.
   Solution solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
-                 const Progress& progress) {
-    Solution result{report_, {}, {}, {}};
-    UnwrappedChart& report = result.report;
-    if (!solver_) return result;
+                 const Progress& progress, const KeptMaps* kept = nullptr) {
+    Solution result{report_, {}, {}, {}, {}};
+    if (!is_possible_) return result;
+    SolveOptions options = options_;
+    options.tolerance = tolerance;
+    if (options.method == Method::spectral) {
+      options.hole_rigidity = hole_rigidity;
+      options.extenders = own(extenders, result.acting);
+    }
     try {
-      SolveOptions options = options_;
-      options.tolerance = tolerance;
-      if (report.method == Method::spectral) {
-        options.hole_rigidity = hole_rigidity;
-        options.extenders = own(extenders, result.acting);
+      if (!solver_) {
+        const Positions positions = chart_.positions(cut_.mesh);
+        const std::vector<TriangleMetric> metric = chart_metric(cut_.mesh, chart_, metric_);
+        if (kept && take(*kept, describe_chart(chart_, positions, metric, patch_, options, pins_), result))
+          return result;
+        solver_ = std::make_unique<Solver>(chart_, positions, patch_, metric);
       }
-      Parameterization solution = solver_->solve(options, pins_, progress);
-      static_cast<SolveRecord&>(report) = solution;
-      result.timings = std::move(solution.timings);
-      Stopwatch watch(result.timings);
-      measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
-      report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
-      watch.lap("quality");
-      report.solved = true;
-      result.z = std::move(solution.z);
+      solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
-      report.message = problem.what();
+      result.report.message = problem.what();
     } catch (const SolveFailure& problem) {
-      report.message = problem.what();
+      result.report.message = problem.what();
     }
     return result;
   }
@@ -147,17 +152,48 @@ class ChartUnwrapper {
     return result;
   }
 
+  /// Takes the map of a chart from those that are kept; false where there is none.
+  static bool take(const KeptMaps& kept, std::string description, Solution& result) {
+    Stopwatch watch(result.timings);
+    result.description = std::move(description);
+    const KeptMaps::Map* map = kept.find(result.description);
+    if (map) {
+      result.report = map->report;
+      result.report.reused = true;
+      result.z = map->z;
+    }
+    watch.lap("kept maps");
+    return map != nullptr;
+  }
+
+  void solve(const SolveOptions& options, const Progress& progress, Solution& result) {
+    UnwrappedChart& report = result.report;
+    Parameterization solution = solver_->solve(options, pins_, progress);
+    static_cast<SolveRecord&>(report) = solution;
+    add_seconds(solution.timings, result.timings);
+    Stopwatch watch(result.timings);
+    measure(chart_, solver_->energy(), solution.z, solver_->scale(), report);
+    report.overlapping = static_cast<int>(overlapping_faces(chart_, solution.z).size());
+    watch.lap("quality");
+    report.solved = true;
+    result.z = std::move(solution.z);
+  }
+
   const Cut& cut_;
   Chart chart_;
+  PatchOptions patch_;
+  const SpaceMetric* metric_;
   UnwrappedChart report_;  ///< before a solve
   Pins pins_;
   SolveOptions options_;                             ///< without forces
-  std::unique_ptr<Solver> solver_;                   ///< null where the chart cannot be solved
+  bool is_possible_ = false;                         ///< false: the report says why there is nothing to solve
+  std::unique_ptr<Solver> solver_;                   ///< made by the first solve
   std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
 };
 
-/// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused.
-void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result) {
+/// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused. Its
+/// map goes to `kept`, which may be null.
+void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, KeptMaps* kept = nullptr) {
   add_seconds(solution.timings, result.timings);
   if (solution.report.solved) {
     for (const std::size_t k : solution.acting) result.unused_extenders[k] = false;
@@ -169,7 +205,11 @@ void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result) {
       }
     }
   }
-  result.charts.push_back(std::move(solution.report));
+  result.charts.push_back(solution.report);
+  if (kept && !solution.description.empty()) {
+    solution.report.reused = false;
+    kept->keep(std::move(solution.description), {std::move(solution.report), std::move(solution.z)});
+  }
 }
 
 /// A result without its charts.
@@ -257,7 +297,7 @@ class ChartLoop {
 
 }  // namespace
 
-Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress) {
+Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress, KeptMaps* kept) {
   report(progress, 0.0, "charts");
   Timings timings;
   Stopwatch watch(timings);
@@ -274,9 +314,10 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
         const auto k = static_cast<std::size_t>(i);
         // Moved in, so that each gives its memory back before the next solve.
         ChartUnwrapper chart(cut, std::move(charts[k]), options);
-        solutions[k] = chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on);
+        solutions[k] =
+            chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
       },
-      [&](int i) { add(cut, std::move(solutions[static_cast<std::size_t>(i)]), result); });
+      [&](int i) { add(cut, std::move(solutions[static_cast<std::size_t>(i)]), result, kept); });
   add_degenerate_faces(cut, result);
   return result;
 }

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps that are kept from one unwrap to the next: the same results, and only what has changed is solved."""
+
+import threading
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+SIDE = 17  # vertices; seams along rows and columns of it make islands of 4 x 4 faces
+
+
+def grid():
+    """A bumpy grid of quads, and the seams that cut it into 16 islands."""
+    vertices, quads = meshes.saddle_quads(SIDE)
+    number = np.arange(SIDE * SIDE).reshape(SIDE, SIDE)
+    rows = number[4:-1:4]
+    columns = number[:, 4:-1:4].T
+    seams = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in [*rows, *columns]])
+    return (vertices, *meshes.polygons(quads)), seams
+
+
+def record(chart):
+    return {name: value for name, value in vars(chart).items() if name != "reused"}
+
+
+def check_same(found, expected):
+    np.testing.assert_array_equal(found.uv, expected.uv)
+    np.testing.assert_array_equal(found.solved_corners, expected.solved_corners)
+    np.testing.assert_array_equal(found.chart_of_face, expected.chart_of_face)
+    for mine, theirs in zip(found.charts, expected.charts):
+        np.testing.assert_equal(record(mine), record(theirs))
+    assert len(found.charts) == len(expected.charts)
+
+
+def n_reused(result):
+    return sum(chart.reused for chart in result.charts)
+
+
+def test_the_same_again_is_not_solved_again():
+    mesh, seams = grid()
+    kept = sc.KeptMaps()
+    plain = sc.unwrap(*mesh, seam_edges=seams)
+    first = sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
+    again = sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
+    assert [n_reused(each) for each in (plain, first, again)] == [0, 0, 16]
+    assert len(kept) == 16
+    check_same(first, plain)
+    check_same(again, plain)
+    assert "factorization" not in again.timings
+
+
+def test_after_a_seam_changed_only_the_islands_at_it_are_solved():
+    mesh, seams = grid()
+    kept = sc.KeptMaps()
+    sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
+    # The last seam edge parts two islands.
+    fewer = sc.unwrap(*mesh, seam_edges=seams[:-1], kept_maps=kept)
+    check_same(fewer, sc.unwrap(*mesh, seam_edges=seams[:-1]))
+    assert len(fewer.charts) == 15
+    assert n_reused(fewer) == 14
+    assert n_reused(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)) == 16
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"polish": True},
+        {"weights": "inverse_area"},
+        {"boundary": "vertex"},
+        {"area_blend": 0.5},
+        {"fold_free": True},
+        {"fill_holes": True},
+        {"method": "lscm"},
+        {"tolerance": 1e-9},
+        {"hole_rigidity": 0.5},
+        {"pins": {0: (0.0, 0.0)}},
+        {"pins": {0: (0.0, 0.0), 2: (1.0, 0.0)}},
+        {"extenders": [(0, 2, 0.1)]},
+        {"metric": "stretched"},
+    ],
+    ids=str,
+)
+def test_whatever_a_map_is_made_of_makes_another(change):
+    mesh, seams = grid()
+    kept = sc.KeptMaps()
+    sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
+    if "metric" in change:
+        change = {"metric": np.broadcast_to(np.diag([2.0, 1.0, 1.0]), (len(mesh[1]) - 1, 3, 3))}
+    changed = sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept, **change)
+    check_same(changed, sc.unwrap(*mesh, seam_edges=seams, **change))
+    # Pins and extenders reach the island of vertex 0 alone.
+    assert n_reused(changed) == (15 if change.keys() & {"pins", "extenders"} else 0)
+    assert n_reused(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept, **change)) == 16
+
+
+def test_a_vertex_that_moved_in_its_last_digit_counts():
+    (vertices, offsets, corners), seams = grid()
+    kept = sc.KeptMaps()
+    sc.unwrap(vertices, offsets, corners, seam_edges=seams, kept_maps=kept)
+    moved = vertices.copy()
+    moved[0, 2] = np.nextafter(moved[0, 2], 2.0)
+    result = sc.unwrap(moved, offsets, corners, seam_edges=seams, kept_maps=kept)
+    assert [chart.reused for chart in result.charts] == [False] + [True] * 15
+
+
+def test_pins_of_corners_count():
+    mesh, seams = grid()
+    kept = sc.KeptMaps()
+    sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
+    pinned = np.arange(len(mesh[2])) < 2
+    for place in (0.5, 0.75):
+        uv = np.full((len(mesh[2]), 2), place)
+        uv[0] = 0.0
+        arguments = {"seam_edges": seams, "pinned_corners": pinned, "corner_uv": uv}
+        result = sc.unwrap(*mesh, **arguments, kept_maps=kept)
+        check_same(result, sc.unwrap(*mesh, **arguments))
+        assert n_reused(result) == 15
+
+
+def test_charts_that_fail_fail_again_with_the_same_message():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    mesh = vertices, *meshes.polygons(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+    kept = sc.KeptMaps()
+    first, again = (sc.unwrap(*mesh, kept_maps=kept) for _ in range(2))
+    assert first.charts[0].status == again.charts[0].status == "failed"
+    assert again.charts[0].reused
+    check_same(again, first)
+
+
+def test_those_used_last_are_kept():
+    (vertices, offsets, corners), seams = grid()
+    kept = sc.KeptMaps(max_megabytes=0)
+    sc.unwrap(vertices, offsets, corners, seam_edges=seams, kept_maps=kept)
+    assert len(kept) == 0
+    # One grid of 90,000 faces takes about 14 MB.
+    kept = sc.KeptMaps(max_megabytes=20)
+    vertices, quads = meshes.saddle_quads(300)
+    large = vertices, *meshes.polygons(quads)
+    for scale in (1.0, 2.0, 1.0):
+        result = sc.unwrap(scale * large[0], *large[1:], kept_maps=kept)
+        assert n_reused(result) == 0
+        assert len(kept) == 1
+    kept.clear()
+    assert len(kept) == 0
+    assert n_reused(sc.unwrap(*large, kept_maps=kept)) == 0
+
+
+def test_a_call_that_was_cancelled_is_gone_on_with():
+    vertices, quads = meshes.saddle_quads(150)
+    large = vertices, *meshes.polygons(quads)
+    far = vertices + [10.0, 0.0, 0.0]
+    joined = (
+        np.concatenate([vertices, far]),
+        np.concatenate([large[1], large[1][1:] + large[1][-1]]),
+        np.concatenate([large[2], large[2] + len(vertices)]),
+    )
+    kept = sc.KeptMaps()
+    with pytest.raises(sc.Cancelled):
+        sc.unwrap(*joined, kept_maps=kept, progress=lambda fraction, _phase: fraction < 0.7)
+    assert len(kept) == 1
+    result = sc.unwrap(*joined, kept_maps=kept)
+    assert [chart.reused for chart in result.charts] == [True, False]
+    check_same(result, sc.unwrap(*joined))
+
+
+def test_calls_from_within_and_from_other_threads_do_without():
+    mesh, seams = grid()
+    plain = sc.unwrap(*mesh, seam_edges=seams)
+    kept = sc.KeptMaps()
+    found = []
+
+    def progress(_fraction, _phase):
+        if not found:
+            found.append(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept))
+            kept.clear()
+            len(kept)
+        return True
+
+    found.append(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept, progress=progress))
+    many = []
+    for _ in range(2):
+        call = threading.Thread(target=lambda: found.append(sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)))
+        many.append(call)
+    for thread in many:
+        thread.start()
+    for thread in many:
+        thread.join()
+    assert len(found) == 4
+    for each in found:
+        check_same(each, plain)
+
+
+def test_bad_arguments_are_named():
+    mesh, _ = grid()
+    with pytest.raises(ValueError, match="kept_maps must be a KeptMaps or None, not dict"):
+        sc.unwrap(*mesh, kept_maps={})
+    with pytest.raises(ValueError, match="max_megabytes must be a whole number"):
+        sc.KeptMaps(max_megabytes=-1)
