@@ -13,6 +13,7 @@ from tests.blender.inside import digest, scenes
 core_options = importlib.import_module("spectral_unwrap.core.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
+kept_maps = importlib.import_module("spectral_unwrap.core.kept_maps")
 adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
 packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
@@ -68,6 +69,7 @@ class Started:
     """An unwrap that solves in a thread, as the operator's job does."""
 
     def __init__(self, settings):
+        kept_maps.forget()  # all is to be solved
         self.settings = settings
         self.edit_meshes = steps.read(bpy.context, settings)
         self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
@@ -106,6 +108,7 @@ def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
 
 def interrupting_at(at):
     """Return a context manager like `progress.blocking` whose function is interrupted at its call number `at`."""
+    kept_maps.forget()  # all is to be solved
     calls = []
 
     class Blocking:
@@ -197,6 +200,7 @@ def test_interrupted_while_writing(uv_map, monkeypatch):
 
 def searched(target, options, report):
     """Search for seams, then solve the meshes that are cut open, as the operator does."""
+    kept_maps.forget()
     cuts = core_suggestion.suggest(target.polygons, options, report)
     edit_meshes = seams.read_cut_open(bpy.context, target, cuts)
     steps.solve(edit_meshes, target.settings, report)
