@@ -68,7 +68,7 @@ def test_every_row_of_the_table_has_a_figure(run, program):
         whole = sum(seconds for name, seconds in phases.items() if name != "undo")
         assert whole == pytest.approx(measured["seconds"])
     assert "| native, `parameterize`, s | vertices | charts | assembly | factorization |" in printed
-    assert "| native, operator, s | vertices | charts | assembly | factorization |" in printed
+    assert "| native, operator, s | vertices | charts | kept maps | assembly | factorization |" in printed
 
 
 @pytest.mark.slow
