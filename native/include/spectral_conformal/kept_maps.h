@@ -40,10 +40,15 @@ class KeptMaps {
     std::uint64_t last_use = 0;
   };
 
+  /// Of some of the bytes: descriptions are long, and those that share it are compared.
+  struct SampledHash {
+    std::size_t operator()(const std::string& description) const;
+  };
+
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
   std::uint64_t use_ = 0;
-  std::unordered_map<std::string, Entry> maps_;
+  std::unordered_map<std::string, Entry, SampledHash> maps_;
 };
 
 }  // namespace spectral_conformal

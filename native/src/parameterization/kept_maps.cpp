@@ -1,9 +1,21 @@
 #include "spectral_conformal/kept_maps.h"
 
 #include <algorithm>
+#include <functional>
+#include <string>
 #include <utility>
 
 namespace spectral_conformal {
+
+std::size_t KeptMaps::SampledHash::operator()(const std::string& description) const {
+  constexpr std::size_t n_samples = 64;
+  constexpr std::size_t sample_size = 64;
+  if (description.size() <= n_samples * sample_size) return std::hash<std::string>()(description);
+  std::string samples = std::to_string(description.size());
+  const std::size_t last = description.size() - sample_size;
+  for (std::size_t k = 0; k < n_samples; ++k) samples.append(description, last / (n_samples - 1) * k, sample_size);
+  return std::hash<std::string>()(samples);
+}
 
 const KeptMaps::Map* KeptMaps::find(const std::string& description) const {
   const auto found = maps_.find(description);

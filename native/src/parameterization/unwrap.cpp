@@ -107,8 +107,7 @@ class ChartUnwrapper {
       if (!solver_) {
         const Positions positions = chart_.positions(cut_.mesh);
         const std::vector<TriangleMetric> metric = chart_metric(cut_.mesh, chart_, metric_);
-        if (kept && take(*kept, describe_chart(chart_, positions, metric, patch_, options, pins_), result))
-          return result;
+        if (kept && take(*kept, positions, metric, options, result)) return result;
         solver_ = std::make_unique<Solver>(chart_, positions, patch_, metric);
       }
       solve(options, progress, result);
@@ -153,9 +152,10 @@ class ChartUnwrapper {
   }
 
   /// Takes the map of a chart from those that are kept; false where there is none.
-  static bool take(const KeptMaps& kept, std::string description, Solution& result) {
+  bool take(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
+            const SolveOptions& options, Solution& result) const {
     Stopwatch watch(result.timings);
-    result.description = std::move(description);
+    result.description = describe_chart(chart_, positions, metric, patch_, options, pins_);
     const KeptMaps::Map* map = kept.find(result.description);
     if (map) {
       result.report = map->report;

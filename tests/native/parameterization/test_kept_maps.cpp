@@ -27,6 +27,19 @@ TEST_CASE("a map is found by its whole description") {
   CHECK_FALSE(kept.find(std::string("one\0", 4)));
 }
 
+TEST_CASE("long descriptions that differ anywhere are different") {
+  KeptMaps kept(10'000'000);
+  std::string description(20'000, 'x');
+  kept.keep(std::string(description), map_of(3, 1));
+  for (std::size_t place = 0; place < description.size(); place += 97) {
+    std::string other = description;
+    other[place] = 'y';
+    CHECK_FALSE(kept.find(other));
+  }
+  CHECK(kept.find(description));
+  CHECK_FALSE(kept.find(description + 'x'));
+}
+
 TEST_CASE("what was kept stays as it was, and counts once") {
   KeptMaps kept(1'000'000);
   kept.keep("one", map_of(3, 1));
