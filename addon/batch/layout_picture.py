@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -14,8 +14,8 @@ from ..core.color_ramp import GOOD_TO_BAD
 _BACKGROUND = (30, 30, 34)
 _TILE = (44, 44, 50)
 _INK = (225, 225, 225)
-# Pixels tested at once: bounds the memory.
-_BLOCK = 1 << 22
+# Rows or pixels of triangles at once: bounds the memory.
+_BLOCK = 1 << 21
 
 # Glyphs of 5 x 7 pixels, a row per number, the highest bit to the left.
 _GLYPHS = {
@@ -75,47 +75,64 @@ def _colors(values: np.ndarray, low: float, high: float) -> np.ndarray:
 def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
     """Colour the pixels whose centres lie in triangles, (T, 3, 2) in pixels, the later over the earlier."""
     size = len(picture)
-    first = np.clip(np.floor(points.min(axis=1)).astype(int), 0, size - 1)
-    last = np.clip(np.floor(points.max(axis=1)).astype(int), 0, size - 1)
-    # Triangles of about one size together, in windows of that size.
-    level = np.ceil(np.log2((last - first).max(axis=1, initial=0) + 1.0)).astype(int)
+    # Of equal places the last value that is assigned stays.
     owner = np.full(size * size, -1)
-    for exponent in np.unique(level):
-        side = 1 << int(exponent)
-        members = np.flatnonzero(level == exponent)
-        step = max(1, _BLOCK // (side * side))
-        for start in range(0, len(members), step):
-            _claim(owner, size, points, members[start : start + step], first, side)
+    low, high = points.min(axis=1), points.max(axis=1)
+    first, end = _centres(low[:, 1], high[:, 1], size)
+    for triangles in _parts(end - first):
+        row, chosen = _ranges(first[triangles], end[triangles])
+        left, right = _spans(points[triangles][chosen], row + 0.5)
+        left, right = _centres(left, right, size)
+        for spans in _parts(right - left):
+            column, span = _ranges(left[spans], right[spans])
+            owner[row[spans][span] * size + column] = triangles.start + chosen[spans][span]
+    # A triangle within one pixel has that, or many of them would be seen nowhere.
+    places = np.clip(np.floor(low), 0, size - 1).astype(int)
+    small = np.flatnonzero((places == np.clip(np.floor(high), 0, size - 1)).all(axis=1))
+    owner_of_small = np.full(size * size, -1)
+    owner_of_small[places[small, 1] * size + places[small, 0]] = small
+    np.maximum(owner, owner_of_small, out=owner)
     flat = picture.reshape(-1, 3)
     flat[owner >= 0] = colors[owner[owner >= 0]]
 
 
-def _claim(owner: np.ndarray, size: int, points: np.ndarray, members: np.ndarray, first: np.ndarray, side: int) -> None:
-    """Enter the greatest index of the triangles `members` that cover a pixel, of windows of `side`, into `owner`."""
-    x, y = (first[members, axis][:, None] for axis in (0, 1))
-    covered = np.ones((len(members), 1), dtype=bool)
-    # A triangle smaller than a pixel has that pixel, or many of them would be seen nowhere.
-    if side > 1:
-        x, y = x + np.tile(np.arange(side), side), y + np.repeat(np.arange(side), side)
-        covered = (x < size) & (y < size) & _contains(points[members], x, y)
-    chosen, _ = np.nonzero(covered)
-    # Of equal places the last value stays, and that is the greatest.
-    block = np.full(len(owner), -1)
-    block[(y * size + x)[covered]] = members[chosen]
-    np.maximum(owner, block, out=owner)
+def _centres(low: np.ndarray, high: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the first of the pixels of a line whose centres lie from `low` to `high`, and the one after the last."""
+    first = np.clip(np.ceil(low - 0.5), 0, size).astype(int)
+    return first, np.maximum(first, np.clip(np.floor(high + 0.5), 0, size).astype(int))
 
 
-def _contains(corners: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return whether triangles (T, 3, 2) of either orientation contain the centres of pixels, (T, P) each."""
-    low, high = None, None
+def _parts(counts: np.ndarray) -> Iterator[slice]:
+    """Yield slices of things that have so many parts, few enough in each to be looked at together."""
+    ends = np.cumsum(counts)
+    start = 0
+    while start < len(counts):
+        before = ends[start - 1] if start else 0
+        end = max(start + 1, int(np.searchsorted(ends, before + _BLOCK, side="right")))
+        yield slice(start, end)
+        start = end
+
+
+def _ranges(first: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return all numbers of the ranges from `first` to before `end`, one after the other, and the range of each."""
+    counts = end - first
+    owner = np.repeat(np.arange(len(counts)), counts)
+    within = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return first[owner] + within, owner
+
+
+def _spans(corners: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return from where to where horizontal lines, at `y` (N,), run in triangles, (N, 3, 2)."""
+    left, right = np.full(len(y), np.inf), np.full(len(y), -np.inf)
     for k in range(3):
-        start, edge = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
-        # The signed area over the edge, without a temporary array for each of its terms.
-        side = (y + (0.5 - start[:, 1:])) * edge[:, :1]
-        side -= (x + (0.5 - start[:, :1])) * edge[:, 1:]
-        low = side if low is None else np.minimum(low, side)
-        high = side if high is None else np.maximum(high, side)
-    return (low >= 0.0) | (high <= 0.0)
+        (start_x, start_y), (end_x, end_y) = corners[:, k].T, corners[:, (k + 1) % 3].T
+        with np.errstate(divide="ignore", invalid="ignore"):
+            x = start_x + (y - start_y) / (end_y - start_y) * (end_x - start_x)
+        # Level edges are between two others that end where they do.
+        crosses = (np.minimum(start_y, end_y) <= y) & (y <= np.maximum(start_y, end_y)) & (start_y != end_y)
+        np.minimum(left, x, out=left, where=crosses)
+        np.maximum(right, x, out=right, where=crosses)
+    return left, right
 
 
 def _legend(width: int, low: float, high: float) -> np.ndarray:

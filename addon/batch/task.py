@@ -21,7 +21,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core import native, seam_suggestion, texts
+from ..core import kept_maps, native, seam_suggestion, texts
 from ..core.errors import ReadableError
 from ..core.map_view import MapView, automatic_range, weighted_percentiles
 from ..core.solve import Solution
@@ -250,6 +250,8 @@ def _unwrap(settings: BatchSettings, phases: _Phases, report: dict[str, Any]) ->
         solutions = steps.solve(edit_meshes, operator)
     with phases("pack"):
         outcome = steps.write(bpy.context, operator, edit_meshes, solutions)
+    # The next asset has others.
+    kept_maps.forget()
     _note_solutions(edit_meshes, solutions, report)
     report["warnings"] += [text for level, text in steps.reports(outcome, 0.0) if level == "WARNING"]
     if not outcome.summary.solved:

@@ -53,6 +53,9 @@ def main():
     print(f"{wall:.1f} s by the clock, {wall * options.jobs / len(reports):.3f} job-seconds per asset")
     print(f"{processor / len(reports):.3f} processor-seconds per asset, {1e3 * processor / faces:.4f} per 1,000 faces")
     print(f"{wall * options.jobs / direct:.3f} times reading, seams, solving, packing and writing alone")
+    names = dict.fromkeys(name for report in worked for name in report["seconds"])
+    means = (f"{name} {sum(r['seconds'].get(name, 0.0) for r in worked) / len(worked):.3f}" for name in names)
+    print(f"seconds per asset: {', '.join(means)}")
     print(f"{max(report['peak_memory'] for report in worked) / 2**20:.0f} MiB at most in a worker")
     print(f"a million: {wall * options.jobs / len(reports) * 1e6 / 3600:.0f} core-hours")
 
