@@ -1,51 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blenders with a window on a virtual screen, driven by mouse and keyboard; screenshots in build/interface/."""
 
-import contextlib
 import os
-import shutil
-import subprocess
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from tests.blender import blenders
+from tests.blender import blenders, virtual_screen
 
 HERE = Path(__file__).resolve().parent
 SCREENSHOTS = HERE.parents[1] / "build" / "interface"
-SIZE = (1600, 1000)
 SECONDS = 900  # ends what hangs; the longest driver has taken 130 s beside other work
 DRIVERS = sorted(path.name for path in HERE.glob("drive_*.py"))
-
-
-@contextlib.contextmanager
-def display():
-    """A virtual screen; yields its name."""
-    for program, package in {"Xvfb": "xvfb", "xdotool": "xdotool", "import": "imagemagick"}.items():
-        assert shutil.which(program), f"{program} is missing: apt-get install {package} (or run build_addon.py test)"
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "+extension", "GLX"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-    try:
-        yield f":{server.stdout.readline().strip()}"
-    finally:
-        server.terminate()
-        server.wait()
 
 
 def drive(driver, blender):
     """Run a driver in a Blender; return what is wrong, an empty text where nothing is."""
     screenshots = SCREENSHOTS / blender.name
     screenshots.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder, display() as screen:
+    with tempfile.TemporaryDirectory() as folder, virtual_screen.display() as screen:
         verdict = Path(folder, "verdict.txt")
-        environ = {**blender.make_profile(Path(folder)), "DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
-        options = ["--factory-startup", "--python-use-system-env", "--window-geometry", "0", "0", *SIZE]
+        environ = {**blender.make_profile(Path(folder)), **screen}
+        options = ["--factory-startup", "--python-use-system-env", "--window-geometry", "0", "0", *virtual_screen.SIZE]
         options += ["--python", HERE / driver, "--", screenshots, verdict]
         command = blender.command(*options)
         code, printed = blenders.run(command, environ=environ, folder=Path(folder), seconds=SECONDS)
