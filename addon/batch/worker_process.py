@@ -124,7 +124,10 @@ def _link(path: Path, link: Path) -> None:
 
 
 class WorkerProcess:
-    """One worker at a time, replaced when it has died, was ended, or has seen enough files."""
+    """One worker at a time, replaced when it has died, was ended, or has seen enough files.
+
+    Another thread may close it while it runs a request, which then fails.
+    """
 
     def __init__(self, launcher: Launcher, name: object, limits: Limits) -> None:
         """Start nothing yet; `name` tells the log files apart."""
@@ -157,17 +160,22 @@ class WorkerProcess:
         return report
 
     def _attempt(self, line: str) -> dict[str, Any]:
-        if self._process is None or self._process.poll() is not None or self._served >= self._limits.files:
+        process = self._process
+        if process is None or process.poll() is not None or self._served >= self._limits.files:
             self.close()
             report = self._start()
             if report["status"] != worker.READY:
                 return report
+            process = self._process
         self._served += 1
         try:
-            self._process.stdin.write(f"{line}\n")
-            self._process.stdin.flush()
-        except OSError:
-            return self._failure("crash", f"the worker had ended{self._exit_code()}")
+            if process is None:
+                raise BrokenPipeError
+            process.stdin.write(f"{line}\n")
+            process.stdin.flush()
+        except (OSError, ValueError):
+            # Ended, or closed by another thread.
+            return self._failure("crash", f"the worker had ended{_exit_code(process) if process else ''}")
         return self._await(self._limits.seconds)
 
     def _start(self) -> dict[str, Any]:
@@ -201,50 +209,55 @@ class WorkerProcess:
         """Return the next report, or that of what became of the worker."""
         end = None if seconds is None else time.monotonic() + seconds
         limit = self._limits.memory
+        process = self._process
+        if process is None:
+            return self._failure("crash", "the worker was ended")
         while True:
             try:
                 report = self._reports.get(timeout=_POLL_SECONDS)
             except queue.Empty:
-                held = memory.resident(self._process.pid) if limit else None
+                held = memory.resident(process.pid) if limit else None
                 if held is not None and held > limit:
-                    self._kill()
+                    _kill(process)
                     return self._failure("memory", f"more than {limit >> 20} MiB of memory", limit=limit)
                 if end is not None and time.monotonic() > end:
-                    self._kill()
+                    _kill(process)
                     return self._failure("time", f"more than {seconds:g} seconds")
                 continue
             if report is not None:
                 return report
-            self._process.wait()
-            return self._failure("crash", f"the worker ended{self._exit_code()}")
+            process.wait()
+            return self._failure("crash", f"the worker ended{_exit_code(process)}")
 
     def _failure(self, kind: str, message: str, **further: object) -> dict[str, Any]:
         last = self._last_lines()
         self.close()
         return {"status": "failed", "failure": {"kind": kind, "message": message, "log": last, **further}}
 
-    def _exit_code(self) -> str:
-        code = self._process.poll() if self._process else None
-        return "" if code is None else f" by signal {-code}" if code < 0 else f" with exit code {code}"
-
     def _last_lines(self) -> list[str]:
         lines = self._log.read_text(encoding="utf-8", errors="replace").splitlines() if self._log.exists() else []
         return lines[-_LOG_LINES:]
 
-    def _kill(self) -> None:
-        self._process.kill()
-        self._process.wait()
-
     def close(self) -> None:
         """End the worker, if there is one."""
-        if self._process is None:
+        process, self._process = self._process, None
+        if process is None:
             return
-        self._kill()
-        for stream in (self._process.stdin, self._process.stdout):
+        _kill(process)
+        for stream in (process.stdin, process.stdout):
             # What was still to be written goes nowhere any more.
             with contextlib.suppress(OSError):
                 stream.close()
-        self._process = None
+
+
+def _kill(process: subprocess.Popen[str]) -> None:
+    process.kill()
+    process.wait()
+
+
+def _exit_code(process: subprocess.Popen[str]) -> str:
+    code = process.poll()
+    return "" if code is None else f" by signal {-code}" if code < 0 else f" with exit code {code}"
 
 
 def _collect(process: subprocess.Popen[str], reports: queue.Queue[dict[str, Any] | None]) -> None:

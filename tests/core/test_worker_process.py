@@ -2,6 +2,8 @@
 """Worker processes of the batch, here of a program without Blender: limits, retries, recycling."""
 
 import sys
+import threading
+import time
 
 import pytest
 from spectral_unwrap.batch import pool
@@ -62,6 +64,28 @@ def test_what_ends_a_worker_is_told_after_another_try(worker, word, kind):
         assert report["failure"]["log"] == ["last words", "last words"]
         assert "signal 6" in report["failure"]["message"]
     assert worker.run("next")["status"] == "unwrapped"
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.001, 0.01, 0.3])
+def test_another_thread_may_close_a_worker_that_runs_a_request(launcher, delay):
+    made = WorkerProcess(launcher, 0, Limits(seconds=30.0, memory=200 << 20, retries=0))
+    found = []
+
+    def run():
+        try:
+            found.append(made.run("hang")["failure"]["kind"])
+        except StartError:
+            # It was not ready yet.
+            found.append("crash")
+
+    running = threading.Thread(target=run)
+    running.start()
+    while made.pid is None:
+        time.sleep(0.001)
+    time.sleep(delay)
+    made.close()
+    running.join(20.0)
+    assert found == ["crash"]
 
 
 def test_what_is_wrong_with_an_asset_is_not_tried_again(worker):
