@@ -8,6 +8,7 @@ import fractions
 import inspect
 
 import numpy as np
+import spectral_conformal as sc
 
 
 class Interrupted(Exception):
@@ -102,6 +103,13 @@ def progress(rng, mesh):
     return listen
 
 
+class Kept(sc.KeptMaps):
+    """Maps to keep, which look alike in the description of a case whatever they hold."""
+
+    def __repr__(self):
+        return "KeptMaps()"
+
+
 PARAMETERS = {
     "vertices": lambda rng, mesh: mesh.vertices,
     "triangles": lambda rng, mesh: mesh.triangles,
@@ -131,6 +139,7 @@ PARAMETERS = {
     "area_blend": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),
     "tolerance": power_of_ten(-14, -3),
     "progress": progress,
+    "kept_maps": lambda rng, mesh: Kept(int(rng.integers(0, 3))),
     "max_length": power_of_ten(-2, 2),
     "scale_limit": lambda rng, mesh: 1 + float(10 ** rng.uniform(-2, 1)),
     "qc_limit": lambda rng, mesh: 1 + float(10 ** rng.uniform(-3, 0)),
