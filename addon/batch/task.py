@@ -249,7 +249,7 @@ def _unwrap(settings: BatchSettings, phases: _Phases, report: dict[str, Any]) ->
             raise AssetError("All faces are hidden.")
         solutions = steps.solve(edit_meshes, operator)
     with phases("pack"):
-        outcome = steps.write(bpy.context, operator, edit_meshes, solutions)
+        outcome = steps.write(operator, edit_meshes, solutions)
     # The next asset has others.
     kept_maps.forget()
     _note_solutions(edit_meshes, solutions, report)

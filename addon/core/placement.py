@@ -11,12 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import native
 from .joined import numbered_together
 from .mesh import PolygonMesh, next_corner
+from .options import Margin
+from .packing import pack
 from .solve import Solution
 
-# Gap between charts side by side, relative to the mean chart size: enough for single precision and for Blender's
-# packer, which joins faces whose coordinates agree along a common edge.
+# Gap between charts that are placed without a margin, relative to the mean chart size.
 GAP = 0.1
 # Lengths within 1 % count as equal, so that rounding does not decide how the chart of a square is turned.
 _EQUAL = 1.01
@@ -73,11 +75,13 @@ def _put(uv: np.ndarray, corners: np.ndarray, points: np.ndarray) -> None:
     uv.view(np.complex128)[corners, 0] = points.view(np.complex128)[:, 0]
 
 
-def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> np.ndarray:
-    """Lay the charts out on shelves inside the unit square, at a common scale, their bounding boxes apart.
+def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None) -> np.ndarray:
+    """Pack the charts' bounding boxes into the unit square, at a common scale, with the margin or a gap between them.
 
-    With `may_turn`, charts higher than wide are laid on their side, by a quarter turn clockwise. This is no packing: it
-    gives Blender's packer islands of the right relative size that do not touch. Returns a copy of `uv`, (C, 2) float64.
+    Returns a copy of `uv`, (C, 2) float64.
+
+    Raises:
+        MarginError: the margin is not finite.
     """
     result = np.array(uv, dtype=np.float64, order="C")
     charts = _group(chart)
@@ -85,43 +89,36 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, may_turn: bool = False) -> n
         return result
     points = charts.points(result)
     low, high = charts.bounds(points)
-    if may_turn:
-        size = high - low
-        quarters = np.where(size[:, 1] > size[:, 0] * _EQUAL, 3, 0)
-        points = _turned(points, charts.spread(quarters))
-        low, high = charts.bounds(points)
     # Any magnitude is possible; dividing first keeps squares and sums in range.
     unit = (high - low).max()
     unit = unit if unit > 0.0 else 1.0
     size = (high - low) / unit
-    gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
-    position, side = _shelves(size + gap)
-    offset = (position + gap / 2.0) / side
+    if margin is None:
+        gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
+        position, side = native.spectral_conformal().pack_boxes(size + gap)
+        position += gap / 2.0
+    else:
+        position, side = pack(size, margin)
+    side = side if side > 0.0 else 1.0
     points -= charts.spread(low)
     points /= unit * side
-    points += charts.spread(offset)
+    points += charts.spread(position / side)
     _put(result, charts.corners, points)
     return result
 
 
-def _shelves(size: np.ndarray) -> tuple[np.ndarray, float]:
-    """Arrange boxes of `size` (K, 2) in rows, tallest first.
-
-    Returns their lower corners (K, 2) and the side of the square, at the origin, that holds all of them.
-    """
-    width = max(size[:, 0].max(), np.sqrt(size.prod(axis=1).sum()))
-    position = np.empty_like(size)
-    x = y = row_height = 0.0
-    order = np.argsort(-size[:, 1], kind="stable")
-    positions = []
-    for box_width, box_height in size[order].tolist():
-        if x > 0.0 and x + box_width > width:
-            x, y, row_height = 0.0, y + row_height, 0.0
-        positions.append((x, y))
-        x += box_width
-        row_height = max(row_height, box_height)
-    position[order] = positions
-    return position, max(width, y + row_height)
+def lying(uv: np.ndarray, chart: np.ndarray) -> np.ndarray:
+    """Turn charts higher than wide by a quarter turn clockwise; returns a copy of `uv`, (C, 2) float64."""
+    result = np.array(uv, dtype=np.float64, order="C")
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result
+    points = charts.points(result)
+    low, high = charts.bounds(points)
+    size = high - low
+    quarters = np.where(size[:, 1] > size[:, 0] * _EQUAL, 3, 0)
+    _put(result, charts.corners, _turned(points, charts.spread(quarters)))
+    return result
 
 
 def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -284,14 +281,22 @@ class Placement:
 
 
 def place(
-    meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], keep_in_place: bool, may_turn: bool = False
+    meshes: Sequence[PolygonMesh],
+    solutions: Sequence[Solution],
+    keep_in_place: bool,
+    may_turn: bool = False,
+    margin: Margin | None = None,
 ) -> Placement:
     """Place the solved charts of all meshes in one UV plane.
 
     Charts with pins stay where the solver put them; one with a single pin is scaled about it to its former area. With
     `keep_in_place` every other chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
-    charts without a former extent, the charts stand side by side in the unit square, to a common scale, each as the
-    solver turned it: upright. With `may_turn` those that are higher than wide lie.
+    charts without a former extent, the charts are packed into the unit square, to a common scale, each as the solver
+    turned it: upright. With `may_turn` those that are higher than wide lie. Without a `margin` there are gaps between
+    them.
+
+    Raises:
+        MarginError: the margin is not finite.
     """
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
@@ -305,6 +310,9 @@ def place(
         uv, kept = into_former_bounds(uv, former, chart)
         without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
         chart = np.where(kept, -1, chart)
-    uv = side_by_side(uv, chart, may_turn)
-    placed = np.split(uv, np.cumsum(corner_counts)[:-1])
-    return Placement([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, placed)], without_bounds)
+    if may_turn:
+        uv = lying(uv, chart)
+    # The tile is a square in the coordinates of each mesh's image.
+    parts = zip(meshes, np.split(uv, np.cumsum(corner_counts)[:-1]))
+    uv = side_by_side(np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in parts]), chart, margin)
+    return Placement(np.split(uv, np.cumsum(corner_counts)[:-1]), without_bounds)

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The selection of the meshes in edit mode."""
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import compress
 
@@ -74,25 +73,6 @@ def _stuck_corners(bm: BMesh, layer: BMLayerItem, faces: Sequence[bool], sticky:
     if sticky != "DISABLED":
         keys.update(key(loop) for face, flag in zip(bm.faces, faces) if flag for loop in face.loops)
     return [flag or key(loop) in keys for face, flag in zip(bm.faces, faces) for loop in face.loops]
-
-
-@contextmanager
-def visible_faces_selected(bm: BMesh) -> Iterator[None]:
-    """Within, all visible faces are selected, because Blender packs no others."""
-    kinds = (bm.verts, bm.edges, bm.faces)
-    selected = [[element for element in elements if element.select] for elements in kinds]
-    for face in bm.faces:
-        if not face.hide:
-            face.select = True
-    try:
-        yield
-    finally:
-        for elements in reversed(kinds):
-            for element in elements:
-                element.select = False
-        for elements in selected:
-            for element in elements:
-                element.select = True
 
 
 @dataclass(frozen=True)

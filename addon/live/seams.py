@@ -2,14 +2,11 @@
 """The meshes in edit mode are unwrapped again after seams were marked or cleared."""
 
 from collections.abc import Mapping
-from contextlib import ExitStack
 
-import bmesh
 import bpy
 import numpy as np
 
 from ..core.charts import faces_of_charts_at
-from ..edit_mesh import selection
 from ..unwrapping import steps
 from ..unwrapping.last_settings import last_settings
 
@@ -21,7 +18,7 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
-        PackingError: Blender's packer did not run; nothing changed.
+        MarginError: the margin is not finite; nothing changed.
     """
     settings = last_settings()
     edit_meshes = steps.read(context, settings, all_visible=True)
@@ -31,8 +28,4 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
             visible = edit_mesh.polygons.selected_faces
             visible &= faces_of_charts_at(edit_mesh.polygons, visible, changed[edit_mesh.mesh])
     solutions = steps.solve(edit_meshes, settings)
-    with ExitStack() as stack:
-        for edit_object in context.objects_in_mode_unique_data:
-            stack.enter_context(selection.visible_faces_selected(bmesh.from_edit_mesh(edit_object.data)))
-        outcome = steps.write(context, settings, edit_meshes, solutions)
-    return outcome.summary.solved > 0
+    return steps.write(settings, edit_meshes, solutions).summary.solved > 0

@@ -150,7 +150,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         """Mark the cuts, write the unwrap that began at `start`, if there is one, and report both.
 
         Raises:
-            PackingError: Blender's packer did not run; nothing changed.
+            MarginError: the margin is not finite; nothing changed.
         """
         outcome = None
         if solutions is None:

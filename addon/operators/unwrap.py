@@ -46,7 +46,7 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
-        outcome = steps.write(done.context, settings, edit_meshes, done.result, following.not_following)
+        outcome = steps.write(settings, edit_meshes, done.result, following.not_following)
         reports = steps.reports(outcome, time.perf_counter() - start)
         island_list.show(edit_meshes, done.result, reports)
         for level, text in reports:

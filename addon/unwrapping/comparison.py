@@ -63,7 +63,7 @@ def compare(
 
         def ours() -> None:
             if any(solution.solved_corners.any() for solution in solutions):
-                steps.write_maps(context, settings, edit_meshes, solutions)
+                steps.write_maps(settings, edit_meshes, solutions)
 
         def theirs(method: str = method) -> None:
             bpy.ops.uv.unwrap(

@@ -13,7 +13,6 @@ from ..core.mesh import PolygonMesh
 from ..core.options import Settings
 from ..core.seam_suggestion import Suggestion
 from ..core.solve import Solution
-from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh
 from . import steps
 from .steps import Outcome, WhileWriting
@@ -107,17 +106,12 @@ def write(
     """Mark the cuts and write the solutions of what `read_cut_open` returned for them.
 
     Raises:
-        PackingError: Blender's packer did not run; nothing changed.
+        MarginError: the margin is not finite; nothing changed.
     """
     mark(target, cuts)
     try:
         edit_meshes = steps.read(context, target.settings, target.all_visible)
-        with ExitStack() as stack:
-            # Blender packs no other faces than selected ones.
-            for edit_mesh in edit_meshes if target.all_visible else ():
-                bm = bmesh.from_edit_mesh(edit_mesh.mesh)
-                stack.enter_context(selection.visible_faces_selected(bm))
-            return steps.write(context, target.settings, edit_meshes, solutions, while_writing)
+        return steps.write(target.settings, edit_meshes, solutions, while_writing)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
         mark(target, cuts, seam=False)

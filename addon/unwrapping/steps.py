@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Unwrap the meshes in edit mode: read, solve, place, write, pack."""
+"""Unwrap the meshes in edit mode: read, solve, place and pack, write."""
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
@@ -9,14 +9,14 @@ import bpy
 import numpy as np
 
 from ..core import kept_maps, obstacles, texts
-from ..core.options import Margin, Settings
+from ..core.options import Settings
 from ..core.placement import place
 from ..core.progress import Progress
 from ..core.solve import Solution, solve_all, too_small_faces
 from ..core.summary import Summary, summarize
 from ..core.translation import translate
-from ..edit_mesh import packing, selection
-from ..edit_mesh.read import EditMesh, read_mesh, read_uv
+from ..edit_mesh import selection
+from ..edit_mesh.read import EditMesh, read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_uv
 from . import last_result
 
@@ -65,7 +65,6 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
 
 
 def write(
-    context: bpy.types.Context,
     settings: Settings,
     edit_meshes: Sequence[EditMesh],
     solutions: Sequence[Solution],
@@ -76,12 +75,12 @@ def write(
     `while_writing` makes a context manager that is entered for the time in which UVs change.
 
     Raises:
-        PackingError: Blender's packer did not run; nothing changed.
+        MarginError: the margin is not finite; nothing changed.
     """
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
     without_bounds, left_tile = 0, False
     if summary.solved:
-        without_bounds, left_tile = write_maps(context, settings, edit_meshes, solutions, while_writing)
+        without_bounds, left_tile = write_maps(settings, edit_meshes, solutions, while_writing)
     last_result.remember(edit_meshes, solutions)
     warnings = _warnings(edit_meshes, settings, solutions)
     return Outcome(
@@ -93,7 +92,6 @@ def write(
 
 
 def write_maps(
-    context: bpy.types.Context,
     settings: Settings,
     edit_meshes: Sequence[EditMesh],
     solutions: Sequence[Solution],
@@ -104,18 +102,19 @@ def write_maps(
     Returns how many could not be kept in place, and whether packing had to leave the tile.
 
     Raises:
-        PackingError: Blender's packer did not run; nothing changed.
+        MarginError: the margin is not finite; nothing changed.
     """
     polygons = [edit_mesh.polygons for edit_mesh in edit_meshes]
-    placement = place(polygons, solutions, settings.keep_in_place, settings.turn_to_pack)
+    margin = None if settings.keep_in_place else settings.margin
+    placement = place(polygons, solutions, settings.keep_in_place, settings.turn_to_pack, margin)
     solved = [
         _Solved(edit_mesh, uv, solution)
         for edit_mesh, uv, solution in zip(edit_meshes, placement.uv, solutions)
         if solution.solved_corners.any()
     ]
+    left_tile = margin is not None and _keep_off(_failed_boxes(edit_meshes, solutions), solved)
     with while_writing():
-        margin = None if settings.keep_in_place else settings.margin
-        left_tile = _write(context, solved, _failed_boxes(edit_meshes, solutions), margin)
+        _write(solved)
     return placement.without_bounds, left_tile
 
 
@@ -214,20 +213,12 @@ class _Solved:
         self.is_movable = bool(self.movable_faces.any())
 
 
-def _write(
-    context: bpy.types.Context, solved: Sequence[_Solved], staying: Sequence[np.ndarray], margin: Margin | None
-) -> bool:
-    """Write the UVs at the solved corners, and pack the charts without pins unless `margin` is None.
-
-    `staying` are bounding boxes of faces to keep off. Returns whether the charts had to leave the tile for that.
-    """
+def _write(solved: Sequence[_Solved]) -> None:
+    """Write the UVs at the solved corners; where that is interrupted, everything is as before."""
     added = [item.edit_mesh.mesh for item in solved if ensure_uv_map(item.edit_mesh.mesh)]
     try:
         for item in solved:
-            # Blender evaluates every mesh that it is told of before it packs, and again afterwards.
-            is_packed = margin is not None and item.is_movable
-            write_uv(item.edit_mesh, item.uv, item.corners, update=not is_packed)
-        return margin is not None and _pack(context, solved, staying, margin)
+            write_uv(item.edit_mesh, item.uv, item.corners)
     except BaseException:
         # Also where a script is interrupted from the keyboard.
         for item in solved:
@@ -238,20 +229,19 @@ def _write(
         raise
 
 
-def _pack(context: bpy.types.Context, solved: Sequence[_Solved], staying: Sequence[np.ndarray], margin: Margin) -> bool:
-    """Pack the charts without pins, off the faces that stay; return whether they had to leave the tile for that."""
+def _keep_off(staying: Sequence[np.ndarray], solved: Sequence[_Solved]) -> bool:
+    """Move the charts without pins off the faces that stay, given their bounding boxes.
+
+    Returns whether that took them out of the tile.
+    """
     movable = [item for item in solved if item.is_movable]
-    if not movable:
+    if not (movable and any(map(len, staying))):
         return False
-    packing.pack(context, [item.edit_mesh for item in movable], [item.movable_faces for item in movable], margin)
-    if not any(map(len, staying)):
-        return False
-    maps = [read_uv(item.edit_mesh) for item in movable]
-    boxes = [obstacles.face_boxes(m.edit_mesh.polygons, uv, m.movable_faces) for m, uv in zip(movable, maps)]
+    boxes = [obstacles.face_boxes(item.edit_mesh.polygons, item.uv, item.movable_faces) for item in movable]
     scale, offset = obstacles.place_beside(np.concatenate(boxes), staying)
     if scale != 1.0 or offset.any():
-        for item, uv in zip(movable, maps):
-            write_uv(item.edit_mesh, uv * scale + offset, item.movable_corners)
+        for item in movable:
+            item.uv[item.movable_corners] = item.uv[item.movable_corners] * scale + offset
     return bool(offset.max() >= 1.0)
 
 

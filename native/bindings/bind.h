@@ -15,5 +15,6 @@ void bind_quality(pybind11::module_& module);
 void bind_metric(pybind11::module_& module);
 void bind_seams(pybind11::module_& module);
 void bind_threads(pybind11::module_& module);
+void bind_packing(pybind11::module_& module);
 
 }  // namespace spectral_conformal::python

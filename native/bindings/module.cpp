@@ -13,4 +13,5 @@ PYBIND11_MODULE(_native, module) {
   bind_metric(module);
   bind_seams(module);
   bind_threads(module);
+  bind_packing(module);
 }

@@ -33,7 +33,7 @@ PARTS = ("table", "meshes", "growth")
 VERTICES_OF_KINDS = 20_000
 GROWTH = (1_000, 4_000, 16_000, 44_100, 134_000, 535_000)
 OURS = "spectral"
-PHASES = ("read", "native", "place", "write", "pack", "rest", "undo")
+PHASES = ("read", "native", "place", "write", "rest", "undo")
 
 
 class Report:

@@ -119,14 +119,12 @@ class _Phases:
 
     def __init__(self) -> None:
         steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
-        packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
         compiled = importlib.import_module("spectral_unwrap.core.native").spectral_conformal()._native
         self._watches = {
             "read": runs.Stopwatch(steps, "read"),
             "native": _NativeStopwatch(compiled, "unwrap"),
             "place": runs.Stopwatch(steps, "place"),
             "write": runs.Stopwatch(steps, "write_uv"),
-            "pack": runs.Stopwatch(packing, "pack"),
         }
 
     def begin(self) -> None:

@@ -27,6 +27,7 @@ from ._kept_maps import KeptMaps
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, SolveError
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
+from ._packing import pack_boxes
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, face_triangles, map_defects
 from ._results import Chart, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
@@ -64,6 +65,7 @@ __all__ = [
     "map_defects",
     "metric_from_direction",
     "metric_from_uv",
+    "pack_boxes",
     "parameterize",
     "suggest_cuts",
     "suggest_seams",

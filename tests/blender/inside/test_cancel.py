@@ -16,7 +16,7 @@ core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion"
 kept_maps = importlib.import_module("spectral_unwrap.core.kept_maps")
 adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
-packing = importlib.import_module("spectral_unwrap.edit_mesh.packing")
+placement = importlib.import_module("spectral_unwrap.core.placement")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 worker = importlib.import_module("spectral_unwrap.core.worker")
@@ -75,7 +75,7 @@ class Started:
         self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
 
     def write(self):
-        return steps.write(bpy.context, self.settings, self.edit_meshes, self.worker.result())
+        return steps.write(self.settings, self.edit_meshes, self.worker.result())
 
 
 SETTINGS = {
@@ -166,15 +166,15 @@ def _ends_without_interrupt(call, calls, at):
 @pytest.mark.parametrize("operator", ["spectral_unwrap", "spectral_suggest_seams"])
 def test_interrupted_while_packing(operator, packed, uv_map, monkeypatch):
     PREPARE[operator](uv_map)
-    run_packer = packing._run_packer
+    pack = placement.pack
 
-    def interrupted(margin):
+    def interrupted(size, margin):
         if packed:
-            run_packer(margin)
+            pack(size, margin)
         raise KeyboardInterrupt
 
     before = everything()
-    monkeypatch.setattr(packing, "_run_packer", interrupted)
+    monkeypatch.setattr(placement, "pack", interrupted)
     with pytest.raises((KeyboardInterrupt, RuntimeError), match="KeyboardInterrupt|^$"):
         getattr(bpy.ops.uv, operator)()
     assert digest.changes(before, everything()) == []

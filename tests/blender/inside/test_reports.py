@@ -2,7 +2,6 @@
 """What the operator tells the user."""
 
 import re
-import sys
 
 import bpy
 import numpy as np
@@ -57,17 +56,12 @@ def test_repairs_and_fallbacks_are_reported(reports):
     assert text.startswith("1 island needed a repair or fallback: 1 face wound the other way")
 
 
-def test_packer_that_does_not_run_is_an_error_and_changes_nothing(monkeypatch):
+def test_a_margin_that_is_no_number_is_an_error_and_changes_nothing():
     grid, bare = scenes.grid(2, 2), scenes.grid(2, 2, name="Bare", uv_map=False)
     scenes.edit(grid, bare)
     before, state = scenes.read_uv(grid), scenes.state(grid)
-    # With no UV selected, Blender's packer refuses.
-    compatibility = sys.modules["spectral_unwrap.compatibility"]
-    monkeypatch.setattr(compatibility, "can_pack_by_mesh_selection", lambda _: False)
-    select = compatibility.select_uv_of_faces
-    monkeypatch.setattr(compatibility, "select_uv_of_faces", lambda bm, layer, _: select(bm, layer, [False] * 4))
-    with pytest.raises(RuntimeError, match="Pack Islands did not run: it was cancelled; choose Keep in Place"):
-        bpy.ops.uv.spectral_unwrap()
+    with pytest.raises(RuntimeError, match="The margin must be a number, not nan"):
+        bpy.ops.uv.spectral_unwrap(margin=float("nan"))
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     assert scenes.state(grid) == state
     assert not bare.data.uv_layers

@@ -365,12 +365,12 @@ def test_a_one_sided_band_is_cut(reports):
 def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
     cube = scenes.cube()
     scenes.edit(cube)
-    packing = module("edit_mesh.packing")
+    placement = module("core.placement")
 
     def fail(*_arguments):
-        raise packing.PackingError("not today")
+        raise module("core.packing").MarginError("not today")
 
-    monkeypatch.setattr(packing, "pack", fail)
+    monkeypatch.setattr(placement, "pack", fail)
     before, uv = scenes.state(cube), scenes.read_uv(cube)
     with pytest.raises(RuntimeError, match="not today"):
         bpy.ops.uv.spectral_suggest_seams()

@@ -1,0 +1,40 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "bindings/arrays.h"
+#include "bindings/bind.h"
+#include "spectral_conformal/box_packing.h"
+
+namespace spectral_conformal::python {
+
+namespace {
+
+py::tuple pack(const Array<double>& sizes) {
+  const auto n = static_cast<std::size_t>(sizes.shape(0));
+  std::vector<PackedBox> boxes(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    boxes[i].width = sizes.data()[2 * i];
+    boxes[i].height = sizes.data()[2 * i + 1];
+  }
+  double side = 0;
+  {
+    const py::gil_scoped_release unlocked;
+    side = pack_boxes(boxes);
+  }
+  py::array_t<double> corners({static_cast<py::ssize_t>(n), static_cast<py::ssize_t>(2)});
+  double* corner = corners.mutable_data();
+  for (const PackedBox& box : boxes) {
+    *corner++ = box.x;
+    *corner++ = box.y;
+  }
+  return py::make_tuple(corners, side);
+}
+
+}  // namespace
+
+void bind_packing(py::module_& module) { module.def("pack_boxes", &pack); }
+
+}  // namespace spectral_conformal::python

@@ -1,0 +1,185 @@
+#include "spectral_conformal/box_packing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+/// The upper border of what is packed in a strip, from left to right.
+class Skyline {
+ public:
+  explicit Skyline(double width) : width_(width), segments_{{0, 0, width}} {}
+
+  /// Puts a box where its top is lowest, and there farthest left.
+  void put(PackedBox& box) {
+    std::size_t best = segments_.size();
+    double best_y = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < segments_.size() && segments_[i].x + box.width <= width_; ++i) {
+      const double y = height_over(i, box.width);
+      if (y < best_y) {
+        best = i;
+        best_y = y;
+      }
+    }
+    // A box as wide as the strip but for rounding.
+    if (best == segments_.size()) {
+      best = 0;
+      best_y = height_over(0, box.width);
+    }
+    box.x = segments_[best].x;
+    box.y = best_y;
+    raise(best, box);
+  }
+
+ private:
+  struct Segment {
+    double x = 0;
+    double y = 0;
+    double end = 0;
+  };
+
+  /// The largest height from where segment i begins on, as far as the width.
+  double height_over(std::size_t i, double width) const {
+    const double end = segments_[i].x + width;
+    double y = segments_[i].y;
+    for (std::size_t j = i + 1; j < segments_.size() && segments_[j].x < end; ++j) y = std::max(y, segments_[j].y);
+    return y;
+  }
+
+  void raise(std::size_t i, const PackedBox& box) {
+    const double end = box.x + box.width;
+    std::size_t last = i;
+    while (last < segments_.size() && segments_[last].end <= end) ++last;
+    const Segment raised{box.x, box.y + box.height, end};
+    if (last < segments_.size()) segments_[last].x = std::max(segments_[last].x, end);
+    if (last > i) {
+      segments_[i] = raised;
+      segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                      segments_.begin() + static_cast<std::ptrdiff_t>(last));
+    } else {
+      segments_.insert(segments_.begin() + static_cast<std::ptrdiff_t>(i), raised);
+    }
+  }
+
+  double width_;
+  std::vector<Segment> segments_;
+};
+
+using Order = std::vector<std::size_t>;
+
+/// Packs the boxes, in the given order, into a strip; returns the side of the square that holds them.
+double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes) {
+  Skyline skyline(width);
+  double side = 0;
+  for (const std::size_t i : order) {
+    PackedBox& box = boxes[i];
+    skyline.put(box);
+    side = std::max({side, box.x + box.width, box.y + box.height});
+  }
+  return side;
+}
+
+/// The best packing so far, and what it was made of.
+class Search {
+ public:
+  explicit Search(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
+    double area = 0;
+    for (const PackedBox& box : boxes) {
+      area += box.width * box.height;
+      longest_ = std::max({longest_, box.width, box.height});
+    }
+    least_ = std::max(longest_, std::sqrt(area));
+  }
+
+  double side() const { return side_; }
+  const std::vector<PackedBox>& boxes() const { return best_; }
+  /// Nothing smaller can be found.
+  bool is_done() const { return !(side_ > least_ * (1 + rounding)); }
+
+  /// Tries strips of all widths that may make a smaller square.
+  void try_order(const Order& order) {
+    // From the least that can hold all in a square up to the best side so far.
+    constexpr double step = 1.01;
+    for (double width = least_; width < side_ && !is_done(); width *= step) {
+      attempt(order, width);
+      if (!(width > 0)) return;
+    }
+  }
+
+  /// Exchanges boxes in the best order, by chance that is always the same, so often.
+  void improve(std::size_t attempts) {
+    // What is tried must fit into a square so much smaller.
+    constexpr double smaller = 0.999;
+    std::mt19937 chance;
+    const auto n = static_cast<std::uint32_t>(order_.size());
+    if (n < 2) return;
+    Order order = order_;
+    for (std::size_t k = 0; k < attempts && !is_done(); ++k) {
+      std::size_t& one = order[chance() % n];
+      std::size_t& other = order[chance() % n];
+      if (is_same_size(best_[one], best_[other])) continue;
+      std::swap(one, other);
+      if (!attempt(order, std::max(least_, smaller * side_))) std::swap(one, other);
+    }
+  }
+
+ private:
+  static bool is_same_size(const PackedBox& a, const PackedBox& b) {
+    return a.width == b.width && a.height == b.height;
+  }
+  bool attempt(const Order& order, double width) {
+    const double side = pack_into(width, order, tried_);
+    if (!(side < side_)) return false;
+    side_ = side;
+    order_ = order;
+    best_.swap(tried_);
+    return true;
+  }
+
+  static constexpr double rounding = 1e-9;
+  std::vector<PackedBox> best_;
+  std::vector<PackedBox> tried_;
+  Order order_;
+  double side_ = std::numeric_limits<double>::infinity();
+  double longest_ = 0;
+  double least_ = 0;
+};
+
+/// The boxes by falling keys.
+template <class Key>
+Order by(const std::vector<PackedBox>& boxes, const Key& key) {
+  Order order(boxes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(boxes[a]) > key(boxes[b]); });
+  return order;
+}
+
+}  // namespace
+
+double pack_boxes(std::vector<PackedBox>& boxes) {
+  if (boxes.empty()) return 0;
+  // All that is tried together takes some milliseconds.
+  constexpr std::size_t max_boxes_in_orders = 400;
+  constexpr std::size_t exchanged_boxes = 50000;
+  constexpr std::size_t max_exchanges = 10000;
+  Search search(boxes);
+  search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); }));
+  if (boxes.size() <= max_boxes_in_orders) {
+    search.try_order(by(boxes, [](const PackedBox& box) { return std::max(box.width, box.height); }));
+    search.try_order(by(boxes, [](const PackedBox& box) { return box.width * box.height; }));
+    search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.width, box.height); }));
+    search.improve(std::min(max_exchanges, exchanged_boxes / boxes.size()));
+  }
+  boxes = search.boxes();
+  return search.side();
+}
+
+}  // namespace spectral_conformal
