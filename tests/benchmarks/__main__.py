@@ -3,7 +3,7 @@
     build/venv/bin/python -m tests.benchmarks [table] [meshes] [growth] [--json FILE] [--plot FILE.svg] [...]
 
 table   every figure that speed is judged by, beside what is within reach (`--row NAME` for some of them), and where
-        the time goes: read, native by phase, place, write, pack, undo
+        the time goes: read, native by phase, place and pack, write, undo
 meshes  seconds on meshes of every kind, or on OBJ files (`--mesh FILE`): the module, igl.lscm, xatlas and BFF where
         they are there, our operator and Blender's methods
 growth  seconds against vertices, of our operator and of Blender's methods, drawn with `--plot` (matplotlib)
