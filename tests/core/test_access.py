@@ -68,7 +68,8 @@ CALLS = {
 }
 HEADERS = r"fstream|iostream|cstdio|stdio\.h|filesystem|fcntl\.h|unistd\.h|sys/\w+\.h|netdb\.h|spawn\.h|windows\.h"
 # It asks the BLAS that is already loaded which one it is, and holds it to one thread (RTLD_NOLOAD: nothing is loaded).
-ALLOWED = {("libraries", "blas_threads.cpp"), ("header", "blas_threads.cpp")}
+# Of memory of its own the program says what pages it should have.
+ALLOWED = {("libraries", "blas_threads.cpp"), ("header", "blas_threads.cpp"), ("header", "large_pages.cpp")}
 
 
 def relative(path):

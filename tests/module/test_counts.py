@@ -46,8 +46,8 @@ OPERATIONS = {
 INSTRUCTIONS = {
     # All of it, from arrays to a checked and placed map: what the operations above leave out is in here.
     "parameterize_10k": 162.0,
-    # The steps that lower the QC take 93 of them, more than half as much as the map.
-    "polish_10k": 255.1,
+    # The steps that lower the QC take 62 of them, less than half as much as the map.
+    "polish_10k": 223.8,
     # Three solves with the kept factor, and what is checked of every map.
     "extender_change": 29.07,
     # 900,000 for an island of 25 vertices: what a small island costs beside its factor.

@@ -36,6 +36,7 @@ PLACES = {
     "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),
     "the dynamic linker": (r"dlfcn\.h|windows\.h", {"blas_threads.cpp"}),
+    "large pages": (r"sys/mman\.h", {"large_pages.cpp"}),
 }
 
 

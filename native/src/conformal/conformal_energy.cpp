@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/signed_area.h"
+#include "linear_algebra/large_pages.h"
 
 namespace spectral_conformal {
 namespace {
@@ -103,7 +104,7 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
     }
   }
   for (int v = 0; v < n_vertices; ++v) start[v + 1] += start[v];
-  std::vector<Entry> entries(static_cast<std::size_t>(start[n_vertices]));
+  LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices]));
   std::vector<int> fill(start.begin(), start.end() - 1);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {

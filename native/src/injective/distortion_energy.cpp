@@ -37,22 +37,12 @@ struct Density {
   double by_determinant;
 };
 
-/// sqrt(c^2 - 1 + smoothing^2) of DistortionMeasure::quasi_conformal.
-double smoothed_anisotropy(const MapJacobian& j, double smoothing) { return modulus({j.anisotropy(), smoothing}); }
-
-Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j, double smoothing) {
+Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
   if (std::isinf(element.regularization)) return {2 * j.half_square, 2, 0};
   const RegularizedDeterminant determinant(j.determinant, element.regularization);
   const double inverse = 1 / determinant.value;
-  const bool is_smoothed = measure == DistortionMeasure::quasi_conformal && element.barrier();
-  if (measure != DistortionMeasure::symmetric_dirichlet && !is_smoothed) {
+  if (measure == DistortionMeasure::conformal) {
     return {2 * j.half_square * inverse, 2 * inverse, -2 * j.half_square * inverse * inverse * determinant.slope};
-  }
-  if (is_smoothed) {
-    const double c = j.half_square * inverse;
-    const double root = smoothed_anisotropy(j, smoothing);
-    const double by_c = 1 + c / root;
-    return {c + root, by_c * inverse, -by_c * c * inverse * determinant.slope};
   }
   const double inverse_square = inverse * inverse;
   return {2 * j.half_square * (1 + inverse_square), 2 * (1 + inverse_square),
@@ -84,16 +74,8 @@ MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
   return j;
 }
 
-DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j,
-                              double smoothing) {
+DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
   if (std::isinf(element.regularization)) return {isometry, isometry};
-  if (measure == DistortionMeasure::quasi_conformal) {
-    // By the slope of the distortion over the conformal one, 2 c.
-    const DistortionStiffness conformal = stiffness(element, DistortionMeasure::conformal, j);
-    if (!element.barrier()) return conformal;
-    const double slope = 0.5 * (1 + j.half_square / j.determinant / smoothed_anisotropy(j, smoothing));
-    return {slope * conformal.holomorphic, slope * conformal.antiholomorphic};
-  }
   const double determinant = RegularizedDeterminant(j.determinant, element.regularization).value;
   if (measure == DistortionMeasure::conformal) {
     if (!element.barrier()) {
@@ -122,13 +104,13 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
 }
 
 double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
-                           const ComplexVector& z, ComplexVector& gradient, double smoothing) {
+                           const ComplexVector& z, ComplexVector& gradient) {
   gradient.setZero(z.size());
   double sum = 0;
   for (const DistortionElement& element : elements) {
     const MapJacobian j = jacobian(element, z);
     if (element.barrier() && !(j.determinant > 0)) return infinity;
-    const Density f = density(element, measure, j, smoothing);
+    const Density f = density(element, measure, j);
     sum += element.weight * f.value;
     const double scale = element.weight / (element.shape.x1 * element.shape.y2);
     const Complex g = scale * (f.by_square + f.by_determinant) * j.holomorphic;
@@ -172,28 +154,37 @@ int count_flipped(const std::vector<DistortionElement>& elements, const ComplexV
   }));
 }
 
-std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
-                                                   const std::vector<TriangleShape>& shapes,
-                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual) {
+DistortionElements::DistortionElements(const std::vector<std::array<int, 3>>& triangles,
+                                       const std::vector<TriangleShape>& shapes,
+                                       const std::vector<double>& triangle_weights, std::size_t n_virtual)
+    : triangles_(triangles), shapes_(shapes), triangle_weights_(triangle_weights), n_virtual_(n_virtual) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!shapes[t].clamped) area_ += triangle_weights[t] * shapes[t].area();
+  }
+}
+
+DistortionElement DistortionElements::operator[](std::size_t t) const {
   // Enough to keep holes from turning inside out, too little for them to take part in the shape of the map.
   constexpr double virtual_weight = 1e-2;
   // Relative to the whole: of triangles with sides below 1e-9 of its extent rounding hardly leaves a shape in the map.
   constexpr double min_area = 1e-18;
-  double total = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!shapes[t].clamped) total += triangle_weights[t] * shapes[t].area();
-  }
+  const TriangleShape& shape = shapes_[t];
+  const bool is_virtual = t + n_virtual_ >= size();
+  const bool is_degenerate = shape.clamped || !(shape.area() > min_area * area_);
+  DistortionElement element{triangles_[t], shape, triangle_weights_[t] * shape.area() / area_,
+                            !is_virtual && !is_degenerate};
+  if (is_degenerate) element.regularization = infinity;
+  if (is_virtual) element.weight *= virtual_weight;
+  return element;
+}
+
+std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
+                                                   const std::vector<TriangleShape>& shapes,
+                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual) {
+  const DistortionElements source(triangles, shapes, triangle_weights, n_virtual);
   std::vector<DistortionElement> elements;
-  elements.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const bool is_virtual = t + n_virtual >= triangles.size();
-    const bool is_degenerate = shapes[t].clamped || !(shapes[t].area() > min_area * total);
-    DistortionElement element{triangles[t], shapes[t], triangle_weights[t] * shapes[t].area() / total,
-                              !is_virtual && !is_degenerate};
-    if (is_degenerate) element.regularization = infinity;
-    if (is_virtual) element.weight *= virtual_weight;
-    elements.push_back(element);
-  }
+  elements.reserve(source.size());
+  for (std::size_t t = 0; t < source.size(); ++t) elements.push_back(source[t]);
   return elements;
 }
 

@@ -19,11 +19,7 @@ enum class DistortionMeasure {
   symmetric_dirichlet,
   /// s1 / s2 + s2 / s1: 2 where angles are kept, at any scale (Hormann and Greiner, MIPS: An Efficient Global
   /// Parametrization Method, 2000).
-  conformal,
-  /// s1 / s2, the quasi-conformal distortion QC: 1 where angles are kept, at any scale. With
-  /// c = (s1 / s2 + s2 / s1) / 2 it is c + sqrt(c^2 - 1), which has a kink at similarities; smoothed,
-  /// c + sqrt(c^2 - 1 + smoothing^2). Elements without a barrier have the conformal measure instead.
-  quasi_conformal
+  conformal
 };
 
 /// One triangle in a distortion energy.
@@ -54,14 +50,28 @@ struct MapJacobian {
   Complex antiholomorphic;
   double half_square;
   double determinant;
-  /// sqrt(c^2 - 1), half of s1 / s2 - s2 / s1: without cancellation near similarities.
-  double anisotropy() const { return 2 * modulus(holomorphic) * modulus(antiholomorphic) / determinant; }
   bool has_area() const { return determinant > min_determinant * half_square && determinant > min_squared_scale; }
 };
 
-/// The elements of a patch, weighted by triangle weight times area as a part of the whole. Degenerate triangles get an
-/// infinite regularization; the last `n_virtual` triangles (see hole_filling.h) a hundredth of their weight. shapes and
-/// triangle_weights per triangle.
+/// The elements of a patch, made one by one, weighted by triangle weight times area as a part of the whole. Degenerate
+/// triangles get an infinite regularization; the last `n_virtual` triangles (see hole_filling.h) a hundredth of their
+/// weight. shapes and triangle_weights per triangle; all must outlive this.
+class DistortionElements {
+ public:
+  DistortionElements(const std::vector<std::array<int, 3>>& triangles, const std::vector<TriangleShape>& shapes,
+                     const std::vector<double>& triangle_weights, std::size_t n_virtual);
+  std::size_t size() const { return triangles_.size(); }
+  DistortionElement operator[](std::size_t t) const;
+
+ private:
+  const std::vector<std::array<int, 3>>& triangles_;
+  const std::vector<TriangleShape>& shapes_;
+  const std::vector<double>& triangle_weights_;
+  std::size_t n_virtual_;
+  double area_ = 0;
+};
+
+/// All of them.
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
                                                    const std::vector<double>& triangle_weights, std::size_t n_virtual);
@@ -74,15 +84,13 @@ struct DistortionStiffness {
   double antiholomorphic;
 };
 
-/// A form that stands for the Hessian of the triangle's distortion: positive definite. `smoothing`: of
-/// DistortionMeasure::quasi_conformal, positive there.
-DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j,
-                              double smoothing = 0);
+/// A form that stands for the Hessian of the triangle's distortion: positive definite.
+DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j);
 
 /// The weighted sum of the elements' distortions, infinite where a barrier is crossed. The gradient is that of the real
-/// (2V,) vector, u + i v. z (V,). `smoothing`: as for stiffness.
+/// (2V,) vector, u + i v. z (V,).
 double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
-                           const ComplexVector& z, ComplexVector& gradient, double smoothing = 0);
+                           const ComplexVector& z, ComplexVector& gradient);
 
 /// The step along `direction` at which the first triangle with image area, however little, loses it; infinite where
 /// none does.

@@ -33,7 +33,8 @@ ComplexVector Lbfgs::descent(const Inverse& inverse, const ComplexVector& gradie
     const double projection = real_dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
     direction += (projections[k] - projection) * pairs_[k].step;
   }
-  return -direction;
+  direction = -direction;
+  return direction;
 }
 
 }  // namespace spectral_conformal

@@ -201,10 +201,8 @@ void solve_upper(int n, int m, const double* block, int stride, Complex* b, cons
   }
 }
 
-/// Memory that is not written before it is used: its pages are first touched by the thread that needs them.
-std::unique_ptr<double[]> uninitialized(std::ptrdiff_t n) {
-  return std::unique_ptr<double[]>(new double[static_cast<std::size_t>(n)]);
-}
+/// Frees the memory, too.
+void give_up(LargeVector<double>& values) { LargeVector<double>().swap(values); }
 
 }  // namespace
 
@@ -307,11 +305,9 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
     if (!is_real_[k] && parent_[k] >= 0) is_real_[parent_[k]] = 0;
     offset_[k + 1] = offset_[k] + static_cast<std::ptrdiff_t>(rows(k)) * columns(k) * (is_real_[k] ? 1 : 2);
   }
-  if (capacity_ < offset_.back()) {
-    capacity_ = 0;
-    values_.reset();
-    values_ = uninitialized(offset_.back());
-    capacity_ = offset_.back();
+  if (values_.size() < static_cast<std::size_t>(offset_.back())) {
+    give_up(values_);
+    values_.resize(static_cast<std::size_t>(offset_.back()));
   }
   passed_.clear();
   passed_.resize(n_super);
@@ -354,13 +350,13 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
     return false;
   }
   if (below == 0) {
-    for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) passed_[children_[i]].reset();
+    for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) give_up(passed_[children_[i]]);
     return true;
   }
   if (!small) divide(below, width, own, own + width, height);
   constexpr int doubles = std::is_same_v<Scalar, double> ? 1 : 2;
-  passed_[k] = uninitialized(static_cast<std::ptrdiff_t>(below) * below * doubles);
-  auto* const passed = reinterpret_cast<Scalar*>(passed_[k].get());
+  passed_[k].resize(static_cast<std::size_t>(below) * static_cast<std::size_t>(below * doubles));
+  auto* const passed = reinterpret_cast<Scalar*>(passed_[k].data());
   if (small) {
     multiply_small<Scalar>({own + width, below, width, Eigen::OuterStride<>(height)},
                            {passed, below, below, Eigen::OuterStride<>(below)});
@@ -369,7 +365,7 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
   }
   for_each_child<Scalar>(k, [&](int child, const auto* from) {
     add_below(child, from, passed, below, width);
-    passed_[child].reset();
+    give_up(passed_[child]);
   });
   return true;
 }
@@ -379,7 +375,7 @@ template <class Scalar, class Visit>
 void SupernodalFactor::for_each_child(int k, const Visit& visit) {
   for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) {
     const int child = children_[i];
-    const double* const from = passed_[child].get();
+    const double* const from = passed_[child].data();
     if constexpr (std::is_same_v<Scalar, Complex>) {
       if (!is_real_[child]) {
         visit(child, reinterpret_cast<const Complex*>(from));

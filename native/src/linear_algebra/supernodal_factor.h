@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "graph/forest_schedule.h"
+#include "linear_algebra/large_pages.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -75,7 +75,7 @@ class SupernodalFactor {
   const int* row_indices(int k) const { return structure_.rows.data() + structure_.first_row[k]; }
   /// Of each row below k's columns, its place in the block of k's parent.
   const int* place_in_parent(int k) const { return place_.data() + structure_.first_row[k]; }
-  double* block(int k) { return values_.get() + offset_[k]; }
+  double* block(int k) { return values_.data() + offset_[k]; }
 
   Path path_of(std::vector<int> supernodes) const;
   unsigned n_threads(double work, double min_work) const;
@@ -101,11 +101,10 @@ class SupernodalFactor {
   std::vector<Entry> entries_;
   ForestSchedule schedule_;
   std::vector<char> is_real_;
-  std::vector<std::ptrdiff_t> offset_;  ///< (supernodes + 1,) into values_, in doubles
-  std::unique_ptr<double[]> values_;    ///< not set before a block is begun
-  std::ptrdiff_t capacity_ = 0;
-  std::vector<std::unique_ptr<double[]>> passed_;  ///< lower triangle that a supernode passes on, until it is taken
-  ComplexVector below_;                            ///< what each supernode passes on in a solve, beside its rows
+  std::vector<std::ptrdiff_t> offset_;       ///< (supernodes + 1,) into values_, in doubles
+  LargeVector<double> values_;               ///< not set before a block is begun
+  std::vector<LargeVector<double>> passed_;  ///< lower triangle that a supernode passes on, until it is taken
+  ComplexVector below_;                      ///< what each supernode passes on in a solve, beside its rows
 };
 
 }  // namespace spectral_conformal

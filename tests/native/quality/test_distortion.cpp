@@ -106,6 +106,24 @@ TEST_CASE("means are weighted by area, percentiles interpolate, and of a quad on
   CHECK(distortion.log2_scale_deviation == doctest::Approx(std::sqrt(weight.dot(centred.square().matrix()))));
 }
 
+TEST_CASE("the mean alone is that of the whole measure, quads and degenerate triangles included") {
+  for (const Mesh& mesh : {bumpy_grid(9, 7), quad_grid(6, 5), rounded_grid(8, 0.1)}) {
+    const Patch patch(mesh);
+    const auto& triangles = patch.chart.triangles;
+    const auto& weights = patch.chart.triangle_weights;
+    const ComplexVector flat = flat_map(patch.positions);
+    const ComplexVector z = flat + 0.02 * random_map(flat.size());
+    std::vector<TriangleShape> shapes;
+    for (const auto& [a, b, c] : triangles) {
+      shapes.push_back(local_isometric_frame(patch.positions.row(a), patch.positions.row(b), patch.positions.row(c)));
+    }
+    const double whole = measure_distortion(shapes, triangles, weights, z).mean_qc;
+    const double alone = mean_quasi_conformal_distortion(shapes, triangles, weights, triangles.size(), z);
+    CHECK((std::isinf(whole) ? std::isinf(alone) : alone == doctest::Approx(whole).epsilon(1e-12)));
+    CHECK(mean_quasi_conformal_distortion(shapes, triangles, weights, 0, z) == 1);
+  }
+}
+
 TEST_CASE("flipped means against the majority by area, so a mirror image has no flips") {
   const Patch patch(flat_grid(5, 5));
   ComplexVector z = flat_map(patch.positions);

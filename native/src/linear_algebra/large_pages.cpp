@@ -1,0 +1,40 @@
+#include "linear_algebra/large_pages.h"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace spectral_conformal {
+namespace {
+
+#ifdef MADV_HUGEPAGE
+constexpr std::size_t page = std::size_t{1} << 21;
+/// Of less there is little to gain.
+constexpr std::size_t min_size = 2 * page;
+#endif
+
+}  // namespace
+
+void* allocate_pages(std::size_t size) {
+#ifdef MADV_HUGEPAGE
+  if (size >= min_size) {
+    void* const memory = ::operator new(size, std::align_val_t(page));
+    // A wish: where it is not granted, pages are small.
+    madvise(memory, size / page * page, MADV_HUGEPAGE);
+    return memory;
+  }
+#endif
+  return ::operator new(size);
+}
+
+void free_pages(void* memory, [[maybe_unused]] std::size_t size) noexcept {
+#ifdef MADV_HUGEPAGE
+  if (size >= min_size) {
+    ::operator delete(memory, std::align_val_t(page));
+    return;
+  }
+#endif
+  ::operator delete(memory);
+}
+
+}  // namespace spectral_conformal
