@@ -26,7 +26,8 @@ from tests.benchmarks import runs
 from tests.benchmarks.generated import Mesh, Scene
 
 # Small scenes are repeated until this many seconds have passed, or this often.
-SECONDS, MAX_ROUNDS = 8.0, 25
+# The first of a large mesh gets its memory from the system, which on a virtual machine takes as long as the solve.
+SECONDS, MIN_ROUNDS, MAX_ROUNDS = 8.0, 2, 25
 MOST_FUNCTIONS = 28
 METHODS = ("CONFORMAL", "ANGLE_BASED", "MINIMUM_STRETCH")
 
@@ -65,7 +66,7 @@ def operators(
     ours: list[tuple[float, float, dict[str, float], dict[str, float]]] = []
     others: dict[str, list[tuple[float, float]]] = {method: [] for method in _known(bpy, methods)}
     start = time.perf_counter()
-    while not ours or (time.perf_counter() - start < seconds and len(ours) < MAX_ROUNDS):
+    while len(ours) < MIN_ROUNDS or (time.perf_counter() - start < seconds and len(ours) < MAX_ROUNDS):
         kept_maps.forget()
         phases.begin()
         elapsed, processor = _seconds(bpy.ops.uv.spectral_unwrap)
