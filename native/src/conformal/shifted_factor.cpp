@@ -6,8 +6,8 @@
 
 namespace spectral_conformal {
 
-ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const BoundaryForm& form, double relative_shift,
-                             FactorizationBackend backend, const Progress& progress) {
+ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const Positions& positions, const BoundaryForm& form,
+                             double relative_shift, FactorizationBackend backend, const Progress& progress) {
   ShiftedFactor result;
   HermitianMatrix shifted;  // Eigen 3.4's copy constructor leaks where memory runs out
   shifted = matrix;
@@ -23,7 +23,7 @@ ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const BoundaryForm& 
   const double unit = *median;
   result.factorization = make_factorization(backend, shifted.rows());
   report(progress, 0.0, "ordering");
-  result.factorization->analyze(shifted);
+  result.factorization->analyze(shifted, &positions);
   // To 1e8 times the given shift, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no longer
   // converge in their bounded number.
   constexpr int max_raises = 4;

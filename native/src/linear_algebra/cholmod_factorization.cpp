@@ -6,15 +6,19 @@
 
 #include <cholmod.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
 #include <utility>
 #include <vector>
 
+#include "graph/adjacency.h"
 #include "graph/parallel_calls.h"
 #include "linear_algebra/blas_threads.h"
-#include "linear_algebra/distance_numbering.h"
+#include "linear_algebra/nested_dissection.h"
 #include "linear_algebra/supernodal_factor.h"
 #include "spectral_conformal/errors.h"
 
@@ -49,21 +53,24 @@ class Workspace {
   cholmod_common common_{};
 };
 
+cholmod_sparse lower_pattern(int n, const int* first, const int* rows) {
+  cholmod_sparse pattern{};
+  pattern.nrow = static_cast<std::size_t>(n);
+  pattern.ncol = static_cast<std::size_t>(n);
+  pattern.nzmax = static_cast<std::size_t>(first[n]);
+  pattern.p = const_cast<int*>(first);
+  pattern.i = const_cast<int*>(rows);
+  pattern.stype = -1;
+  pattern.itype = CHOLMOD_INT;
+  pattern.xtype = CHOLMOD_PATTERN;
+  pattern.dtype = CHOLMOD_DOUBLE;
+  pattern.sorted = 1;
+  pattern.packed = 1;
+  return pattern;
+}
+
 cholmod_sparse view_of(const HermitianMatrix& matrix) {
-  cholmod_sparse view{};
-  view.nrow = static_cast<std::size_t>(matrix.rows());
-  view.ncol = static_cast<std::size_t>(matrix.cols());
-  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  view.p = const_cast<int*>(matrix.outerIndexPtr());
-  view.i = const_cast<int*>(matrix.innerIndexPtr());
-  view.x = const_cast<Complex*>(matrix.valuePtr());
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_COMPLEX;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
+  return lower_pattern(static_cast<int>(matrix.rows()), matrix.outerIndexPtr(), matrix.innerIndexPtr());
 }
 
 /// CHOLMOD's User Guide, section "The cholmod_factor object".
@@ -84,9 +91,11 @@ struct SymbolicFactor {
   double multiplications = 0;  ///< of real numbers
 };
 
-SymbolicFactor analyze_pattern(cholmod_sparse& pattern, Workspace& workspace) {
+/// order: of the rows, or null.
+SymbolicFactor analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& workspace) {
   const auto free = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, workspace.get()); };
-  const std::unique_ptr<cholmod_factor, decltype(free)> symbolic(cholmod_analyze(&pattern, workspace.get()), free);
+  const std::unique_ptr<cholmod_factor, decltype(free)> symbolic(
+      cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get()), free);
   workspace.check();
   return {structure_of(*symbolic), workspace->fl};
 }
@@ -95,44 +104,91 @@ SymbolicFactor analyze_pattern(cholmod_sparse& pattern, Workspace& workspace) {
 /// (0.71 instead of 1.08 GB).
 constexpr Eigen::Index compare_from = 600000;
 
-SymbolicFactor as_numbered(const HermitianMatrix& matrix) {
+SymbolicFactor by_minimum_degree(const HermitianMatrix& matrix) {
   Workspace workspace;
   workspace->nmethods = matrix.rows() < compare_from ? 1 : 0;
   workspace->method[0].ordering = CHOLMOD_AMD;
   cholmod_sparse view = view_of(matrix);
-  return analyze_pattern(view, workspace);
+  return analyze_pattern(view, nullptr, workspace);
 }
 
-/// By AMD, with the rows numbered otherwise before.
-SymbolicFactor by_distance(const HermitianMatrix& matrix) {
+/// Orders the nodes of leaves by AMD, several leaves in each thread.
+class LeafOrdering {
+ public:
+  LeafOrdering(const Adjacency& graph, NestedDissection& dissection)
+      : graph_(graph), dissection_(dissection), place_(dissection.order.size()) {
+    for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
+    constexpr int leaves_at_once = 32;
+    const int n_leaves = static_cast<int>(dissection.leaves.size());
+    run_in_parallel((n_leaves + leaves_at_once - 1) / leaves_at_once, max_ordering_threads,
+                    [&](int i, const Progress&) {
+                      Workspace workspace;
+                      const int end = std::min(n_leaves, (i + 1) * leaves_at_once);
+                      for (int k = i * leaves_at_once; k < end; ++k) order(dissection_.leaves[k], workspace);
+                    },
+                    {}, "");
+  }
+
+ private:
+  void order(const std::array<int, 2>& leaf, Workspace& workspace) const {
+    const auto [begin, end] = leaf;
+    std::vector<int> first{0};
+    std::vector<int> rows;
+    for (int i = begin; i < end; ++i) {
+      for (const Adjacency::Arc arc : graph_.arcs(dissection_.order[i])) {
+        // The lower triangle, without its diagonal.
+        if (place_[arc.to] > i && place_[arc.to] < end) rows.push_back(place_[arc.to] - begin);
+      }
+      first.push_back(static_cast<int>(rows.size()));
+    }
+    cholmod_sparse pattern = lower_pattern(end - begin, first.data(), rows.data());
+    pattern.sorted = 0;
+    std::vector<int> found(static_cast<std::size_t>(end - begin));
+    if (!cholmod_amd(&pattern, nullptr, 0, found.data(), workspace.get())) workspace.check();
+    for (int& node : found) node = dissection_.order[begin + node];
+    std::copy(found.begin(), found.end(), dissection_.order.begin() + begin);
+  }
+
+  static constexpr int max_ordering_threads = 16;
+  const Adjacency& graph_;
+  NestedDissection& dissection_;
+  std::vector<int> place_;  ///< of each node in the order as given
+};
+
+SymbolicFactor by_dissection(const HermitianMatrix& matrix, const Adjacency& graph, const Positions& positions) {
+  NestedDissection dissection = nested_dissection(graph, positions);
+  const LeafOrdering ordered(graph, dissection);
   Workspace workspace;
   workspace->nmethods = 1;
-  workspace->method[0].ordering = CHOLMOD_AMD;
-  std::vector<int> numbering = numbering_by_distance(matrix);
+  workspace->method[0].ordering = CHOLMOD_GIVEN;
   cholmod_sparse view = view_of(matrix);
-  const auto free = [&](cholmod_sparse* sparse) { cholmod_free_sparse(&sparse, workspace.get()); };
-  const std::unique_ptr<cholmod_sparse, decltype(free)> renumbered(
-      cholmod_ptranspose(&view, 0, numbering.data(), nullptr, 0, workspace.get()), free);
-  workspace.check();
-  SymbolicFactor result = analyze_pattern(*renumbered, workspace);
-  for (int& row : result.structure.order) row = numbering[static_cast<std::size_t>(row)];
-  return result;
+  return analyze_pattern(view, dissection.order.data(), workspace);
+}
+
+/// Large matrices whose rows lie in space are dissected. A plane cuts a surface that is wound up in space in many
+/// lines, which shows in the multiplications: there minimum degree is tried, too.
+SymbolicFactor analyze_in_best_order(const HermitianMatrix& matrix, const Adjacency& graph,
+                                     const Positions* positions) {
+  // With quads, both of whose diagonals are edges, AMD takes a third of the time.
+  constexpr double max_entries_of_triangles = 4.25;
+  const auto n = static_cast<double>(matrix.rows());
+  const bool has_quads = static_cast<double>(matrix.nonZeros()) > max_entries_of_triangles * n;
+  const Eigen::Index dissect_from = has_quads ? 200000 : 30000;
+  if (positions == nullptr || matrix.rows() < dissect_from) return by_minimum_degree(matrix);
+  SymbolicFactor dissected = by_dissection(matrix, graph, *positions);
+  // Over n^(3/2): triangles of any kind take 10 to 18, quads 20 to 29.
+  constexpr double many = 30;
+  if (dissected.multiplications <= many * n * std::sqrt(n)) return dissected;
+  SymbolicFactor other = by_minimum_degree(matrix);
+  return other.multiplications < dissected.multiplications ? other : dissected;
 }
 
 class CholmodFactorization final : public Factorization {
  public:
-  void analyze(const HermitianMatrix& matrix) override {
-    // AMD breaks ties by the numbers of rows. On quads in rows, whose vertices are all alike, either numbering may need
-    // twice the multiplications of the other: of 731 x 731 vertices 23e9 and 8e9, of 700 x 700 8e9 and 14e9, as CHOLMOD
-    // counts them. Two threads try both; below, it costs as much as it saves.
-    constexpr Eigen::Index worth_it = 40000;
-    const int n_orderings = matrix.rows() >= worth_it && matrix.rows() < compare_from ? 2 : 1;
-    SymbolicFactor found[2];
-    run_in_parallel(
-        n_orderings, 2, [&](int i, const Progress&) { found[i] = i == 0 ? as_numbered(matrix) : by_distance(matrix); },
-        {}, "");
-    const bool second = n_orderings == 2 && found[1].multiplications < found[0].multiplications;
-    factor_.analyze(matrix, std::move(found[second ? 1 : 0].structure));
+  using Factorization::analyze;
+  void analyze(const HermitianMatrix& matrix, const Positions* positions) override {
+    const Adjacency graph = graph_of(matrix);
+    factor_.analyze(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure);
     all_ = factor_.whole();
     work_.setZero(factor_.n());
   }

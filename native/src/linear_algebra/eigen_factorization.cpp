@@ -24,7 +24,8 @@ class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lowe
 
 class EigenFactorization final : public Factorization {
  public:
-  void analyze(const HermitianMatrix& matrix) override {
+  using Factorization::analyze;
+  void analyze(const HermitianMatrix& matrix, const Positions* /*positions*/) override {
     count_analysis();
     ldlt_.analyzePattern(matrix);
     check_factor_size(ldlt_.planned_nonzeros());

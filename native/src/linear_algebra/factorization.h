@@ -17,7 +17,9 @@ class Factorization {
 
   /// Chooses the fill-reducing order and the structure of the factor. Throws std::bad_alloc, and SolveFailure when the
   /// factor is too large for the index type.
-  virtual void analyze(const HermitianMatrix& matrix) = 0;
+  /// positions: (n, 3), where the rows lie in space, which helps to order large matrices; null where they lie nowhere.
+  virtual void analyze(const HermitianMatrix& matrix, const Positions* positions) = 0;
+  void analyze(const HermitianMatrix& matrix) { analyze(matrix, nullptr); }
   /// Factorises a matrix of the analysed structure. Returns false when it is not positive definite in double precision.
   virtual bool factorize(const HermitianMatrix& matrix) = 0;
   /// Solves with the last factor: x = A^-1 b. b and x may be the same vector.

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "graph/parallel_calls.h"
 #include "graph/work_counter.h"
 #include "linear_algebra/blas_threads.h"
 #include "spectral_conformal/thread_limit.h"
@@ -38,6 +39,8 @@ constexpr int one = 1;
 /// entries of the factor.
 constexpr double min_multiplications_to_share = 2e7;
 constexpr double min_entries_to_share = 1e6;
+/// The same of the analysis.
+constexpr double min_columns_to_share = 20000;
 /// Width times height squared of the largest front, and the columns of the widest, that are small.
 constexpr double max_small_front = 8000;
 constexpr int max_small_width = 24;
@@ -206,7 +209,20 @@ void give_up(LargeVector<double>& values) { LargeVector<double>().swap(values); 
 
 }  // namespace
 
-void SupernodalFactor::analyze(const HermitianMatrix& matrix, SupernodalStructure structure) {
+Adjacency graph_of(const HermitianMatrix& matrix) {
+  return Adjacency::from_arcs(static_cast<int>(matrix.rows()), [&](const auto& visit) {
+    for (int column = 0; column < matrix.cols(); ++column) {
+      for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
+        const int row = matrix.innerIndexPtr()[e];
+        if (row == column) continue;
+        visit(row, e, column);
+        visit(column, e, row);
+      }
+    }
+  });
+}
+
+void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure) {
   count_analysis();
   structure_ = std::move(structure);
   const int n_super = static_cast<int>(structure_.first_column.size()) - 1;
@@ -215,25 +231,46 @@ void SupernodalFactor::analyze(const HermitianMatrix& matrix, SupernodalStructur
     std::fill(supernode_of_.begin() + first_column(k), supernode_of_.begin() + first_column(k + 1), k);
   }
   below_.resize(static_cast<Eigen::Index>(structure_.rows.size()));
+  std::vector<int> place_of(structure_.order.size());
+  for (int i = 0; i < n(); ++i) place_of[structure_.order[i]] = i;
 
   parent_.resize(n_super);
   place_.resize(structure_.rows.size());
-  first_child_.assign(n_super + 1, 0);
+  first_entry_.assign(n_super + 1, 0);
   std::vector<double> cost(n_super);
-  for (int k = 0; k < n_super; ++k) {
+  const auto for_each_supernode = [&](const auto& visit) {
+    constexpr int supernodes_at_once = 2000;
+    run_in_parallel((n_super + supernodes_at_once - 1) / supernodes_at_once, n_threads(n(), min_columns_to_share),
+                    [&](int block, const Progress&) {
+                      const int end = std::min(n_super, (block + 1) * supernodes_at_once);
+                      for (int k = block * supernodes_at_once; k < end; ++k) visit(k);
+                    },
+                    {}, "");
+  };
+  for_each_supernode([&](int k) {
     const double width = columns(k);
     const double height = rows(k);
     // Multiplications, and what the calls and the passing on of small blocks cost beside.
     cost[k] = width * height * height + 20 * height * height + 5000;
+    for (int column = first_column(k); column < first_column(k + 1); ++column) {
+      ++first_entry_[k + 1];
+      for (const Adjacency::Arc arc : graph.arcs(structure_.order[column])) {
+        if (place_of[arc.to] > column) ++first_entry_[k + 1];
+      }
+    }
     parent_[k] = rows(k) == columns(k) ? -1 : supernode_of_[row_indices(k)[columns(k)]];
-    if (parent_[k] < 0) continue;
-    ++first_child_[parent_[k] + 1];
+    if (parent_[k] < 0) return;
     const int* const above = row_indices(parent_[k]);
     int at = 0;
     for (int i = columns(k); i < rows(k); ++i) {
       while (above[at] < row_indices(k)[i]) ++at;
       place_[structure_.first_row[k] + i] = at;
     }
+  });
+
+  first_child_.assign(n_super + 1, 0);
+  for (const int parent : parent_) {
+    if (parent >= 0) ++first_child_[parent + 1];
   }
   std::partial_sum(first_child_.begin(), first_child_.end(), first_child_.begin());
   children_.resize(static_cast<std::size_t>(first_child_.back()));
@@ -243,29 +280,22 @@ void SupernodalFactor::analyze(const HermitianMatrix& matrix, SupernodalStructur
   }
   schedule_ = ForestSchedule(parent_, cost);
 
-  std::vector<int> place_of(structure_.order.size());
-  for (int i = 0; i < n(); ++i) place_of[structure_.order[i]] = i;
-  const auto column_of = [&](int row, int column) { return std::min(place_of[row], place_of[column]); };
-  first_entry_.assign(n_super + 1, 0);
-  for (int column = 0; column < n(); ++column) {
-    for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
-      ++first_entry_[supernode_of_[column_of(matrix.innerIndexPtr()[e], column)] + 1];
-    }
-  }
   std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
   entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));
-  end.assign(first_entry_.begin(), first_entry_.end() - 1);
-  for (int column = 0; column < n(); ++column) {
-    for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
-      const int row = matrix.innerIndexPtr()[e];
-      const bool is_below = place_of[row] >= place_of[column];
-      const int place = std::max(place_of[row], place_of[column]);
-      const int k = supernode_of_[column_of(row, column)];
-      const int in_block =
-          static_cast<int>(std::lower_bound(row_indices(k), row_indices(k) + rows(k), place) - row_indices(k));
-      entries_[end[k]++] = {is_below ? e : ~e, in_block + (column_of(row, column) - first_column(k)) * rows(k)};
+  for_each_supernode([&](int k) {
+    Entry* entry = entries_.data() + first_entry_[k];
+    for (int column = first_column(k); column < first_column(k + 1); ++column) {
+      const int v = structure_.order[column];
+      const int in_block = column - first_column(k);
+      *entry++ = {matrix.outerIndexPtr()[v], in_block + in_block * rows(k)};
+      for (const Adjacency::Arc arc : graph.arcs(v)) {
+        const int place = place_of[arc.to];
+        if (place <= column) continue;
+        const auto row = std::lower_bound(row_indices(k) + in_block, row_indices(k) + rows(k), place) - row_indices(k);
+        *entry++ = {arc.to > v ? arc.edge : ~arc.edge, static_cast<int>(row) + in_block * rows(k)};
+      }
     }
-  }
+  });
 }
 
 double SupernodalFactor::nonzeros() const {

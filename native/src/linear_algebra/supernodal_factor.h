@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "graph/adjacency.h"
 #include "graph/forest_schedule.h"
 #include "linear_algebra/large_pages.h"
 #include "spectral_conformal/types.h"
@@ -17,6 +18,9 @@ struct SupernodalStructure {
   std::vector<int> rows;                  ///< of each supernode, ascending: its own columns, then those below
 };
 
+/// The graph of a matrix, an edge for every entry below the diagonal, by its index among the values.
+Adjacency graph_of(const HermitianMatrix& matrix);
+
 /// L L^H of a Hermitian positive definite matrix by the multifrontal method (Duff and Reid 1983; Liu 1992), and the
 /// solves with it. Each supernode sums up what its children pass on, eliminates its columns by BLAS and passes the rest
 /// on to its parent; subtrees do not know of each other and are factorised by as many threads as ThreadLimit allows.
@@ -28,8 +32,8 @@ class SupernodalFactor {
   /// max_threads: 0 for as many as ThreadLimit allows.
   explicit SupernodalFactor(unsigned max_threads = 0) : max_threads_(max_threads) {}
 
-  /// Takes the structure that the factor of matrices of this pattern has.
-  void analyze(const HermitianMatrix& matrix, SupernodalStructure structure);
+  /// Takes the structure that the factor of matrices of this pattern has. graph: of the matrix (graph_of).
+  void analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
   /// Factorises a matrix of the analysed pattern. Returns false when it is not positive definite in double precision.
   bool factorize(const HermitianMatrix& matrix);
 

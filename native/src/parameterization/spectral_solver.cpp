@@ -109,7 +109,8 @@ SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& att
   const bool kept = on_boundary && attempt.relative_shift == first_relative_shift;
   ShiftedFactor& factor = kept ? factor_ : own;
   if (!factor.factorization) {
-    factor = factor_shifted(energy_->matrix(), form, attempt.relative_shift, backend_, part(progress, 0.0, 0.6));
+    factor = factor_shifted(energy_->matrix(), patch_->positions, form, attempt.relative_shift, backend_,
+                            part(progress, 0.0, 0.6));
     watch.lap("factorization");
   }
   map.shift = factor.shift;
@@ -234,7 +235,7 @@ ExtendedForm SpectralSolver::extended_form(const BoundaryForm& form, const Solve
 }
 
 SpectralMap SpectralSolver::factorize(const Progress& progress) {
-  factor_ = factor_shifted(energy_->matrix(), form_, first_relative_shift, backend_, progress);
+  factor_ = factor_shifted(energy_->matrix(), patch_->positions, form_, first_relative_shift, backend_, progress);
   SpectralMap outcome;
   outcome.attempts = 1;
   outcome.shift = factor_.shift;

@@ -29,7 +29,7 @@ TEST_CASE("corrections lead from a disturbed eigenvector back to it, whole or wi
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
   for (const auto backend : backends()) {
-    const ShiftedFactor factor = factor_shifted(energy.matrix(), form, 1e-6, backend, {});
+    const ShiftedFactor factor = factor_shifted(energy.matrix(), patch.positions, form, 1e-6, backend, {});
     CorrectionOptions options;
     options.max_corrections = 60;
     options.negligible = 1e-13;
@@ -53,7 +53,8 @@ TEST_CASE("corrections are bounded, and none is an infinite change") {
   const Patch patch(bumpy_grid(4, 4));
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
-  const ShiftedFactor factor = factor_shifted(energy.matrix(), form, 1e-8, FactorizationBackend::automatic, {});
+  const ShiftedFactor factor =
+      factor_shifted(energy.matrix(), patch.positions, form, 1e-8, FactorizationBackend::automatic, {});
   ComplexVector z = random_map(energy.n_vertices());
   CorrectionOptions options;
   CHECK(std::isinf(correct(*factor.factorization, energy, quotient_form(form), options, z).change));

@@ -15,7 +15,7 @@ TEST_CASE("the factor is that of L + s M") {
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
   for (const auto backend : backends()) {
-    const ShiftedFactor factor = factor_shifted(energy.matrix(), form, 1e-6, backend, {});
+    const ShiftedFactor factor = factor_shifted(energy.matrix(), patch.positions, form, 1e-6, backend, {});
     REQUIRE(factor.factorization);
     CHECK(factor.shift > 0);
     Eigen::MatrixXcd shifted = dense(energy.matrix());
@@ -34,12 +34,12 @@ TEST_CASE("a matrix that no shift makes definite has no factor, and the last shi
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
   for (const auto backend : backends()) {
-    const double first = factor_shifted(energy.matrix(), form, 1e-8, backend, {}).shift;
+    const double first = factor_shifted(energy.matrix(), patch.positions, form, 1e-8, backend, {}).shift;
     HermitianMatrix indefinite = energy.matrix();
     int inner = 0;
     while (std::find(form.vertices.begin(), form.vertices.end(), inner) != form.vertices.end()) ++inner;
     indefinite.valuePtr()[indefinite.outerIndexPtr()[inner]] = -1;
-    const ShiftedFactor factor = factor_shifted(indefinite, form, 1e-8, backend, {});
+    const ShiftedFactor factor = factor_shifted(indefinite, patch.positions, form, 1e-8, backend, {});
     CHECK_FALSE(factor.factorization);
     CHECK(factor.shift == doctest::Approx(1e8 * first));
   }
@@ -52,7 +52,9 @@ TEST_CASE("the listener can stop it") {
   for (const int stop_at : {1, 2}) {
     int calls = 0;
     const Progress stop = [&](double, const char*) { return ++calls < stop_at; };
-    CHECK_THROWS_AS(factor_shifted(energy.matrix(), form, 1e-12, FactorizationBackend::automatic, stop), Cancelled);
+    CHECK_THROWS_AS(
+        factor_shifted(energy.matrix(), patch.positions, form, 1e-12, FactorizationBackend::automatic, stop),
+        Cancelled);
   }
 }
 

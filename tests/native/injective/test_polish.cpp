@@ -19,8 +19,9 @@ struct Factored {
   explicit Factored(const Mesh& mesh, FactorizationBackend backend = FactorizationBackend::automatic)
       : patch(mesh),
         energy(patch.energy(Weights::uniform)),
-        factor(factor_shifted(energy.matrix(), boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length),
-                              1e-12, backend, {})) {}
+        factor(factor_shifted(energy.matrix(), patch.positions,
+                              boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length), 1e-12, backend,
+                              {})) {}
   int polish(ComplexVector& z, const PolishOptions& options = {}, const Progress& progress = {}) {
     return spectral_conformal::polish(energy, *factor.factorization, z, options, progress);
   }

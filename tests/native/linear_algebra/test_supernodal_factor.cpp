@@ -115,7 +115,7 @@ TEST_CASE("real, complex and mixed blocks solve as a dense factorisation does") 
     std::iota(reversed.rbegin(), reversed.rend(), 0);
     for (const std::vector<int>& order : {strips_first(n), reversed}) {
       SupernodalFactor factor;
-      factor.analyze(matrix, structure_of(matrix, order));
+      factor.analyze(matrix, graph_of(matrix), structure_of(matrix, order));
       REQUIRE(factor.factorize(matrix));
       const ComplexVector b = random_map(n);
       const ComplexVector expected = Eigen::LLT<Eigen::MatrixXcd>(dense(matrix)).solve(b);
@@ -133,7 +133,7 @@ TEST_CASE("not a bit depends on the number of threads") {
   ComplexVector alone;
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     SupernodalFactor factor(threads);
-    factor.analyze(matrix, structure);
+    factor.analyze(matrix, graph_of(matrix), structure);
     for (int repeat = 0; repeat < 5; ++repeat) {
       REQUIRE(factor.factorize(matrix));
       const ComplexVector x = solve(factor, b);
@@ -148,7 +148,7 @@ TEST_CASE("a path holds all that lies above its columns, and a solve along it ag
   const HermitianMatrix matrix = mixed_energy(size);
   const int n = static_cast<int>(matrix.cols());
   SupernodalFactor factor(2);
-  factor.analyze(matrix, structure_of(matrix, strips_first(n)));
+  factor.analyze(matrix, graph_of(matrix), structure_of(matrix, strips_first(n)));
   REQUIRE(factor.factorize(matrix));
   const std::vector<int> columns{3, n / 2, n - 1};
   const SupernodalFactor::Path path = factor.above(columns);
@@ -174,7 +174,7 @@ TEST_CASE("an indefinite matrix is refused by any number of threads, and the nex
     indefinite.coeffRef(negative, negative) = -1;
     for (const unsigned threads : {1U, 4U}) {
       SupernodalFactor factor(threads);
-      factor.analyze(good, structure_of(good, strips_first(n)));
+      factor.analyze(good, graph_of(good), structure_of(good, strips_first(n)));
       CHECK_FALSE(factor.factorize(indefinite));
       REQUIRE(factor.factorize(good));
       const ComplexVector expected = random_map(n);
@@ -198,7 +198,7 @@ TEST_CASE("real blocks take half the memory") {
   });
   const auto doubles = [&](const HermitianMatrix& matrix) {
     SupernodalFactor factor;
-    factor.analyze(matrix, structure_of(matrix, order));
+    factor.analyze(matrix, graph_of(matrix), structure_of(matrix, order));
     REQUIRE(factor.factorize(matrix));
     return factor.n_doubles() / factor.nonzeros();
   };
