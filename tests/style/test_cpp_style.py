@@ -78,18 +78,41 @@ def static_analysis(path, *options):
     return output_if_failed(tool("clang++"), "--analyze", *errors, "-std=c++17", *options, path)
 
 
-@pytest.mark.slow
-def test_clang_static_analyzer():
+def definitions_and_folders():
+    """What the sources are compiled with: -DX, -Ifolder, -isystem folder."""
     commands = json.loads((environment.NATIVE_BUILD / "compile_commands.json").read_text())
     library = next(line["command"] for line in commands if "spectral_conformal_core.dir" in line["command"])
     words = shlex.split(library)
-    # Definitions, and folders of headers: -DX, -Ifolder, -isystem folder.
-    options = [
-        word for before, word in zip(words, words[1:]) if word[:2] in ("-D", "-I") or "-isystem" in (before, word)
-    ]
+    return [word for before, word in zip(words, words[1:]) if word[:2] in ("-D", "-I") or "-isystem" in (before, word)]
+
+
+@pytest.mark.slow
+def test_clang_static_analyzer():
+    options = definitions_and_folders()
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         found = threads.map(lambda path: static_analysis(path, *options), SOURCES)
         assert not "\n".join(filter(None, found))
+
+
+# CMake puts as many sources into a translation unit as it likes, others with every file that is added. So all of them
+# must go into one, and no two anonymous namespaces may hold the same name.
+
+
+def errors_in_one_unit(sources, folder, *options):
+    unit = folder / "all_sources.cpp"
+    unit.write_text("".join(f'#include "{path}"\n' for path in sources))
+    return output_if_failed(tool("g++"), "-fsyntax-only", "-std=c++17", "-Wno-subobject-linkage", *options, unit)
+
+
+@pytest.mark.slow
+def test_all_sources_go_into_one_translation_unit(tmp_path):
+    assert not errors_in_one_unit(SOURCES, tmp_path, *definitions_and_folders())
+
+
+def test_one_translation_unit_shows_a_name_of_two_files(tmp_path):
+    for name in ("one.cpp", "two.cpp"):
+        (tmp_path / name).write_text("namespace {\nconstexpr int count = 3;\n}\n")
+    assert "redefinition" in errors_in_one_unit([tmp_path / "one.cpp", tmp_path / "two.cpp"], tmp_path)
 
 
 def test_clang_static_analyzer_sees_a_violation(tmp_path):

@@ -87,9 +87,9 @@ double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes
 }
 
 /// The best packing so far, and what it was made of.
-class Search {
+class PackingSearch {
  public:
-  explicit Search(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
+  explicit PackingSearch(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
     double area = 0;
     for (const PackedBox& box : boxes) {
       area += box.width * box.height;
@@ -170,7 +170,7 @@ double pack_boxes(std::vector<PackedBox>& boxes) {
   constexpr std::size_t max_boxes_in_orders = 400;
   constexpr std::size_t exchanged_boxes = 50000;
   constexpr std::size_t max_exchanges = 10000;
-  Search search(boxes);
+  PackingSearch search(boxes);
   search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); }));
   if (boxes.size() <= max_boxes_in_orders) {
     search.try_order(by(boxes, [](const PackedBox& box) { return std::max(box.width, box.height); }));

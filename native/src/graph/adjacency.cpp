@@ -11,4 +11,17 @@ Adjacency::Adjacency(int n_nodes, const std::vector<std::array<int, 2>>& edges)
         }
       })) {}
 
+Adjacency graph_of(const HermitianMatrix& matrix) {
+  return Adjacency::from_arcs(static_cast<int>(matrix.rows()), [&](const auto& visit) {
+    for (int column = 0; column < matrix.cols(); ++column) {
+      for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
+        const int row = matrix.innerIndexPtr()[e];
+        if (row == column) continue;
+        visit(row, e, column);
+        visit(column, e, row);
+      }
+    }
+  });
+}
+
 }  // namespace spectral_conformal

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "spectral_conformal/types.h"
+
 namespace spectral_conformal {
 
 /// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by the node that they leave (compressed sparse rows). The
@@ -52,5 +54,9 @@ Adjacency Adjacency::from_arcs(int n_nodes, const ForEachArc& for_each_arc) {
   for_each_arc([&](int from, int edge, int to) { graph.arcs_[fill[from]++] = {edge, to}; });
   return graph;
 }
+
+/// The graph of a matrix's pattern (compressed, the lower triangle): an edge for every entry below the diagonal, with
+/// its index among the values as its number.
+Adjacency graph_of(const HermitianMatrix& matrix);
 
 }  // namespace spectral_conformal

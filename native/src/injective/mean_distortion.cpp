@@ -13,7 +13,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Threads are not worth their start for fewer.
 constexpr std::size_t triangles_of_part = 25000;
 constexpr std::size_t max_parts = 32;
@@ -130,7 +129,7 @@ double MeanDistortion::sum_up(Part& part, double squared_smoothing) {
     if (triangle.weight == 0) continue;
     const auto& [a, b, c] = triangle.corners;
     const Image image(triangle.shape, z[b] - z[a], z[c] - z[a]);
-    if (!(image.determinant > 0)) return infinity;
+    if (!(image.determinant > 0)) return std::numeric_limits<double>::infinity();
     const double inverse = 1 / image.determinant;
     const Distorted distorted(image, inverse, squared_smoothing);
     sum += triangle.weight * (distorted.c + distorted.root);

@@ -209,19 +209,6 @@ void give_up(LargeVector<double>& values) { LargeVector<double>().swap(values); 
 
 }  // namespace
 
-Adjacency graph_of(const HermitianMatrix& matrix) {
-  return Adjacency::from_arcs(static_cast<int>(matrix.rows()), [&](const auto& visit) {
-    for (int column = 0; column < matrix.cols(); ++column) {
-      for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
-        const int row = matrix.innerIndexPtr()[e];
-        if (row == column) continue;
-        visit(row, e, column);
-        visit(column, e, row);
-      }
-    }
-  });
-}
-
 void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure) {
   count_analysis();
   structure_ = std::move(structure);

@@ -18,9 +18,6 @@ struct SupernodalStructure {
   std::vector<int> rows;                  ///< of each supernode, ascending: its own columns, then those below
 };
 
-/// The graph of a matrix, an edge for every entry below the diagonal, by its index among the values.
-Adjacency graph_of(const HermitianMatrix& matrix);
-
 /// L L^H of a Hermitian positive definite matrix by the multifrontal method (Duff and Reid 1983; Liu 1992), and the
 /// solves with it. Each supernode sums up what its children pass on, eliminates its columns by BLAS and passes the rest
 /// on to its parent; subtrees do not know of each other and are factorised by as many threads as ThreadLimit allows.

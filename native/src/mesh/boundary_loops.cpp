@@ -31,19 +31,6 @@ int outer_loop(const std::vector<BoundaryLoop>& loops, const Eigen::Ref<const Po
 
 namespace {
 
-/// The graph of the matrix's pattern; its arcs have no numbers.
-Adjacency graph_of(const HermitianMatrix& matrix) {
-  return Adjacency::from_arcs(static_cast<int>(matrix.cols()), [&](auto&& visit) {
-    for (int column = 0; column < matrix.outerSize(); ++column) {
-      for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
-        if (it.row() == column) continue;
-        visit(column, -1, static_cast<int>(it.row()));
-        visit(static_cast<int>(it.row()), -1, column);
-      }
-    }
-  });
-}
-
 std::vector<double> distances_from(int source, const Adjacency& graph, const Eigen::Ref<const Positions>& positions) {
   ShortestPathSearch search(graph.n_nodes());
   search.offer(source, 0);

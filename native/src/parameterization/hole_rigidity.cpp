@@ -34,9 +34,9 @@ std::vector<double> lowered_from(double rigidity) {
 }
 
 /// Solves for one rigidity after the other and keeps the best.
-class Search {
+class RigiditySearch {
  public:
-  Search(SpectralSolver& solver, const SolveOptions& options, const Progress& progress, Timings& timings)
+  RigiditySearch(SpectralSolver& solver, const SolveOptions& options, const Progress& progress, Timings& timings)
       : solver_(solver), options_(options), progress_(progress), timings_(timings) {}
 
   /// From a rigidity downwards to the first map without flipped triangles, or that with the fewest.
@@ -116,7 +116,7 @@ class Search {
 
 RigidMap solve_with_rigid_holes(SpectralSolver& solver, const SolveOptions& options, const Progress& progress,
                                 Timings& timings) {
-  Search search(solver, options, progress, timings);
+  RigiditySearch search(solver, options, progress, timings);
   return options.hole_rigidity ? search.lower(*options.hole_rigidity) : search.choose();
 }
 

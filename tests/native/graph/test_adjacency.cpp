@@ -44,6 +44,20 @@ TEST_CASE("arcs may have one direction and keep their order at each node") {
   CHECK(arcs_of(graph, 2).empty());
 }
 
+TEST_CASE("the edges of a matrix's graph are its entries below the diagonal") {
+  HermitianMatrix matrix(3, 3);
+  matrix.insert(0, 0) = 2;
+  matrix.insert(2, 0) = Complex(1, 1);
+  matrix.insert(1, 1) = 2;
+  matrix.insert(2, 1) = -1;
+  matrix.insert(2, 2) = 2;
+  matrix.makeCompressed();
+  const Adjacency graph = graph_of(matrix);
+  CHECK(arcs_of(graph, 0) == std::vector<std::array<int, 2>>{{1, 2}});
+  CHECK(arcs_of(graph, 1) == std::vector<std::array<int, 2>>{{3, 2}});
+  CHECK(arcs_of(graph, 2) == std::vector<std::array<int, 2>>{{1, 0}, {3, 1}});
+}
+
 TEST_CASE("a graph without nodes") {
   CHECK(Adjacency().n_nodes() == 0);
   CHECK(Adjacency(0, {}).n_arcs() == 0);
