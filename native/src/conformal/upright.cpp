@@ -92,8 +92,11 @@ std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
     if (std::abs(clear.value) < clear_harmonic) continue;
     for (int k = 0; k < clear.harmonic; ++k) {
       const Complex axis = std::polar(1.0, (std::arg(clear.value) + k * pi) / clear.harmonic);
+      // conj(axis)^harmonic; std::pow would take a logarithm for each.
+      std::array<Complex, 6> power{1};
+      for (std::size_t n = 1; n < power.size(); ++n) power[n] = power[n - 1] * std::conj(axis);
       const auto is_odd = [&](const Moment& m) {
-        return std::abs(std::imag(m.value * std::pow(std::conj(axis), m.harmonic))) > odd_moment;
+        return std::abs(std::imag(m.value * power[static_cast<std::size_t>(m.harmonic)])) > odd_moment;
       };
       const auto is_same = [&](Complex other) { return std::abs(cross(axis, other)) < same_axis; };
       if (std::any_of(moments.begin(), moments.end(), is_odd)) continue;
