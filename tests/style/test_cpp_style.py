@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
 FILES = sorted(path for folder in FOLDERS for suffix in ("*.h", "*.cpp") for path in folder.rglob(suffix))
 SOURCES = sorted((ROOT / "native" / "src").rglob("*.cpp"))
+UNIT_TESTS = sorted((ROOT / "tests" / "native").rglob("test_*.cpp"))
 
 
 CLANG_FORMAT = environment.PYTHON.parent / "clang-format"
@@ -105,8 +106,10 @@ def errors_in_one_unit(sources, folder, *options):
 
 
 @pytest.mark.slow
-def test_all_sources_go_into_one_translation_unit(tmp_path):
-    assert not errors_in_one_unit(SOURCES, tmp_path, *definitions_and_folders())
+@pytest.mark.parametrize("sources", [SOURCES, UNIT_TESTS], ids=["library", "unit tests"])
+def test_all_sources_go_into_one_translation_unit(tmp_path, sources):
+    options = (*definitions_and_folders(), f"-I{ROOT / 'native' / 'include'}", f"-I{ROOT / 'tests' / 'native'}")
+    assert not errors_in_one_unit(sources, tmp_path, *options)
 
 
 def test_one_translation_unit_shows_a_name_of_two_files(tmp_path):

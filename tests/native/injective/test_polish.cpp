@@ -12,11 +12,11 @@ namespace spectral_conformal::test {
 namespace {
 
 /// A patch with its conformal energy and the factor of that.
-struct Factored {
+struct Polished {
   Patch patch;
   ConformalEnergy energy;
   ShiftedFactor factor;
-  explicit Factored(const Mesh& mesh, FactorizationBackend backend = FactorizationBackend::automatic)
+  explicit Polished(const Mesh& mesh, FactorizationBackend backend = FactorizationBackend::automatic)
       : patch(mesh),
         energy(patch.energy(Weights::uniform)),
         factor(factor_shifted(energy.matrix(), patch.positions,
@@ -36,7 +36,7 @@ TEST_SUITE_BEGIN("polish");
 
 TEST_CASE("the mean QC of a conformal map falls, whatever the backend, and no triangle flips") {
   for (const auto backend : backends()) {
-    Factored f(bumpy_grid(14, 10), backend);
+    Polished f(bumpy_grid(14, 10), backend);
     const ComplexVector conformal = conformal_map(f.patch);
     ComplexVector z = conformal;
     CHECK(f.polish(z) > 0);
@@ -46,7 +46,7 @@ TEST_CASE("the mean QC of a conformal map falls, whatever the backend, and no tr
 }
 
 TEST_CASE("more steps bring it down further, towards a minimum") {
-  Factored f(bumpy_grid(14, 10));
+  Polished f(bumpy_grid(14, 10));
   const ComplexVector conformal = conformal_map(f.patch);
   double last = f.mean_qc(conformal);
   const double first = last;
@@ -63,7 +63,7 @@ TEST_CASE("more steps bring it down further, towards a minimum") {
 }
 
 TEST_CASE("scale and place of the map do not matter") {
-  Factored f(bumpy_grid(10, 8));
+  Polished f(bumpy_grid(10, 8));
   const ComplexVector conformal = conformal_map(f.patch);
   ComplexVector z = conformal;
   f.polish(z);
@@ -75,7 +75,7 @@ TEST_CASE("scale and place of the map do not matter") {
 }
 
 TEST_CASE("a map without distortion stays as it is, to the bit") {
-  Factored f(flat_grid(8, 6));
+  Polished f(flat_grid(8, 6));
   ComplexVector z = flat_map(f.patch.positions);
   const ComplexVector before = z;
   CHECK(f.polish(z) == 0);
@@ -83,7 +83,7 @@ TEST_CASE("a map without distortion stays as it is, to the bit") {
 }
 
 TEST_CASE("flipped triangles get no more, and do not keep the others from falling") {
-  Factored f(bumpy_grid(12, 9));
+  Polished f(bumpy_grid(12, 9));
   ComplexVector z = conformal_map(f.patch);
   const auto& [a, b, c] = f.patch.chart.triangles[f.patch.chart.triangles.size() / 2];
   z[a] += 1.5 * (z[b] + z[c] - 2.0 * z[a]);  // through the opposite side
@@ -95,7 +95,7 @@ TEST_CASE("flipped triangles get no more, and do not keep the others from fallin
 }
 
 TEST_CASE("it can be cancelled") {
-  Factored f(bumpy_grid(10, 8));
+  Polished f(bumpy_grid(10, 8));
   ComplexVector z = conformal_map(f.patch);
   const auto cancel = [](double, const char*) { return false; };
   CHECK_THROWS_AS(f.polish(z, {}, cancel), Cancelled);

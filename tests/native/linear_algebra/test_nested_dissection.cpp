@@ -12,7 +12,7 @@
 namespace spectral_conformal::test {
 namespace {
 
-Adjacency graph_of(const Patch& patch) { return spectral_conformal::graph_of(patch.energy(Weights::uniform).matrix()); }
+Adjacency graph_of_energy(const Patch& patch) { return graph_of(patch.energy(Weights::uniform).matrix()); }
 
 std::vector<int> all(int n) {
   std::vector<int> result(static_cast<std::size_t>(n));
@@ -27,7 +27,7 @@ TEST_SUITE_BEGIN("nested_dissection");
 TEST_CASE("every node once; leaves are small and not joined to each other") {
   for (const Mesh& mesh : {bumpy_grid(120, 90), quad_grid(110, 100), perforated_grid(90, 90)}) {
     const Patch patch(mesh);
-    const Adjacency graph = graph_of(patch);
+    const Adjacency graph = graph_of_energy(patch);
     const NestedDissection found = nested_dissection(graph, patch.positions);
     std::vector<int> sorted = found.order;
     std::sort(sorted.begin(), sorted.end());
@@ -54,7 +54,7 @@ TEST_CASE("every node once; leaves are small and not joined to each other") {
 
 TEST_CASE("a strip is cut across") {
   const Patch patch(flat_grid(1000, 6));
-  const Adjacency graph = graph_of(patch);
+  const Adjacency graph = graph_of_energy(patch);
   const NestedDissection found = nested_dissection(graph, patch.positions);
   REQUIRE(found.leaves.size() == 4);
   for (const auto& [begin, end] : found.leaves) CHECK(end - begin > graph.n_nodes() / 5);
@@ -66,7 +66,7 @@ TEST_CASE("a strip is cut across") {
 
 TEST_CASE("the order does not depend on the threads") {
   const Patch patch(bumpy_grid(200, 200));
-  const Adjacency graph = graph_of(patch);
+  const Adjacency graph = graph_of_energy(patch);
   std::vector<std::vector<int>> orders;
   for (const unsigned limit : {1U, 2U, 5U}) {
     const ThreadLimit threads(limit);
@@ -78,7 +78,7 @@ TEST_CASE("the order does not depend on the threads") {
 
 TEST_CASE("nodes all at one place, on a line, without edges, or none") {
   const Patch patch(bumpy_grid(60, 60));
-  const Adjacency graph = graph_of(patch);
+  const Adjacency graph = graph_of_energy(patch);
   const int n = graph.n_nodes();
   const NestedDissection at_one_place = nested_dissection(graph, Positions::Zero(n, 3));
   CHECK(at_one_place.order == all(n));

@@ -8,7 +8,7 @@
 namespace spectral_conformal::test {
 namespace {
 
-struct Problem {
+struct Described {
   Chart chart = Patch(bumpy_grid(4, 3)).chart;
   Positions positions = Patch(bumpy_grid(4, 3)).positions;
   std::vector<TriangleMetric> metric;
@@ -22,57 +22,57 @@ struct Problem {
 
 TEST_SUITE_BEGIN("chart_description");
 
-TEST_CASE("the same chart has the same description") { CHECK(Problem().describe() == Problem().describe()); }
+TEST_CASE("the same chart has the same description") { CHECK(Described().describe() == Described().describe()); }
 
 TEST_CASE("whatever changes the map changes the description") {
-  const std::vector<void (*)(Problem&)> changes = {
-      [](Problem&) {},
-      [](Problem& p) { p.positions(3, 1) = std::nextafter(p.positions(3, 1), 10.0); },
-      [](Problem& p) { std::swap(p.chart.triangles[0], p.chart.triangles[1]); },
-      [](Problem& p) { p.chart.triangle_weights[0] = 0.5; },
-      [](Problem& p) { p.chart.faces.back() += 1; },
-      [](Problem& p) { p.chart.reversed_faces = 1; },
-      [](Problem& p) { p.metric.resize(p.chart.triangles.size()); },
-      [](Problem& p) {
+  const std::vector<void (*)(Described&)> changes = {
+      [](Described&) {},
+      [](Described& p) { p.positions(3, 1) = std::nextafter(p.positions(3, 1), 10.0); },
+      [](Described& p) { std::swap(p.chart.triangles[0], p.chart.triangles[1]); },
+      [](Described& p) { p.chart.triangle_weights[0] = 0.5; },
+      [](Described& p) { p.chart.faces.back() += 1; },
+      [](Described& p) { p.chart.reversed_faces = 1; },
+      [](Described& p) { p.metric.resize(p.chart.triangles.size()); },
+      [](Described& p) {
         p.metric.resize(p.chart.triangles.size());
         p.metric.back().xy = 0.1;
       },
-      [](Problem& p) { p.patch.weights = Weights::inverse_area; },
-      [](Problem& p) { p.patch.boundary = BoundaryMeasure::vertex; },
-      [](Problem& p) { p.patch.backend = FactorizationBackend::eigen; },
-      [](Problem& p) { p.patch.fill_holes = true; },
-      [](Problem& p) { p.patch.fold_free = true; },
-      [](Problem& p) { p.patch.polish = true; },
-      [](Problem& p) { p.patch.area_blend = 1; },
-      [](Problem& p) { p.solve.method = Method::lscm; },
-      [](Problem& p) { p.solve.tolerance = 1e-6; },
-      [](Problem& p) { p.solve.soft_pins = 1; },
-      [](Problem& p) { p.solve.hole_rigidity = 1; },
-      [](Problem& p) { p.solve.hole_rigidity = std::nullopt; },
-      [](Problem& p) { p.solve.fallbacks = false; },
-      [](Problem& p) { p.solve.second_attempt = false; },
-      [](Problem& p) {
+      [](Described& p) { p.patch.weights = Weights::inverse_area; },
+      [](Described& p) { p.patch.boundary = BoundaryMeasure::vertex; },
+      [](Described& p) { p.patch.backend = FactorizationBackend::eigen; },
+      [](Described& p) { p.patch.fill_holes = true; },
+      [](Described& p) { p.patch.fold_free = true; },
+      [](Described& p) { p.patch.polish = true; },
+      [](Described& p) { p.patch.area_blend = 1; },
+      [](Described& p) { p.solve.method = Method::lscm; },
+      [](Described& p) { p.solve.tolerance = 1e-6; },
+      [](Described& p) { p.solve.soft_pins = 1; },
+      [](Described& p) { p.solve.hole_rigidity = 1; },
+      [](Described& p) { p.solve.hole_rigidity = std::nullopt; },
+      [](Described& p) { p.solve.fallbacks = false; },
+      [](Described& p) { p.solve.second_attempt = false; },
+      [](Described& p) {
         p.solve.extenders = {{{0}, {1}, 0.5}};
       },
-      [](Problem& p) {
+      [](Described& p) {
         p.solve.extenders = {{{0}, {1}, 0.25}};
       },
-      [](Problem& p) {
+      [](Described& p) {
         p.solve.extenders = {{{0, 1}, {}, 0.25}};
       },
-      [](Problem& p) {
+      [](Described& p) {
         p.pins = {{0, {0.0, 1.0}}};
       },
-      [](Problem& p) {
+      [](Described& p) {
         p.pins = {{0, {1.0, 0.0}}};
       },
-      [](Problem& p) {
+      [](Described& p) {
         p.pins = {{1, {1.0, 0.0}}};
       },
   };
   std::set<std::string> found;
   for (const auto& change : changes) {
-    Problem problem;
+    Described problem;
     change(problem);
     found.insert(problem.describe());
   }

@@ -11,7 +11,7 @@ namespace spectral_conformal::test {
 namespace {
 
 /// A mesh of one piece, opened and solved. Keeps what the candidates refer to.
-struct Solved {
+struct SolvedPiece {
   Mesh mesh;
   MirrorSymmetry symmetry;
   std::vector<Piece> pieces;
@@ -19,7 +19,7 @@ struct Solved {
   TrialMaps charts;
   MapQuality quality;
 
-  explicit Solved(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
+  explicit SolvedPiece(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
     const ChartDecomposition whole = build_charts(mesh.view());
     pieces = split_into_pieces(mesh.view(), whole);
     REQUIRE(pieces.size() == 1);
@@ -47,7 +47,7 @@ struct Solved {
 TEST_SUITE_BEGIN("cut_candidates");
 
 TEST_CASE("regions come in falling order, of mirrored ones one, and are joined to the boundary") {
-  const Solved spikes(spiky_grid(2, 8));
+  const SolvedPiece spikes(spiky_grid(2, 8));
   const CutCandidates candidates = spikes.candidates();
   for (const auto kind : {CutCandidates::Kind::scale, CutCandidates::Kind::angle}) {
     const auto regions = candidates.regions(kind);
@@ -65,7 +65,7 @@ TEST_CASE("regions come in falling order, of mirrored ones one, and are joined t
 }
 
 TEST_CASE("the cut around a region makes an island, and halves are two charts") {
-  const Solved spikes(spiky_grid(2, 8));
+  const SolvedPiece spikes(spiky_grid(2, 8));
   const CutCandidates candidates = spikes.candidates();
   CHECK(spikes.charts_with(candidates.cut_around(candidates.regions(CutCandidates::Kind::scale).front())).size() > 1);
   const auto halves = candidates.halves();
@@ -74,7 +74,7 @@ TEST_CASE("the cut around a region makes an island, and halves are two charts") 
 }
 
 TEST_CASE("sheets that lie on each other are parted") {
-  const Solved strip(quad_grid(12, 2));
+  const SolvedPiece strip(quad_grid(12, 2));
   const auto cuts = strip.candidates().cuts_between(0, {0, 1, 10, 11});
   REQUIRE_FALSE(cuts.empty());
   CHECK(std::any_of(cuts.begin(), cuts.end(), [&](const SeamEdges& cut) {
@@ -84,7 +84,7 @@ TEST_CASE("sheets that lie on each other are parted") {
 }
 
 TEST_CASE("without a map the cut starts far from all cuts") {
-  Solved disk(quad_grid(8, 8));
+  SolvedPiece disk(quad_grid(8, 8));
   TrialMap unsolved = *disk.charts[0];
   unsolved.solved = false;
   disk.charts[0] = std::make_shared<const TrialMap>(std::move(unsolved));
