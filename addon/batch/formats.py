@@ -13,12 +13,11 @@ from ..core.errors import ReadableError
 
 _Calls = Sequence[tuple[str, dict[str, Any]]]
 
-# The operators of newer versions first. Legacy ones are told not to split or sort what they read; glTF, which stores a
-# vertex once for every UV or normal that it has, to join those again.
+# The operators of newer versions first. Legacy ones are told not to split or sort what they read.
 _READERS: dict[str, _Calls] = {
     ".fbx": (("wm.fbx_import", {}), ("import_scene.fbx", {})),
-    ".glb": (("import_scene.gltf", {"merge_vertices": True}),),
-    ".gltf": (("import_scene.gltf", {"merge_vertices": True}),),
+    ".glb": (("import_scene.gltf", {}),),
+    ".gltf": (("import_scene.gltf", {}),),
     ".obj": (
         ("wm.obj_import", {}),
         ("import_scene.obj", {"use_split_objects": False, "use_split_groups": False, "split_mode": "OFF"}),

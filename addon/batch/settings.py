@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from ..core import seam_suggestion, texts
+from ..core import seam_suggestion, texts, welding
 from ..core.options import Margin, Options, Settings
 
 SEAMS = ("keep", "suggest", "sharp", "smart")
@@ -25,6 +25,8 @@ class BatchSettings:
     Attributes:
         seams: one of `SEAMS`; all but "keep" add to the seams that are there.
         sharp_angle: in degrees, between the normals of two faces, from which "sharp" makes their edge a seam.
+        weld_distance: vertices on open borders that are nearer to each other than this part of the bounding box's
+            diagonal count as one while "suggest" and "sharp" make islands; 0 for none.
         unwrap: solve the islands; otherwise they stay as they are.
         pack: pack all islands together; otherwise they stay where they are.
         margin_pixels: space between packed islands, in pixels of a texture of `texture_size`; None for the margin of
@@ -40,6 +42,7 @@ class BatchSettings:
 
     seams: str = "suggest"
     sharp_angle: float = 30.0
+    weld_distance: float = welding.DISTANCES[0]
     unwrap: bool = True
     pack: bool = True
     margin_pixels: float | None = None
@@ -140,6 +143,8 @@ _DESCRIPTIONS = {
     "seams": "keep the seams that there are, or add to them: suggest, by the edges' angle (sharp), or the borders of "
     "the islands of Blender's Smart UV Project (smart)",
     "sharp_angle": "degrees between two faces from which --seams sharp cuts",
+    "weld_distance": "part of the mesh's size within which vertices on open borders count as one for --seams suggest "
+    "and sharp, so that islands go across; the file's own vertices stay; 0 for none",
     "unwrap": "solve the islands, or leave them as they are",
     "pack": "pack all islands together, or leave them where they are",
     "margin_pixels": "space between packed islands in pixels of the texture",
@@ -200,6 +205,9 @@ def from_values(values: dict[str, Any]) -> BatchSettings:
         result = _replaced(result, known[name].path, known[name].checked(value))
     if result.texture_size < 1:
         raise SettingsError(f"texture_size must be at least 1, not {result.texture_size}.")
+    low, high = welding.DISTANCES
+    if result.weld_distance and not low <= result.weld_distance <= high:
+        raise SettingsError(f"weld_distance must be 0, or from {low:g} to {high:g}, not {result.weld_distance}.")
     if result.margin_pixels is not None and not 0.0 <= result.margin_pixels < result.texture_size:
         raise SettingsError(f"margin_pixels must be from 0 to less than texture_size, not {result.margin_pixels}.")
     if result.picture_size and not 64 <= result.picture_size <= 8192:

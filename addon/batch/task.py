@@ -13,17 +13,17 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 
-from ..core import kept_maps, native, seam_suggestion, texts
+from ..core import kept_maps, native, seam_suggestion, texts, welding
 from ..core.errors import ReadableError
-from ..core.map_view import MapView, automatic_range, weighted_percentiles
+from ..core.map_view import MapArrays, MapView, automatic_range, weighted_percentiles
+from ..core.mesh import PolygonMesh
 from ..core.solve import Solution
 from ..core.summary import summarize
 from ..edit_mesh import packing, read_map
@@ -136,14 +136,16 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
             with phases("pack"):
                 _pack(settings)
     with phases("measure"):
-        views = _views(objects)
-        report.update(_measured(objects, views))
+        maps = _maps(objects)
+        vertices_of = [_vertex_of(arrays, settings) for arrays in maps]
+        views = list(map(_view, maps, vertices_of))
+        report.update(_measured(objects, views, vertices_of))
         report["totals"]["failed"] = sum(report["failed_islands"].values())
     with phases("picture"):
         _draw(request, settings, views, report)
     with phases("write"), _published(target) as partial:
         if settings.usd_over and source.suffix.lower() in assets.USD:
-            usd_over.write(partial, source, target, [(o.data.name, v.arrays) for o, v in zip(objects, views)])
+            usd_over.write(partial, source, target, [(o.data.name, m) for o, m in zip(objects, maps)])
         else:
             formats.write(partial)
     report["output"] = os.path.relpath(target, request.folder)
@@ -213,31 +215,69 @@ def _mark_seams(settings: BatchSettings, phases: _Phases, report: dict[str, Any]
         if settings.seams == "suggest":
             target = seams.read(bpy.context, settings.operator_settings())
             if target is not None:
-                found = seam_suggestion.suggest(target.polygons, settings.seam_options())
-                seams.mark(target, found)
-                refused = texts.without_suggestion(found.errors, target.names)
-                report["warnings"] += [refused] if refused else []
+                _mark_suggested(target, settings, report)
         elif settings.seams == "sharp":
-            for mesh in _edited_meshes():
-                _mark_sharp(mesh, math.radians(settings.sharp_angle))
+            target = seams.read(bpy.context, settings.operator_settings())
+            if target is not None:
+                _mark_sharp(target, settings)
         elif settings.seams == "smart":
             bpy.ops.uv.smart_project(**_SMART_PROJECT)
             bpy.ops.uv.seams_from_islands(mark_seams=True, mark_sharp=False)
 
 
-def _edited_meshes() -> list[bpy.types.Mesh]:
-    return [item.data for item in bpy.context.objects_in_mode_unique_data]
+def _mark_suggested(target: seams.Target, settings: BatchSettings, report: dict[str, Any]) -> None:
+    """Make the suggested edges of the welded meshes seams, in all faces that have them."""
+    vertices_of = [_vertex_of(polygons, settings) for polygons in target.polygons]
+    meshes = list(map(welding.welded, target.polygons, vertices_of))
+    found = seam_suggestion.suggest(meshes, settings.seam_options())
+    seams.mark(target, _unwelded(found.cuts, target, vertices_of))
+    refused = texts.without_suggestion(found.errors, target.names)
+    report["warnings"] += [refused] if refused else []
 
 
-def _mark_sharp(mesh: bpy.types.Mesh, angle: float) -> None:
-    """Make the edges between two faces that lie at an angle, in radians, or at a larger one, seams.
+def _mark_sharp(target: seams.Target, settings: BatchSettings) -> None:
+    """Make the edges between two faces of the welded meshes that lie at the given angle, or at a larger one, seams.
 
     Edges that are marked sharp do not count: readers of formats with normals mark every edge of a flat mesh.
     """
-    for edge in bmesh.from_edit_mesh(mesh).edges:
-        if len(edge.link_faces) == 2 and edge.calc_face_angle(0.0) >= angle:
-            edge.seam = True
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    vertices_of = [_vertex_of(polygons, settings) for polygons in target.polygons]
+    angle = math.radians(settings.sharp_angle)
+    cuts = [
+        seam_suggestion.Cut(index, welding.sharp_edges(welding.welded(polygons, vertex_of), angle), 0.0)
+        for index, (polygons, vertex_of) in enumerate(zip(target.polygons, vertices_of))
+    ]
+    seams.mark(target, _unwelded(cuts, target, vertices_of))
+
+
+def _unwelded(
+    cuts: Sequence[seam_suggestion.Cut], target: seams.Target, vertices_of: Sequence[np.ndarray]
+) -> seam_suggestion.Suggestion:
+    """Return the cuts of welded meshes as those of the target's own edges."""
+    own = [
+        replace(cut, edges=welding.unwelded_edges(target.polygons[cut.mesh], vertices_of[cut.mesh], cut.edges))
+        for cut in cuts
+    ]
+    return seam_suggestion.Suggestion(tuple(own), ())
+
+
+def _vertex_of(mesh: PolygonMesh | MapArrays, settings: BatchSettings) -> np.ndarray:
+    """Return the vertex that stands for each, (V,).
+
+    Kept seams and the islands of Smart UV Project go with borders between faces that have vertices of their own: such
+    as glTF has at the seams of its map.
+    """
+    positions = mesh.vertices if isinstance(mesh, PolygonMesh) else mesh.positions
+    if not settings.unwrap or settings.seams in ("keep", "smart") or not settings.weld_distance:
+        return np.arange(len(positions), dtype=np.int32)
+    return welding.coincident_vertices(positions, mesh.face_offsets, mesh.corner_vertices, settings.weld_distance)
+
+
+def _welded(edit_mesh: EditMesh, settings: BatchSettings) -> EditMesh:
+    """Return the mesh with vertices of one place joined; one that is subdivided stays as it is."""
+    if edit_mesh.subdivision is not None:
+        return edit_mesh
+    vertex_of = _vertex_of(edit_mesh.polygons, settings)
+    return replace(edit_mesh, polygons=welding.welded(edit_mesh.polygons, vertex_of))
 
 
 def _unwrap(settings: BatchSettings, phases: _Phases, report: dict[str, Any]) -> None:
@@ -247,6 +287,7 @@ def _unwrap(settings: BatchSettings, phases: _Phases, report: dict[str, Any]) ->
         edit_meshes = steps.read(bpy.context, operator)
         if not edit_meshes:
             raise AssetError("All faces are hidden.")
+        edit_meshes = [_welded(edit_mesh, settings) for edit_mesh in edit_meshes]
         solutions = steps.solve(edit_meshes, operator)
     with phases("pack"):
         outcome = steps.write(operator, edit_meshes, solutions)
@@ -274,15 +315,22 @@ def _pack(settings: BatchSettings) -> None:
     packing.pack(bpy.context, edit_meshes, [mesh.polygons.selected_faces for mesh in edit_meshes], operator.margin)
 
 
-def _views(objects: Sequence[bpy.types.Object]) -> list[MapView]:
+def _maps(objects: Sequence[bpy.types.Object]) -> list[MapArrays]:
     arrays = [read_map.read_own_map(bpy.context, item) for item in objects]
     missing = [item.name for item, found in zip(objects, arrays) if found is None]
     if missing:
         raise AssetError(f"There is no UV map to keep in {', '.join(missing)}: leave out --no-unwrap.")
-    return [MapView(found) for found in arrays if found is not None]
+    return [found for found in arrays if found is not None]
 
 
-def _measured(objects: Sequence[bpy.types.Object], views: Sequence[MapView]) -> dict[str, Any]:
+def _view(arrays: MapArrays, vertex_of: np.ndarray) -> MapView:
+    """Return the map as that of the welded mesh, whose islands it has."""
+    return MapView(replace(arrays, corner_vertices=vertex_of[arrays.corner_vertices]))
+
+
+def _measured(
+    objects: Sequence[bpy.types.Object], views: Sequence[MapView], vertices_of: Sequence[np.ndarray]
+) -> dict[str, Any]:
     """Return the report's records of the islands, and of all of them together."""
     islands = [record for item, view in zip(objects, views) for record in _islands(item, view)]
     whole = _numbers(
@@ -293,12 +341,13 @@ def _measured(objects: Sequence[bpy.types.Object], views: Sequence[MapView]) -> 
     summary = {
         "meshes": len(views),
         "vertices": sum(len(view.arrays.positions) for view in views),
+        "welded": sum(int((vertex_of != np.arange(len(vertex_of))).sum()) for vertex_of in vertices_of),
         "faces": sum(len(view.arrays.visible_faces) for view in views),
         "islands": len(islands),
         **whole,
         "flips": sum(int(view.flipped.sum()) for view in views),
         "overlaps": sum(int(view.overlapping.sum()) for view in views),
-        "seam_length": sum(_seam_length(item.data) for item in objects),
+        "seam_length": sum(map(_seam_length, objects, vertices_of)),
     }
     return {"totals": {**summary, "failed": 0}, "islands": islands}
 
@@ -367,16 +416,16 @@ def _next_corner(face_offsets: np.ndarray) -> np.ndarray:
     return following
 
 
-def _seam_length(mesh: bpy.types.Mesh) -> float:
-    """Return the length of the edges that are marked as seams, in object space."""
+def _seam_length(item: bpy.types.Object, vertex_of: np.ndarray) -> float:
+    """Return the length of the edges that are marked as seams, in object space, of those at one place once."""
+    mesh = item.data
     is_seam = np.empty(len(mesh.edges), dtype=bool)
     mesh.edges.foreach_get("use_seam", is_seam)
     ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
     mesh.edges.foreach_get("vertices", ends)
     positions = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", positions)
-    first, second = positions.reshape(-1, 3)[ends.reshape(-1, 2)[is_seam]].astype(np.float64).transpose(1, 0, 2)
-    return float(np.linalg.norm(first - second, axis=1).sum())
+    return welding.edges_length(positions.reshape(-1, 3), vertex_of, ends.reshape(-1, 2)[is_seam])
 
 
 def _draw(request: Request, settings: BatchSettings, views: Sequence[MapView], report: dict[str, Any]) -> None:

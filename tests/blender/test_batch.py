@@ -154,6 +154,13 @@ def obj_uv(path):
     return uv[np.concatenate(index)], [[int(corner.split("/")[0]) - 1 for corner in face] for face in faces]
 
 
+def obj_points(path):
+    """Return the vertices of an OBJ, (V, 3), and those of its quads, (F, 4)."""
+    lines = [line.split() for line in path.read_text().splitlines()]
+    points = np.array([line[1:4] for line in lines if line[:1] == ["v"]], dtype=float)
+    return points, np.array([[int(c.split("/")[0]) - 1 for c in line[1:]] for line in lines if line[:1] == ["f"]])
+
+
 def test_files_have_the_maps_that_their_reports_tell_of(batch):
     folder, good, *_ = batch
     for name in [name for name in good if name.endswith(".obj")]:
@@ -455,6 +462,49 @@ def test_seams_are_what_was_asked_for(environ, tmp_path, seams, islands, status)
         assert report["totals"]["seam_length"] == pytest.approx(14.0 if islands == 1 else 24.0)
     else:
         assert "closed" in report["failure"]["message"]
+
+
+def vertex_per_corner(points, faces):
+    return points[faces.ravel()], np.arange(faces.size).reshape(faces.shape)
+
+
+@pytest.mark.parametrize(
+    ("options", "islands", "seam_length"),
+    [
+        (("suggest",), 1, 14.0),
+        (("suggest", "--weld-distance", 0), 6, 0.0),
+        (("sharp",), 6, 24.0),
+        (("smart",), 6, 0.0),
+        (("keep",), 6, 0.0),
+    ],
+    ids=lambda value: value[-1] if isinstance(value, tuple) else "",
+)
+def test_faces_with_vertices_of_their_own_make_islands_together_and_keep_them(
+    environ, tmp_path, options, islands, seam_length
+):
+    cube(tmp_path)
+    whole, faces = obj_points(tmp_path / "in" / "cube.obj")
+    soup = vertex_per_corner(whole, faces)
+    batch_assets.write_obj(tmp_path / "in" / "soup.obj", *soup)
+    batch_assets.write_ply(tmp_path / "in" / "soup.ply", *vertex_per_corner(*batch_assets.torus(14, 9)))
+    batch_assets.write_obj(tmp_path / "in" / "torus.obj", *batch_assets.torus(14, 9))
+    out = tmp_path / "out"
+    run(environ, tmp_path / "in", "--out", out, "--jobs", 2, "--seams", *options, "--format", "obj")
+    found = report_of(out, "soup.obj")["totals"]
+    assert found["islands"] == islands
+    assert found["vertices"] == 24
+    is_welded = options in (("suggest",), ("sharp",))
+    assert found["welded"] == (16 if is_welded else 0)
+    assert found["seam_length"] == pytest.approx(seam_length)
+    assert found["flips"] == found["overlaps"] == 0
+    places, corners = obj_points(out / "soup.obj" / "soup.obj")
+    assert np.array_equal(corners, soup[1])
+    assert np.abs(places - soup[0]).max() < 1e-5
+    if is_welded:
+        torus, same = (report_of(out, name)["totals"] for name in ("torus.obj", "soup.ply"))
+        assert same["vertices"] == 4 * torus["vertices"]
+        for name in ("islands", "mean_qc", "seam_length", "flips", "overlaps", "failed"):
+            assert same[name] == pytest.approx(torus[name], rel=1e-4), name
 
 
 def test_islands_or_places_are_kept_where_asked(environ, tmp_path):
