@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/signed_area.h"
+#include "graph/parallel_calls.h"
 #include "linear_algebra/large_pages.h"
 
 namespace spectral_conformal {
@@ -12,6 +13,25 @@ namespace {
 /// The inverse-area weights of triangles that are tiny or thin beyond this, or both, are held back, so that no entry of
 /// L grows beyond it, relative to the mean triangle's. Beyond about 1e13 rounding breaks the factorisation.
 constexpr double max_entry = 1e12;
+
+/// Calls work(i) once for every i from 0 to n - 1, in several threads where there are many.
+template <class Work>
+void for_each_index(std::size_t n, const Work& work) {
+  // Threads are not worth their start for fewer.
+  constexpr std::size_t at_once = 20000;
+  constexpr unsigned max_threads = 16;
+  const auto work_on_part = [&](std::size_t part) {
+    const std::size_t end = std::min(n, (part + 1) * at_once);
+    for (std::size_t i = part * at_once; i < end; ++i) work(i);
+  };
+  if (n <= at_once) {
+    work_on_part(0);
+    return;
+  }
+  run_in_parallel(
+      static_cast<int>((n + at_once - 1) / at_once), max_threads,
+      [&](int part, const Progress&) { work_on_part(static_cast<std::size_t>(part)); }, {}, "");
+}
 
 }  // namespace
 
@@ -23,10 +43,12 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
       weights_(weights),
       n_virtual_(n_virtual) {
   shapes_.resize(triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+  for_each_index(triangles_.size(), [&](std::size_t t) {
     const auto& [a, b, c] = triangles_[t];
     shapes_[t] = local_isometric_frame(positions.row(a), positions.row(b), positions.row(c));
-    if (t + n_virtual_ >= triangles_.size()) continue;
+  });
+  for (std::size_t t = 0; t + n_virtual_ < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
     if (shapes_[t].clamped) ++clamped_triangles_;
     area_ +=
         triangle_weights_[t] *
@@ -133,8 +155,7 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
   }
   // Merge the two halves of every edge. The order of summation is that of the triangles: insertion sort is stable.
   std::vector<int> column_size(static_cast<std::size_t>(n_vertices), 0);
-  std::vector<Entry> long_column;
-  for (int column = 0; column < n_vertices; ++column) {
+  for_each_index(column_size.size(), [&](std::size_t column) {
     Entry* const first = entries.data() + start[column];
     const int size = start[column + 1] - start[column];
     constexpr int short_column = 32;  // insertion sort moves at most 500 entries
@@ -157,23 +178,23 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
       }
     }
     column_size[column] = merged;
-  }
+  });
   HermitianMatrix matrix;
   matrix.resize(n_vertices, n_vertices);
   int* const outer = matrix.outerIndexPtr();
   outer[0] = 0;
   for (int column = 0; column < n_vertices; ++column) outer[column + 1] = outer[column] + column_size[column] + 1;
   matrix.resizeNonZeros(outer[n_vertices]);
-  for (int column = 0; column < n_vertices; ++column) {
+  for_each_index(column_size.size(), [&](std::size_t column) {
     int position = outer[column];
-    matrix.innerIndexPtr()[position] = column;
-    matrix.valuePtr()[position++] = diagonal[column];
+    matrix.innerIndexPtr()[position] = static_cast<int>(column);
+    matrix.valuePtr()[position++] = diagonal[static_cast<Eigen::Index>(column)];
     for (int k = 0; k < column_size[column]; ++k, ++position) {
       const Entry& entry = entries[start[column] + k];
       matrix.innerIndexPtr()[position] = entry.row;
       matrix.valuePtr()[position] = entry.value;
     }
-  }
+  });
   return matrix;
 }
 

@@ -57,14 +57,25 @@ double first_zero(double c0, double c1, double c2, double limit) {
 
 }  // namespace
 
+template <class Work>
+void MeanDistortion::for_each_part(const Work& work) {
+  const auto n = static_cast<int>(parts_.size());
+  if (n == 1) {
+    work(parts_.front());
+    return;
+  }
+  run_in_parallel(
+      n, max_parts, [&](int i, const Progress&) { work(parts_[static_cast<std::size_t>(i)]); }, {}, "");
+}
+
 MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
   const DistortionElements elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(),
                                     energy.n_virtual());
   const std::size_t n_parts = std::clamp(elements.size() / triangles_of_part, std::size_t{1}, max_parts);
   parts_.resize(n_parts);
-  std::vector<int> place(static_cast<std::size_t>(z.size()), -1);
-  for (std::size_t p = 0; p < n_parts; ++p) {
-    Part& part = parts_[p];
+  for_each_part([&](Part& part) {
+    const auto p = static_cast<std::size_t>(&part - parts_.data());
+    std::vector<int> place(static_cast<std::size_t>(z.size()), -1);
     part.triangles.reserve((elements.size() + n_parts - 1) / n_parts);
     const std::size_t end = (p + 1) * elements.size() / n_parts;
     for (std::size_t t = p * elements.size() / n_parts; t < end; ++t) {
@@ -87,33 +98,23 @@ MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVecto
       }
       part.triangles.push_back(triangle);
     }
-    for (const int v : part.vertices) place[static_cast<std::size_t>(v)] = -1;
-  }
-  double sum = 0;
-  double weight = 0;
-  for (Part& part : parts_) {
     gather(part, z, part.z);
     for (const Triangle& triangle : part.triangles) {
       if (triangle.weight == 0) continue;
       const auto& [a, b, c] = triangle.corners;
       const Image image(triangle.shape, part.z[b] - part.z[a], part.z[c] - part.z[a]);
-      sum += triangle.weight * Distorted(image, 1 / image.determinant, 0).root;
-      weight += triangle.weight;
+      part.sum += triangle.weight * Distorted(image, 1 / image.determinant, 0).root;
+      part.weight += triangle.weight;
     }
+  });
+  double sum = 0;
+  double weight = 0;
+  for (const Part& part : parts_) {
+    sum += part.sum;
+    weight += part.weight;
   }
   if (weight > 0) anisotropy_ = sum / weight;
   squared_smoothing_ = relative_smoothing * anisotropy_ * relative_smoothing * anisotropy_;
-}
-
-template <class Work>
-void MeanDistortion::for_each_part(const Work& work) {
-  const auto n = static_cast<int>(parts_.size());
-  if (n == 1) {
-    work(parts_.front());
-    return;
-  }
-  run_in_parallel(
-      n, max_parts, [&](int i, const Progress&) { work(parts_[static_cast<std::size_t>(i)]); }, {}, "");
 }
 
 void MeanDistortion::gather(const Part& part, const ComplexVector& from, ComplexVector& to) {

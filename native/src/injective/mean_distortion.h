@@ -47,6 +47,7 @@ class MeanDistortion {
     ComplexVector z;
     ComplexVector other;  ///< a direction, or the gradient
     double sum = 0;
+    double weight = 0;
   };
 
   template <class Work>
