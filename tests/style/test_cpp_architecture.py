@@ -27,7 +27,7 @@ FLOORS = (
     "seams",
     "bindings",
 )
-HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "types"}
+HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),

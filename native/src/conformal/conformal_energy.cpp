@@ -36,12 +36,13 @@ void for_each_index(std::size_t n, const Work& work) {
 }  // namespace
 
 ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
-                                 std::vector<std::array<int, 3>> triangles, std::vector<double> triangle_weights,
+                                 SharedVector<std::array<int, 3>> triangles, SharedVector<double> triangle_weights,
                                  Weights weights, std::size_t n_virtual)
     : triangles_(std::move(triangles)),
       triangle_weights_(std::move(triangle_weights)),
       weights_(weights),
-      n_virtual_(n_virtual) {
+      n_virtual_(n_virtual),
+      n_vertices_(static_cast<int>(positions.rows())) {
   shapes_.resize(triangles_.size());
   for_each_index(triangles_.size(), [&](std::size_t t) {
     const auto& [a, b, c] = triangles_[t];
@@ -56,8 +57,6 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
     weight_sum_ += triangle_weights_[t];
   }
   weigh();
-  HermitianMatrix matrix = assembled(energy_shapes(), static_cast<int>(positions.rows()));
-  matrix_.swap(matrix);  // Eigen 3.4 would copy it
 }
 
 ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
@@ -69,10 +68,9 @@ ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
       n_virtual_(like.n_virtual_),
       area_(like.area_),
       weight_sum_(like.weight_sum_),
-      clamped_triangles_(like.clamped_triangles_) {
+      clamped_triangles_(like.clamped_triangles_),
+      n_vertices_(like.n_vertices_) {
   weigh();
-  HermitianMatrix matrix = assembled(energy_shapes(), like.n_vertices());
-  matrix_.swap(matrix);
 }
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
@@ -80,7 +78,7 @@ void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
   for (std::size_t t = 0; t < metric.size(); ++t) {
     if (!shapes_[t].clamped) shapes[t] = stretched(shapes[t], metric[t]);
   }
-  use(shapes);
+  stretched_.swap(shapes);
 }
 
 int ConformalEnergy::clamp(double min_height) {
@@ -92,14 +90,8 @@ int ConformalEnergy::clamp(double min_height) {
     shape = shape.clamped_to(min_height);
     ++clamped;
   }
-  if (clamped > 0) use(shapes);
+  if (clamped > 0) stretched_.swap(shapes);
   return clamped;
-}
-
-void ConformalEnergy::use(std::vector<TriangleShape>& shapes) {
-  HermitianMatrix matrix = assembled(shapes, n_vertices());
-  stretched_.swap(shapes);
-  matrix_.swap(matrix);
 }
 
 void ConformalEnergy::weigh() {
@@ -113,22 +105,23 @@ double ConformalEnergy::weight(std::size_t triangle) const {
   return in_quad / std::max(shape.area() / weight_unit_, 1 / (max_entry * shape.relative_height()));
 }
 
-HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& shapes, int n_vertices) const {
+HermitianMatrix ConformalEnergy::matrix() const {
   struct Entry {
     int row;
     Complex value;
   };
-  std::vector<int> start(static_cast<std::size_t>(n_vertices) + 1, 0);
+  std::vector<int> start(static_cast<std::size_t>(n_vertices_) + 1, 0);
   for (const auto& triangle : triangles_) {
     // A polygon that passes a vertex twice may leave a triangle with a side from that vertex to itself.
     for (int k = 0; k < 3; ++k) {
       if (triangle[k] != triangle[(k + 1) % 3]) ++start[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
     }
   }
-  for (int v = 0; v < n_vertices; ++v) start[v + 1] += start[v];
-  LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices]));
+  for (int v = 0; v < n_vertices_; ++v) start[v + 1] += start[v];
+  LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices_]));
   std::vector<int> fill(start.begin(), start.end() - 1);
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
+  const std::vector<TriangleShape>& shapes = energy_shapes();
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& triangle = triangles_[t];
     const TriangleShape& s = shapes[t];
@@ -154,7 +147,7 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
     }
   }
   // Merge the two halves of every edge. The order of summation is that of the triangles: insertion sort is stable.
-  std::vector<int> column_size(static_cast<std::size_t>(n_vertices), 0);
+  std::vector<int> column_size(static_cast<std::size_t>(n_vertices_), 0);
   for_each_index(column_size.size(), [&](std::size_t column) {
     Entry* const first = entries.data() + start[column];
     const int size = start[column + 1] - start[column];
@@ -180,11 +173,11 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
     column_size[column] = merged;
   });
   HermitianMatrix matrix;
-  matrix.resize(n_vertices, n_vertices);
+  matrix.resize(n_vertices_, n_vertices_);
   int* const outer = matrix.outerIndexPtr();
   outer[0] = 0;
-  for (int column = 0; column < n_vertices; ++column) outer[column + 1] = outer[column] + column_size[column] + 1;
-  matrix.resizeNonZeros(outer[n_vertices]);
+  for (int column = 0; column < n_vertices_; ++column) outer[column + 1] = outer[column] + column_size[column] + 1;
+  matrix.resizeNonZeros(outer[n_vertices_]);
   for_each_index(column_size.size(), [&](std::size_t column) {
     int position = outer[column];
     matrix.innerIndexPtr()[position] = static_cast<int>(column);
@@ -196,14 +189,6 @@ HermitianMatrix ConformalEnergy::assembled(const std::vector<TriangleShape>& sha
     }
   });
   return matrix;
-}
-
-double ConformalEnergy::max_diagonal() const {
-  double largest = 0;
-  for (int v = 0; v < n_vertices(); ++v) {
-    largest = std::max(largest, matrix_.valuePtr()[matrix_.outerIndexPtr()[v]].real());
-  }
-  return largest;
 }
 
 double ConformalEnergy::value(const ComplexVector& z) const {

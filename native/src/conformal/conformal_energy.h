@@ -5,6 +5,7 @@
 #include "geometry/triangle_shape.h"
 #include "spectral_conformal/metric.h"
 #include "spectral_conformal/options.h"
+#include "spectral_conformal/shared_vector.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -22,8 +23,8 @@ class ConformalEnergy {
   /// positions (V, 3) near unit scale; triangles counter-clockwise; triangle_weights per triangle. The last `n_virtual`
   /// triangles (filled holes) are in the energy and in no measure of the surface.
   /// Nearly degenerate triangles are clamped as local_isometric_frame does and counted in clamped_triangles().
-  ConformalEnergy(const Eigen::Ref<const Positions>& positions, std::vector<std::array<int, 3>> triangles,
-                  std::vector<double> triangle_weights, Weights weights, std::size_t n_virtual = 0);
+  ConformalEnergy(const Eigen::Ref<const Positions>& positions, SharedVector<std::array<int, 3>> triangles,
+                  SharedVector<double> triangle_weights, Weights weights, std::size_t n_virtual = 0);
   /// The same patch and metric with other weights.
   ConformalEnergy(const ConformalEnergy& like, Weights weights);
 
@@ -35,9 +36,9 @@ class ConformalEnergy {
   /// Gives thin triangles a relative_height of at least this, in the energy only. Returns how many. All or nothing.
   int clamp(double min_height);
 
-  const HermitianMatrix& matrix() const { return matrix_; }
-  double max_diagonal() const;  ///< largest diagonal entry of L
-  int n_vertices() const { return static_cast<int>(matrix_.rows()); }
+  /// L, assembled by each call: it is large, and needed for a factorisation only.
+  HermitianMatrix matrix() const;
+  int n_vertices() const { return n_vertices_; }
   Weights weights() const { return weights_; }
   int clamped_triangles() const { return clamped_triangles_; }
   /// True area of the surface, weighted by the triangle weights, in squared units of the positions.
@@ -65,12 +66,8 @@ class ConformalEnergy {
  private:
   void weigh();
   double weight(std::size_t triangle) const;
-  void use(std::vector<TriangleShape>& shapes);
-  /// L for triangles of these shapes.
-  HermitianMatrix assembled(const std::vector<TriangleShape>& shapes, int n_vertices) const;
-
-  std::vector<std::array<int, 3>> triangles_;
-  std::vector<double> triangle_weights_;
+  SharedVector<std::array<int, 3>> triangles_;
+  SharedVector<double> triangle_weights_;
   std::vector<TriangleShape> shapes_;
   std::vector<TriangleShape> stretched_;  ///< empty without a metric or clamped triangles
   Weights weights_;
@@ -79,7 +76,7 @@ class ConformalEnergy {
   double area_ = 0;
   double weight_sum_ = 0;  ///< sum of the triangle weights, without virtual triangles
   int clamped_triangles_ = 0;
-  HermitianMatrix matrix_;
+  int n_vertices_;
 };
 
 }  // namespace spectral_conformal

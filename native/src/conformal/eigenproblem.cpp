@@ -124,7 +124,8 @@ ComplexVector dense_eigenvector(const ReducedOperator& op) {
 class AreaOperator {
  public:
   using Scalar = double;
-  explicit AreaOperator(const ConformalEnergy& energy) : energy_(energy), matrix_(energy.matrix()) {}
+  /// matrix: L, which must outlive this.
+  AreaOperator(const ConformalEnergy& energy, const HermitianMatrix& matrix) : energy_(energy), matrix_(matrix) {}
   Eigen::Index rows() const { return 2 * matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
   /// A z, A being minus the imaginary part of L: A_ij = -i Im L_ij.
@@ -249,8 +250,9 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress) {
   const Eigen::Index n = energy.n_vertices();
-  AreaOperator area(energy);  // Spectra wants it mutable
-  ShiftedOperator shifted(factorization, energy.matrix(), form, shift, progress);
+  const HermitianMatrix matrix = energy.matrix();
+  AreaOperator area(energy, matrix);  // Spectra wants it mutable
+  ShiftedOperator shifted(factorization, matrix, form, shift, progress);
   const ComplexVector on_boundary = start_vector(form, options.start);
   ComplexVector start = ComplexVector::Zero(n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];

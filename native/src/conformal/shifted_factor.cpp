@@ -6,24 +6,25 @@
 
 namespace spectral_conformal {
 
-ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const Positions& positions, const BoundaryForm& form,
+ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& positions, const BoundaryForm& form,
                              double relative_shift, FactorizationBackend backend, const Progress& progress) {
   ShiftedFactor result;
-  HermitianMatrix shifted;  // Eigen 3.4's copy constructor leaks where memory runs out
-  shifted = matrix;
-  const auto diagonal = [&matrix](int v) { return matrix.valuePtr()[matrix.outerIndexPtr()[v]]; };
+  const auto diagonal = [&matrix](int v) -> Complex& { return matrix.valuePtr()[matrix.outerIndexPtr()[v]]; };
+  std::vector<Complex> unshifted;
+  unshifted.reserve(form.vertices.size());
+  for (const int v : form.vertices) unshifted.push_back(diagonal(v));
   // The median withstands the huge entries of tiny triangles, next to which a shift would drown the small eigenvalues.
   std::vector<double> ratios;
   ratios.reserve(form.vertices.size());
   for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-    ratios.push_back(diagonal(form.vertices[i]).real() / form.mass[static_cast<Eigen::Index>(i)]);
+    ratios.push_back(unshifted[i].real() / form.mass[static_cast<Eigen::Index>(i)]);
   }
   const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), median, ratios.end());
   const double unit = *median;
-  result.factorization = make_factorization(backend, shifted.rows());
+  result.factorization = make_factorization(backend, matrix.rows());
   report(progress, 0.0, "ordering");
-  result.factorization->analyze(shifted, &positions);
+  result.factorization->analyze(matrix, &positions);
   // To 1e8 times the given shift, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no longer
   // converge in their bounded number.
   constexpr int max_raises = 4;
@@ -32,12 +33,10 @@ ShiftedFactor factor_shifted(const HermitianMatrix& matrix, const Positions& pos
     report(progress, 0.2, "factorization");
     result.shift = relative_shift * std::pow(raise_factor, raise) * unit;
     for (std::size_t i = 0; i < form.vertices.size(); ++i) {
-      const int v = form.vertices[i];
       // Section 3.4, with s M instead of epsilon I: L + s M.
-      shifted.valuePtr()[shifted.outerIndexPtr()[v]] =
-          diagonal(v) + result.shift * form.mass[static_cast<Eigen::Index>(i)];
+      diagonal(form.vertices[i]) = unshifted[i] + result.shift * form.mass[static_cast<Eigen::Index>(i)];
     }
-    if (result.factorization->factorize(shifted)) return result;
+    if (result.factorization->factorize(matrix)) return result;
   }
   result.factorization.reset();
   return result;

@@ -85,7 +85,17 @@ class ChartBuilder {
 
   /// Fills in triangles, loops and the Euler characteristic of a chart that has its faces and vertices.
   void complete(Chart& chart) {
-    chart.triangles.reserve(2 * chart.faces.size());
+    triangles_.clear();
+    triangle_weights_.clear();
+    std::size_t most_triangles = 0;
+    for (const int face : chart.faces) {
+      // A quad has both of its splits.
+      const int size = mesh_.n_corners(face);
+      most_triangles += static_cast<std::size_t>(size == 4 ? 4 : size - 2);
+    }
+    triangles_.reserve(most_triangles);
+    triangle_weights_.reserve(most_triangles);
+    chart.triangle_face.reserve(most_triangles);
     next_vertex_.assign(chart.vertices.size(), -1);
     long long n_half_edges = 0;
     long long n_boundary = 0;
@@ -103,6 +113,8 @@ class ChartBuilder {
       }
       triangulate(face, static_cast<int>(i), reversed, chart);
     }
+    chart.triangles = std::move(triangles_);
+    chart.triangle_weights = std::move(triangle_weights_);
     chart.boundary_loops = chain_loops(next_vertex_);
     const long long n_edges = (n_half_edges + n_boundary) / 2;
     chart.euler_characteristic = static_cast<int>(static_cast<long long>(chart.vertices.size()) - n_edges +
@@ -115,9 +127,8 @@ class ChartBuilder {
     const int size = mesh_.n_corners(face);
     const auto corner = [&](int i) { return reversed ? first + size - 1 - i : first + i; };
     if (size == 3) {
-      chart.triangles.push_back(
-          {vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
-      chart.triangle_weights.push_back(1.0);
+      triangles_.push_back({vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
+      triangle_weights_.push_back(1.0);
       chart.triangle_face.push_back(index);
       return;
     }
@@ -131,9 +142,9 @@ class ChartBuilder {
     if (!polygon_.simple) ++chart.self_intersecting_polygons;
     for (std::size_t t = 0; t < polygon_.triangles.size(); ++t) {
       const auto& local = polygon_.triangles[t];
-      chart.triangles.push_back({vertex_of_corner_[corner(local[0])], vertex_of_corner_[corner(local[1])],
-                                 vertex_of_corner_[corner(local[2])]});
-      chart.triangle_weights.push_back(polygon_.triangle_weights[t]);
+      triangles_.push_back({vertex_of_corner_[corner(local[0])], vertex_of_corner_[corner(local[1])],
+                            vertex_of_corner_[corner(local[2])]});
+      triangle_weights_.push_back(polygon_.triangle_weights[t]);
       chart.triangle_face.push_back(index);
     }
   }
@@ -142,6 +153,8 @@ class ChartBuilder {
   const HalfEdges& half_edges_;
   const std::vector<char>& reversed_;
   const std::vector<int>& vertex_of_corner_;
+  std::vector<std::array<int, 3>> triangles_;  ///< of the chart that is being completed
+  std::vector<double> triangle_weights_;
   std::vector<int> next_vertex_;
   Positions corners_;
   PolygonTriangulation polygon_;

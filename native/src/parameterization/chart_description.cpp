@@ -72,8 +72,9 @@ std::string describe_chart(const Chart& chart, const Positions& positions, const
   // Bound by name, so that a member that is added must be added here.
   const auto& [faces, vertices, triangles, triangle_weights, triangle_face, boundary_loops, euler_characteristic,
                orientable, self_intersecting_polygons, reversed_faces, duplicates] = chart;
-  description.add(faces, vertices, triangles, triangle_weights, triangle_face, boundary_loops, euler_characteristic,
-                  orientable, self_intersecting_polygons, reversed_faces, duplicates, positions, metric);
+  description.add(faces, vertices, triangles.vector(), triangle_weights.vector(), triangle_face, boundary_loops,
+                  euler_characteristic, orientable, self_intersecting_polygons, reversed_faces, duplicates, positions,
+                  metric);
   const auto& [weights, boundary, backend, fill_holes, area_blend, fold_free, polish] = patch;
   description.add(weights, boundary, backend, fill_holes, area_blend, fold_free, polish);
   const auto& [method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, second_attempt] = solve;

@@ -10,6 +10,18 @@
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
+namespace {
+
+template <class T>
+std::vector<T> joined(const std::vector<T>& first, const std::vector<T>& second) {
+  std::vector<T> result;
+  result.reserve(first.size() + second.size());
+  result.insert(result.end(), first.begin(), first.end());
+  result.insert(result.end(), second.begin(), second.end());
+  return result;
+}
+
+}  // namespace
 
 NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions, bool fill_holes) {
   const std::string problem = why_not_parameterizable(chart, positions);
@@ -32,9 +44,8 @@ NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Posi
   patch.triangle_weights = chart.triangle_weights;
   if (fill_holes && !patch.inner.empty()) {
     const HoleFilling filling = spectral_conformal::fill_holes(chart.boundary_loops, outer, patch.positions);
-    patch.triangles.insert(patch.triangles.end(), filling.triangles.begin(), filling.triangles.end());
-    patch.triangle_weights.insert(patch.triangle_weights.end(), filling.triangle_weights.begin(),
-                                  filling.triangle_weights.end());
+    patch.triangles = joined(chart.triangles.vector(), filling.triangles);
+    patch.triangle_weights = joined(chart.triangle_weights.vector(), filling.triangle_weights);
     patch.positions.conservativeResize(patch.n_vertices + filling.centres.rows(), 3);
     patch.positions.bottomRows(filling.centres.rows()) = filling.centres;
     patch.n_virtual = filling.triangles.size();
@@ -61,6 +72,7 @@ ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexV
 }
 
 Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z) {
+  if (patch.n_virtual == 0) return measure_distortion(patch.surface(), patch.triangles, patch.triangle_weights, z);
   const auto n = static_cast<std::ptrdiff_t>(patch.triangles.size() - patch.n_virtual);
   const auto triangles = patch.triangles.begin();
   const auto weights = patch.triangle_weights.begin();

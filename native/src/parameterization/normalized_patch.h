@@ -6,6 +6,7 @@
 
 #include "mesh/charts.h"
 #include "spectral_conformal/distortion.h"
+#include "spectral_conformal/shared_vector.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -18,9 +19,9 @@ struct NormalizedPatch {
   double scale = 1;     ///< input units per unit of `positions`
   BoundaryLoop outer;   ///< the longest in 3D
   std::vector<BoundaryLoop> inner;
-  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise; the chart's, then those in filled holes
-  std::vector<double> triangle_weights;       ///< per triangle, see Chart
-  std::size_t n_virtual = 0;                  ///< triangles in filled holes
+  SharedVector<std::array<int, 3>> triangles;  ///< counter-clockwise; the chart's, then those in filled holes
+  SharedVector<double> triangle_weights;       ///< per triangle, see Chart
+  std::size_t n_virtual = 0;                   ///< triangles in filled holes
 
   auto surface() const { return positions.topRows(n_vertices); }  ///< positions of the chart's vertices
 };

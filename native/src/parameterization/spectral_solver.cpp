@@ -109,8 +109,7 @@ SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& att
   const bool kept = on_boundary && attempt.relative_shift == first_relative_shift;
   ShiftedFactor& factor = kept ? factor_ : own;
   if (!factor.factorization) {
-    factor = factor_shifted(energy_->matrix(), patch_->positions, form, attempt.relative_shift, backend_,
-                            part(progress, 0.0, 0.6));
+    factor = factored(form, attempt.relative_shift, part(progress, 0.0, 0.6));
     watch.lap("factorization");
   }
   map.shift = factor.shift;
@@ -214,7 +213,7 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     result.change = correction.change;
     ComplexVector r;
     result.lambda = eigen_residual(*energy_, quotient, result.z, r);  // Eq. 5
-    result.residual = r.norm() / (energy_->max_diagonal() * result.z.norm());
+    result.residual = r.norm() / (max_diagonal_ * result.z.norm());
   }
   return result;
 }
@@ -234,8 +233,17 @@ ExtendedForm SpectralSolver::extended_form(const BoundaryForm& form, const Solve
   return extended;
 }
 
+ShiftedFactor SpectralSolver::factored(const BoundaryForm& form, double relative_shift, const Progress& progress) {
+  HermitianMatrix matrix = energy_->matrix();
+  max_diagonal_ = 0;
+  for (Eigen::Index v = 0; v < matrix.outerSize(); ++v) {
+    max_diagonal_ = std::max(max_diagonal_, matrix.valuePtr()[matrix.outerIndexPtr()[v]].real());
+  }
+  return factor_shifted(std::move(matrix), patch_->positions, form, relative_shift, backend_, progress);
+}
+
 SpectralMap SpectralSolver::factorize(const Progress& progress) {
-  factor_ = factor_shifted(energy_->matrix(), patch_->positions, form_, first_relative_shift, backend_, progress);
+  factor_ = factored(form_, first_relative_shift, progress);
   SpectralMap outcome;
   outcome.attempts = 1;
   outcome.shift = factor_.shift;
@@ -284,7 +292,7 @@ SpectralSolver::Numbers SpectralSolver::numbers(const ComplexVector& whole) cons
   ComplexVector r;
   const double lambda = eigen_residual(*energy_, quotient_form(form_), whole, r);
   result.eigenvalue = lambda * eigenvalue_unit(Method::spectral);
-  result.residual = r.norm() / (energy_->max_diagonal() * whole.norm());
+  result.residual = r.norm() / (max_diagonal_ * whole.norm());
   return result;
 }
 

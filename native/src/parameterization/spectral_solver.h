@@ -84,6 +84,8 @@ class SpectralSolver {
                       const Progress& progress, Timings& timings);
   Eigenvector eigenvector(const SolveOptions& options, const Pins& attractors, const BoundaryForm& form,
                           ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
+  /// Factors L + s M, as factor_shifted does.
+  ShiftedFactor factored(const BoundaryForm& form, double relative_shift, const Progress& progress);
   void forget();  ///< what belongs to the factor
   ExtendedForm extended_form(const BoundaryForm& form, const SolveOptions& options, const Pins& attractors) const;
 
@@ -91,6 +93,7 @@ class SpectralSolver {
   FactorizationBackend backend_;
   BoundaryMeasure boundary_;
   std::unique_ptr<ConformalEnergy> energy_;  ///< L
+  double max_diagonal_ = 0;                  ///< largest diagonal entry of L, once it was factored
   BoundaryForm form_;                        ///< M, and B^ with the constants taken out
   ShiftedFactor factor_;                     ///< of L + s M
   RitzBasis ritz_basis_;                     ///< of the last solve with soft constraints and factor_

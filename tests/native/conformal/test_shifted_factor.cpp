@@ -39,7 +39,7 @@ TEST_CASE("a matrix that no shift makes definite has no factor, and the last shi
     int inner = 0;
     while (std::find(form.vertices.begin(), form.vertices.end(), inner) != form.vertices.end()) ++inner;
     indefinite.valuePtr()[indefinite.outerIndexPtr()[inner]] = -1;
-    const ShiftedFactor factor = factor_shifted(indefinite, patch.positions, form, 1e-8, backend, {});
+    const ShiftedFactor factor = factor_shifted(std::move(indefinite), patch.positions, form, 1e-8, backend, {});
     CHECK_FALSE(factor.factorization);
     CHECK(factor.shift == doctest::Approx(1e8 * first));
   }

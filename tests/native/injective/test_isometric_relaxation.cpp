@@ -283,8 +283,8 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   }
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
   REQUIRE(filling.centres.rows() == 0);
-  auto triangles = patch.chart.triangles;
-  auto triangle_weights = patch.chart.triangle_weights;
+  std::vector<std::array<int, 3>> triangles = patch.chart.triangles;
+  std::vector<double> triangle_weights = patch.chart.triangle_weights;
   triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
   triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
   const ConformalEnergy filled(patch.positions, triangles, triangle_weights, Weights::uniform,

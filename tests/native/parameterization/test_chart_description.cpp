@@ -28,8 +28,16 @@ TEST_CASE("whatever changes the map changes the description") {
   const std::vector<void (*)(Described&)> changes = {
       [](Described&) {},
       [](Described& p) { p.positions(3, 1) = std::nextafter(p.positions(3, 1), 10.0); },
-      [](Described& p) { std::swap(p.chart.triangles[0], p.chart.triangles[1]); },
-      [](Described& p) { p.chart.triangle_weights[0] = 0.5; },
+      [](Described& p) {
+        std::vector<std::array<int, 3>> triangles = p.chart.triangles;
+        std::swap(triangles[0], triangles[1]);
+        p.chart.triangles = std::move(triangles);
+      },
+      [](Described& p) {
+        std::vector<double> weights = p.chart.triangle_weights;
+        weights[0] = 0.5;
+        p.chart.triangle_weights = std::move(weights);
+      },
       [](Described& p) { p.chart.faces.back() += 1; },
       [](Described& p) { p.chart.reversed_faces = 1; },
       [](Described& p) { p.metric.resize(p.chart.triangles.size()); },

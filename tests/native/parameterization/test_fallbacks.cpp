@@ -77,7 +77,7 @@ TEST_CASE("with a blend only other problems are solved; the map says of which fo
 TEST_CASE("without any map there is no fallback") {
   const Patch patch(bumpy_grid(4, 4));
   NormalizedPatch empty = normalized_patch(patch.chart, patch.positions, false);
-  std::fill(empty.triangle_weights.begin(), empty.triangle_weights.end(), 0.0);
+  empty.triangle_weights = std::vector<double>(empty.triangles.size(), 0.0);
   const SpectralSolver solver(empty, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
   Timings timings;
   int attempts = 0;

@@ -63,7 +63,7 @@ TEST_CASE("outcomes are typed: winding under an extender needs no second attempt
   CHECK(wound.rejection == Rejection::winding);
   CHECK((wound.turning_number == 2 && wound.attempts == 1));
   NormalizedPatch empty = normalized;
-  std::fill(empty.triangle_weights.begin(), empty.triangle_weights.end(), 0.0);
+  empty.triangle_weights = std::vector<double>(empty.triangles.size(), 0.0);
   SpectralSolver none(empty, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
   CHECK(none.solve({}, {}, {}, timings).rejection != Rejection::none);
 }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace spectral_conformal {
+
+/// A vector that never changes and is shared by its copies: what several objects keep of one surface is in memory once.
+/// Copies may be made and used in several threads at once.
+template <class T>
+class SharedVector {
+ public:
+  SharedVector() : SharedVector(std::vector<T>{}) {}
+  SharedVector(std::vector<T> values)  // NOLINT(google-explicit-constructor): takes the place of a vector
+      : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
+  SharedVector(std::initializer_list<T> values) : SharedVector(std::vector<T>(values)) {}
+
+  operator const std::vector<T>&() const { return *values_; }  // NOLINT(google-explicit-constructor): as above
+  const std::vector<T>& vector() const { return *values_; }
+  const T& operator[](std::size_t i) const { return (*values_)[i]; }
+  std::size_t size() const { return values_->size(); }
+  auto begin() const { return values_->begin(); }
+  auto end() const { return values_->end(); }
+
+  friend bool operator==(const SharedVector& a, const SharedVector& b) { return *a.values_ == *b.values_; }
+
+ private:
+  std::shared_ptr<const std::vector<T>> values_;
+};
+
+}  // namespace spectral_conformal
