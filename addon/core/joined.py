@@ -12,13 +12,21 @@ from .mesh import PolygonMesh
 
 @dataclass(frozen=True)
 class Part:
-    """What `spectral_conformal.unwrap` returns, as far as it is about one of the meshes."""
+    """What a result for the joined meshes says about one of them; charts are numbered among those of the mesh.
+
+    Attributes:
+        uv: (C, 2) float64.
+        chart_of_corner: (C,) intp, -1 for none.
+        charts: records of the mesh's charts.
+        failed_islands: (F,) intp, -1 for none.
+        too_small_faces: how many of the mesh's faces are too small.
+    """
 
     uv: np.ndarray
-    solved_corners: np.ndarray
-    chart_of_face: np.ndarray
+    chart_of_corner: np.ndarray
     charts: Sequence[Any]
-    unused_extenders: np.ndarray
+    failed_islands: np.ndarray
+    too_small_faces: int
 
 
 def joined(meshes: Sequence[PolygonMesh]) -> PolygonMesh:
@@ -31,9 +39,8 @@ def joined(meshes: Sequence[PolygonMesh]) -> PolygonMesh:
     first_corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
     return PolygonMesh(
         vertices=np.concatenate([mesh.vertices for mesh in meshes]),
-        face_offsets=np.concatenate(
-            [first_corners[:1], *(mesh.face_offsets[1:] + first for mesh, first in zip(meshes, first_corners))]
-        ),
+        face_offsets=np.concatenate([first_corners[:1], *(mesh.face_offsets[1:] for mesh in meshes)])
+        + np.repeat([0, *first_corners[:-1]], [1, *(len(mesh.selected_faces) for mesh in meshes)]).astype(np.int32),
         corner_vertices=_renumbered([mesh.corner_vertices for mesh in meshes], first_vertices),
         seam_edges=_renumbered([mesh.seam_edges for mesh in meshes], first_vertices),
         selected_faces=np.concatenate([mesh.selected_faces for mesh in meshes]),
@@ -51,8 +58,18 @@ def _renumbered(vertices: Sequence[np.ndarray], starts: np.ndarray) -> np.ndarra
     return number + first
 
 
-def parts(meshes: Sequence[PolygonMesh], result: Any) -> Iterator[Part]:  # noqa: ANN401 - of the native module
-    """Yield what a `result` for the joined meshes, which is used up, says about each of them."""
+def parts(
+    meshes: Sequence[PolygonMesh],
+    result: Any,  # noqa: ANN401 - of the native module
+    chart_of_corner: np.ndarray,
+    failed_islands: np.ndarray,
+    too_small: np.ndarray,
+) -> Iterator[Part]:
+    """Yield what a `result` for the joined meshes, which is used up, says about each of them.
+
+    `chart_of_corner` (C,) and `failed_islands` (F,) number charts as the result does, -1 for none, and
+    `too_small` (N,) has faces.
+    """
     corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
     faces = _starts(len(mesh.selected_faces) for mesh in meshes)
     # Charts are numbered by their first face. The last may be of all faces that can be in no chart, of any mesh.
@@ -66,6 +83,9 @@ def parts(meshes: Sequence[PolygonMesh], result: Any) -> Iterator[Part]:  # noqa
     own_number = np.where(number < 0, -1, number - np.repeat(first_charts[:-1], np.diff(faces)))
     is_last = number == len(charts)
     own_number[is_last] = np.repeat(np.diff(first_charts), np.diff(faces))[is_last]
+    own_failed = np.where(failed_islands < 0, -1, own_number)
+    own_of_corner = np.where(chart_of_corner < 0, -1, chart_of_corner - np.repeat(first_charts[:-1], np.diff(corners)))
+    counts = np.diff(np.searchsorted(np.sort(too_small), faces)).tolist()
     starts = list(zip(*(array.tolist() for array in (faces, corners, first_charts))))
     for k, ((face, corner, first), (face_end, corner_end, end)) in enumerate(zip(starts, starts[1:])):
         own = charts[first:end]
@@ -75,10 +95,10 @@ def parts(meshes: Sequence[PolygonMesh], result: Any) -> Iterator[Part]:  # noqa
             chart.faces[:] -= face
         yield Part(
             result.uv[corner:corner_end],
-            result.solved_corners[corner:corner_end],
-            own_number[face:face_end],
+            own_of_corner[corner:corner_end],
             own,
-            result.unused_extenders,
+            own_failed[face:face_end],
+            counts[k],
         )
 
 

@@ -2,7 +2,6 @@
 """The mesh as arrays, in the layout that both Blender and `spectral_conformal.unwrap` use."""
 
 import functools
-import hashlib
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -37,12 +36,9 @@ class PolygonMesh:
     stretch_direction: np.ndarray | None = None
 
     @functools.cached_property
-    def topology(self) -> bytes:
-        """A digest of the faces and of their vertices, without the places of these."""
-        digest = hashlib.blake2b(repr(self.face_offsets.shape).encode())
-        for array in (self.face_offsets, self.corner_vertices):
-            digest.update(np.ascontiguousarray(array).data)
-        return digest.digest()
+    def topology(self) -> int:
+        """A digest of the faces and of their vertices, without the places of these; another in every process."""
+        return hash((self.face_offsets.tobytes(), self.corner_vertices.tobytes()))
 
     def face_of_corner(self) -> np.ndarray:
         """Return the face of every corner, (C,) intp."""
@@ -66,6 +62,11 @@ class PolygonMesh:
         if self.uv is None or self.pinned_corners is None or not self.pinned_corners.any():
             return np.zeros(len(self.corner_vertices), dtype=bool)
         return self.pinned_corners & np.isfinite(self.uv).all(axis=1) & self.selected_faces[self.face_of_corner()]
+
+    @property
+    def has_usable_pins(self) -> bool:
+        """Whether any of `usable_pins` is there."""
+        return self.pinned_corners is not None and bool(self.pinned_corners.any() and self.usable_pins().any())
 
     def isotropic_uv(self) -> np.ndarray | None:
         """Return `uv` in coordinates in which a square of the image is a square and areas are those of `uv`.

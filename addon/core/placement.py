@@ -8,6 +8,7 @@ so that angles are kept.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 
@@ -258,9 +259,9 @@ def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.nda
 
     Without such charts it is the solution's own array.
     """
-    single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
-    if not single.any():
+    if not any(chart.n_pins == 1 for chart in solution.charts):
         return solution.uv
+    single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
     chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
     if (chart < 0).all():
         return solution.uv
@@ -301,7 +302,8 @@ def place(
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
     chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
-    chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
+    if any(chart.n_pins for solution in solutions for chart in solution.charts):
+        chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
     without_bounds = 0
     if keep_in_place:
         former = np.concatenate(
@@ -313,6 +315,11 @@ def place(
     if may_turn:
         uv = lying(uv, chart)
     # The tile is a square in the coordinates of each mesh's image.
-    parts = zip(meshes, np.split(uv, np.cumsum(corner_counts)[:-1]))
-    uv = side_by_side(np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in parts]), chart, margin)
-    return Placement(np.split(uv, np.cumsum(corner_counts)[:-1]), without_bounds)
+    if any(mesh.aspect != 1.0 for mesh in meshes):
+        uv = np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, corner_counts))])
+    return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
+
+
+def _split(values: np.ndarray, counts: Sequence[int]) -> list[np.ndarray]:
+    """Return the parts of an array that have so many rows each."""
+    return [values[end - count : end] for count, end in zip(counts, accumulate(counts))]

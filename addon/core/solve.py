@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import native
-from .joined import joined, numbered_together
+from .joined import joined
 from .joined import parts as joined_parts
 from .mesh import PolygonMesh
 from .options import Options
@@ -30,6 +30,7 @@ class Solution:
         failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart where all are refused.
         error: why the whole mesh was refused; empty if it was not.
         unused_extenders: number of the mesh's extenders that no solved chart could use.
+        too_small_faces: number of faces that `find_too_small_faces` finds.
     """
 
     uv: np.ndarray
@@ -38,6 +39,12 @@ class Solution:
     failed_islands: np.ndarray
     error: str = ""
     unused_extenders: int = 0
+    too_small_faces: int = 0
+
+    @functools.cached_property
+    def has_failures(self) -> bool:
+        """Whether a chart failed, or the whole mesh was refused."""
+        return bool(self.error) or any(chart.status != "solved" for chart in self.charts)
 
     @functools.cached_property
     def failed_faces(self) -> np.ndarray:
@@ -58,38 +65,35 @@ class Solution:
         return np.array([*pinned, False])[self.chart_of_corner]
 
 
-def too_small_faces(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> int:
-    """Return how many solved faces shrink so far in their chart that Blender's single precision merges them.
+def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:
+    """Return the solved faces that shrink so far in their chart that Blender's single precision merges them, (N,) intp.
 
     A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not count.
+    The arrays, (C, 2) and (C,), are those of a `Solution`.
     """
-    if not meshes:
-        return 0
-    whole = joined(meshes) if len(meshes) > 1 else meshes[0]
-    uv = np.concatenate([solution.uv for solution in solutions])
-    chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
-    chart = chart[whole.face_offsets[:-1]]
-    image = _part_of_chart(uv, whole, chart)
-    small = image < 2.0**-21
-    if not small.any():
-        return 0
-    original = _part_of_chart(whole.vertices[whole.corner_vertices], whole, chart)
-    return int(np.count_nonzero(small & (image < original / 16)))
-
-
-def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray) -> np.ndarray:
-    """Return the extent of the faces of charts as parts of their chart's; `positions` (C, n) of the corners.
-
-    `chart` (F,) is -1 for faces of none; the result has the length of the others, in the order of their charts.
-    """
-    low, high = (np.ascontiguousarray(bound.T) for bound in mesh.face_bounds(positions))
-    if len(chart) and chart[0] >= 0 and (chart == chart[0]).all():
-        return (high - low).max(axis=0) / (high.max(axis=1) - low.min(axis=1)).max()
+    chart = chart_of_corner[mesh.face_offsets[:-1]]
+    order = np.arange(len(chart))
     if (chart[1:] < chart[:-1]).any() or (chart[:1] < 0).any():
         order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
+    if not len(order):
+        return order
+    image = _part_of_chart(uv, mesh, chart, order)
+    small = image < 2.0**-21
+    if small.any():
+        small &= image < _part_of_chart(mesh.vertices[mesh.corner_vertices], mesh, chart, order) / 16
+    return order[small]
+
+
+def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray, order: np.ndarray) -> np.ndarray:
+    """Return the extent of faces as parts of their chart's, (len(order),); `positions` (C, n) of the corners.
+
+    `order` has the faces of charts, which may be all, in the order of their `chart` (F,).
+    """
+    low, high = (np.ascontiguousarray(bound.T) for bound in mesh.face_bounds(positions))
+    if len(order) < len(chart) or chart[order[0]] != chart[0] or (chart[1:] < chart[:-1]).any():
         low, high, chart = low.take(order, axis=1), high.take(order, axis=1), chart.take(order)
-    if not len(chart):
-        return np.empty(0)
+    if chart[0] == chart[-1]:
+        return (high - low).max(axis=0) / (high.max(axis=1) - low.min(axis=1)).max()
     starts = np.flatnonzero(np.diff(chart, prepend=-1))
     size = np.maximum.reduceat(high, starts, axis=1) - np.minimum.reduceat(low, starts, axis=1)
     return (high - low).max(axis=0) / np.repeat(size.max(axis=0), np.diff(starts, append=len(chart)))
@@ -111,11 +115,12 @@ def solve(
         spectral_conformal.Cancelled: `progress` returned False.
     """
     try:
-        return _solution(mesh, _unwrap(mesh, options, progress, kept))
+        result = _unwrap(mesh, options, progress, kept)
     except ValueError as error:
         corners = len(mesh.corner_vertices)
         refused = np.where(mesh.selected_faces, 0, -1)
         return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), refused, str(error))
+    return _solutions([mesh], mesh, result)[0]
 
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
@@ -130,21 +135,25 @@ def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept
     )
 
 
-def _solution(mesh: PolygonMesh, result: Any) -> Solution:  # noqa: ANN401 - of the module, or a part of it
-    chart_of_corner = np.repeat(result.chart_of_face, np.diff(mesh.face_offsets))
+def _solutions(
+    meshes: Sequence[PolygonMesh],
+    whole: PolygonMesh,
+    result: Any,  # noqa: ANN401 - of the native module
+) -> list[Solution]:
+    """Return what the result for the `whole`, all `meshes` in one, is for each of them; it is used up."""
+    chart_of_corner = np.repeat(result.chart_of_face, np.diff(whole.face_offsets))
     chart_of_corner[~result.solved_corners] = -1
-    failed = [chart.status != "solved" for chart in result.charts]
-    if any(failed):
-        failed_islands = np.where(np.array([*failed, False])[result.chart_of_face], result.chart_of_face, -1)
-    else:
-        failed_islands = np.full_like(result.chart_of_face, -1)
-    return Solution(
-        result.uv,
-        chart_of_corner,
-        result.charts,
-        failed_islands,
-        unused_extenders=_count_unused(mesh, result.unused_extenders),
-    )
+    failed = np.array([*(chart.status != "solved" for chart in result.charts), False])
+    failed_islands = np.where(failed[result.chart_of_face], result.chart_of_face, -1)
+    too_small = find_too_small_faces(whole, result.uv, chart_of_corner)
+    if len(meshes) == 1:
+        unused = _count_unused(whole, result.unused_extenders)
+        return [Solution(result.uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
+    # Extenders keep a mesh from being joined.
+    return [
+        Solution(part.uv, part.chart_of_corner, part.charts, part.failed_islands, too_small_faces=part.too_small_faces)
+        for part in joined_parts(meshes, result, chart_of_corner, failed_islands, too_small)
+    ]
 
 
 def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
@@ -198,10 +207,9 @@ def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
-    pinned = mesh.usable_pins()
-    if not pinned.any():
+    if not mesh.has_usable_pins:
         return {}
-    return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": pinned, "soft_pins": options.soft_pins}
+    return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": mesh.usable_pins(), "soft_pins": options.soft_pins}
 
 
 def solve_all(
@@ -232,7 +240,7 @@ def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[Polygo
 
 def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
     """Return whether a mesh has what must not reach others: constraints, or a vertex that is named by number."""
-    is_constrained = bool(mesh.extenders) or mesh.usable_pins().any() or _is_stretched(mesh, options)
+    is_constrained = bool(mesh.extenders) or mesh.has_usable_pins or _is_stretched(mesh, options)
     return is_constrained or not np.isfinite(mesh.vertices).all()
 
 
@@ -245,11 +253,12 @@ def _solve_group(
     """Return the solution of every mesh of a `group` that can be joined."""
     if len(group) > 1:
         try:
-            result = _unwrap(joined(group), options, progress, kept)
+            whole = joined(group)
+            result = _unwrap(whole, options, progress, kept)
         except ValueError:
             # One of them is refused, which the others must not suffer from.
             pass
         else:
-            return [_solution(mesh, part) for mesh, part in zip(group, joined_parts(group, result))]
+            return _solutions(group, whole, result)
     each = [progress] if len(group) == 1 else parts([[mesh] for mesh in group], progress)
     return [solve(mesh, options, part, kept) for mesh, part in zip(group, each)]

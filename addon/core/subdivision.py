@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .mesh import PolygonMesh
-from .solve import Solution
+from .solve import Solution, find_too_small_faces
 
 
 @dataclass(frozen=True)
@@ -31,11 +31,13 @@ class Subdivision:
         whole = np.logical_and.reduceat(chart >= 0, self.coarse.face_offsets[:-1])
         failed = np.full(len(whole), -1)
         failed[self.face_of_face[solution.failed_faces]] = solution.failed_islands[solution.failed_faces]
+        uv, chart = solution.uv[self.corner_of_corner], np.where(whole[self.coarse.face_of_corner()], chart, -1)
         return replace(
             solution,
-            uv=solution.uv[self.corner_of_corner],
-            chart_of_corner=np.where(whole[self.coarse.face_of_corner()], chart, -1),
+            uv=uv,
+            chart_of_corner=chart,
             failed_islands=failed,
+            too_small_faces=len(find_too_small_faces(self.coarse, uv, chart)),
         )
 
 

@@ -11,7 +11,7 @@ _IMAGE_NODES = frozenset({"TEX_IMAGE", "TEX_ENVIRONMENT"})
 
 def aspect(edit_object: bpy.types.Object, bm: BMesh) -> float:
     """Return width over height of the image of the active face's material; 1 without an image."""
-    face = _active_face(bm)
+    face = _active_face(bm) if edit_object.material_slots else None
     return 1.0 if face is None else _of_slot(edit_object, face.material_index)
 
 

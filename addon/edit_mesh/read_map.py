@@ -7,9 +7,10 @@ import bmesh
 import bpy
 import numpy as np
 
-from .. import compatibility, names
+from .. import compatibility
 from ..core.map_view import MapArrays
 from . import image_aspect
+from .read import temporary_mesh
 
 
 def read_map(
@@ -30,14 +31,11 @@ def read_map(
         if not isinstance(evaluated, bpy.types.Mesh):
             return None
         return _arrays(evaluated, False, image_aspect.aspect_in_object_mode(shown), before=before)
-    copy = bpy.data.meshes.new(names.TEMPORARY_MESH)
-    try:
+    with temporary_mesh() as copy:
         bm = bmesh.from_edit_mesh(shown.data)
         bm.to_mesh(copy)
         only_selected = not context.scene.tool_settings.use_uv_select_sync
         return _arrays(copy, only_selected, image_aspect.aspect(shown, bm), other_uv, before)
-    finally:
-        bpy.data.meshes.remove(copy, do_unlink=False, do_ui_user=False)
 
 
 def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:

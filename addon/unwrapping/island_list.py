@@ -23,7 +23,7 @@ class _Island:
     """An island: the name of its mesh, the digest of the topology that its faces belong to, and the faces."""
 
     mesh: str
-    topology: bytes
+    topology: int
     faces: np.ndarray
 
 

@@ -20,7 +20,7 @@ class _Result:
     """The failed island of every face, (F,) intp, -1 for the others, and a digest of the topology they belong to."""
 
     failed_islands: np.ndarray
-    topology: bytes
+    topology: int
 
 
 _results: dict[str, _Result] = {}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Unwrap the meshes in edit mode: read, solve, place and pack, write."""
 
+import functools
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -12,11 +13,11 @@ from ..core import kept_maps, obstacles, texts
 from ..core.options import Settings
 from ..core.placement import place
 from ..core.progress import Progress
-from ..core.solve import Solution, solve_all, too_small_faces
+from ..core.solve import Solution, solve_all
 from ..core.summary import Summary, summarize
 from ..core.translation import translate
 from ..edit_mesh import selection
-from ..edit_mesh.read import EditMesh, read_mesh
+from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import ensure_uv_map, write_uv
 from . import last_result
 
@@ -122,7 +123,7 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
     """Return what extenders and stretching could not do."""
     warnings = [
         texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
-        texts.too_small(too_small_faces([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)),
+        texts.too_small(sum(solution.too_small_faces for solution in solutions)),
         texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
         texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
@@ -167,11 +168,12 @@ def read(context: bpy.types.Context, settings: Settings, all_visible: bool = Fal
     selection does not count at all.
     """
     by_uv_selection = not all_visible and selection.selects_uvs(context)
-    edit_meshes = [
-        read_mesh(edit_object, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
+    edit_objects = [
+        edit_object
         for edit_object in context.objects_in_mode_unique_data
         if all_visible or edit_object.data.total_face_sel
     ]
+    edit_meshes = read_meshes(edit_objects, by_uv_selection, all_visible, settings.correct_aspect, settings.use_subsurf)
     return [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.selected_faces.any()]
 
 
@@ -198,8 +200,6 @@ class _Solved:
         edit_mesh: the mesh.
         uv: (C, 2), meaningful at the solved corners.
         corners: (C,) bool, the corners of the solved charts.
-        movable_corners: (C,) bool, those of the solved charts without pins.
-        movable_faces: (F,) bool, the faces of these.
     """
 
     def __init__(self, edit_mesh: EditMesh, uv: np.ndarray, solution: Solution) -> None:
@@ -207,10 +207,18 @@ class _Solved:
         self.edit_mesh = edit_mesh
         self.uv = uv
         self.corners = solution.solved_corners
-        self.movable_corners = self.corners & ~solution.pinned_corners
+        self._solution = solution
+
+    @functools.cached_property
+    def movable_corners(self) -> np.ndarray:
+        """(C,) bool, those of the solved charts without pins."""
+        return self.corners & ~self._solution.pinned_corners
+
+    @functools.cached_property
+    def movable_faces(self) -> np.ndarray:
+        """(F,) bool, the faces of these."""
         # Charts are made of whole faces.
-        self.movable_faces = self.movable_corners[edit_mesh.polygons.face_offsets[:-1]]
-        self.is_movable = bool(self.movable_faces.any())
+        return self.movable_corners[self.edit_mesh.polygons.face_offsets[:-1]]
 
 
 def _write(solved: Sequence[_Solved]) -> None:
@@ -234,8 +242,10 @@ def _keep_off(staying: Sequence[np.ndarray], solved: Sequence[_Solved]) -> bool:
 
     Returns whether that took them out of the tile.
     """
-    movable = [item for item in solved if item.is_movable]
-    if not (movable and any(map(len, staying))):
+    if not any(map(len, staying)):
+        return False
+    movable = [item for item in solved if item.movable_faces.any()]
+    if not movable:
         return False
     boxes = [obstacles.face_boxes(item.edit_mesh.polygons, item.uv, item.movable_faces) for item in movable]
     scale, offset = obstacles.place_beside(np.concatenate(boxes), staying)
@@ -250,5 +260,5 @@ def _failed_boxes(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]
     return [
         obstacles.face_boxes(edit_mesh.polygons, edit_mesh.polygons.uv, solution.failed_faces)
         for edit_mesh, solution in zip(edit_meshes, solutions)
-        if edit_mesh.polygons.uv is not None
+        if solution.has_failures and edit_mesh.polygons.uv is not None
     ]

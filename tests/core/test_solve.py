@@ -12,7 +12,7 @@ from spectral_unwrap.core import solve as solving
 from spectral_unwrap.core.mesh import PolygonMesh
 from spectral_unwrap.core.options import Options
 from spectral_unwrap.core.placement import place
-from spectral_unwrap.core.solve import solve, solve_all, too_small_faces
+from spectral_unwrap.core.solve import find_too_small_faces, solve, solve_all
 
 CUBE_VERTICES = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
 CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
@@ -158,16 +158,37 @@ def test_faces_that_single_precision_merges_are_those_that_shrink():
     solution = solve(mesh, Options())
     assert solution.charts[0].status == "solved"
     # As small in 3D, they lose nothing.
-    assert too_small_faces([mesh], [solution]) == 0
+    assert solution.too_small_faces == 0
     even = polygon_mesh([(k // 2, k % 2, 0.0) for k in range(62)], faces)
-    assert too_small_faces([even], [solve(even, Options())]) == 0
+    assert solve(even, Options()).too_small_faces == 0
     small = np.count_nonzero(0.5 ** np.arange(30) < 2.0**-21 * np.ptp(solution.uv, axis=0).max())
-    assert abs(too_small_faces([even], [solution]) - small) <= 2
+    found = find_too_small_faces(even, solution.uv, solution.chart_of_corner)
+    assert abs(len(found) - small) <= 2
     assert small > 5
-    # The other mesh of a batch has none, and its faces do not count by this one's chart.
-    cube = separated_cube()
-    batch = [cube, even, cube], [solve(cube, Options()), solution, solve(cube, Options())]
-    assert too_small_faces(*batch) == too_small_faces([even], [solution])
+    np.testing.assert_array_equal(np.sort(found), np.arange(30 - len(found), 30))
+    # Faces of no chart are none, and those of another chart have that one's size.
+    chart = np.where(np.arange(120) < 60, -1, np.where(np.arange(120) < 88, 0, 1))
+    np.testing.assert_array_equal(find_too_small_faces(even, solution.uv, chart), [])
+
+
+def finger(rings):
+    """A tube, closed at its end, of six faces a ring: its conformal map shrinks from ring to ring."""
+    angles = np.arange(6) * np.pi / 3.0
+    vertices = [(np.cos(a), np.sin(a), float(r)) for r in range(rings) for a in angles] + [(0.0, 0.0, rings - 0.5)]
+    faces = [
+        (6 * r + k, 6 * r + (k + 1) % 6, 6 * r + 6 + (k + 1) % 6, 6 * r + 6 + k)
+        for r in range(rings - 1)
+        for k in range(6)
+    ]
+    top = 6 * rings
+    return polygon_mesh(vertices, faces + [(top - 6 + k, top - 6 + (k + 1) % 6, top) for k in range(6)])
+
+
+def test_faces_that_single_precision_merges_are_counted_for_their_mesh():
+    alone = solve(finger(20), Options())
+    assert 6 <= alone.too_small_faces < len(alone.failed_islands)
+    counts = [s.too_small_faces for s in solve_all([separated_cube(), finger(20), separated_cube()], Options())]
+    assert counts == [0, alone.too_small_faces, 0]
 
 
 def curved_patch(seed, **options):
@@ -210,6 +231,7 @@ def assert_same(together, alone):
     np.testing.assert_array_equal(together.chart_of_corner, alone.chart_of_corner)
     np.testing.assert_array_equal(together.failed_islands, alone.failed_islands)
     assert (together.error, together.unused_extenders) == (alone.error, alone.unused_extenders)
+    assert together.too_small_faces == alone.too_small_faces
     assert len(together.charts) == len(alone.charts)
     for chart, other in zip(together.charts, alone.charts):
         for name, value in vars(other).items():
