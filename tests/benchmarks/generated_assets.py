@@ -62,15 +62,20 @@ def radius(points: np.ndarray) -> np.ndarray:
 
 
 def blobs(seed: int, count: int, size: float) -> Callable[[np.ndarray], np.ndarray]:
-    """A field of many balls, that merge where they touch."""
+    """A field of many balls, that merge where they touch, for grids of points."""
     rng = np.random.default_rng(seed)
     centres = rng.uniform(-0.9, 0.9, (count, 3)).astype(np.float32)
     sizes = (size * rng.uniform(0.4, 1.2, count)).astype(np.float32)
 
     def field(points: np.ndarray) -> np.ndarray:
-        nearest = np.full(points.shape[:-1], 10, np.float32)
+        # Far from all balls any positive value will do: the surface is where the field is 0.
+        far = np.float32(0.1)
+        axes = points[:, 0, 0, 0], points[0, :, 0, 1], points[0, 0, :, 2]
+        nearest = np.full(points.shape[:-1], far, np.float32)
         for centre, own in zip(centres, sizes):
-            np.minimum(nearest, np.linalg.norm(points - centre, axis=-1) - own, out=nearest)
+            reach = centre - own - far, centre + own + far
+            box = tuple(slice(*np.searchsorted(axis, ends)) for axis, ends in zip(axes, zip(*reach)))
+            np.minimum(nearest[box], radius(points[box] - centre) - own, out=nearest[box])
         return nearest
 
     return field
