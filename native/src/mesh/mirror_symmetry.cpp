@@ -21,13 +21,18 @@ class NearbyVertices {
   /// Those within the radius, ascending.
   std::vector<int> near(const Eigen::RowVector3d& point) const {
     std::vector<int> result;
-    const auto centre = cell_of(point);
-    for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const auto found = cells_.find(
-          key({centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + neighbour / 9 - 1}));
-      if (found == cells_.end()) continue;
-      for (const int v : found->second) {
-        if ((points_.row(v) - point).norm() <= radius_) result.push_back(v);
+    const Eigen::RowVector3d reach = Eigen::RowVector3d::Constant(radius_);
+    const Cell first = cell_of(point - reach);
+    const Cell last = cell_of(point + reach);  // the same or the next one
+    for (std::int64_t x = first[0]; x <= last[0]; ++x) {
+      for (std::int64_t y = first[1]; y <= last[1]; ++y) {
+        for (std::int64_t z = first[2]; z <= last[2]; ++z) {
+          const auto found = cells_.find(key({x, y, z}));
+          if (found == cells_.end()) continue;
+          for (const int v : found->second) {
+            if ((points_.row(v) - point).norm() <= radius_) result.push_back(v);
+          }
+        }
       }
     }
     std::sort(result.begin(), result.end());
@@ -68,33 +73,6 @@ std::vector<int> used_vertices(const PolygonMesh& mesh) {
   return result;
 }
 
-/// Faces by their sorted vertices.
-class FaceTable {
- public:
-  explicit FaceTable(const PolygonMesh& mesh) : mesh_(mesh) {
-    for (int face = 0; face < mesh.n_faces; ++face) {
-      if (mesh.is_selected(face)) faces_.emplace_back(vertices(face), face);
-    }
-    std::sort(faces_.begin(), faces_.end());
-  }
-  const std::vector<std::pair<std::vector<int>, int>>& faces() const { return faces_; }
-  /// The face on these sorted vertices, the first of several, or -1.
-  int find(const std::vector<int>& sorted) const {
-    const auto found = std::lower_bound(faces_.begin(), faces_.end(), std::make_pair(sorted, -1));
-    return found != faces_.end() && found->first == sorted ? found->second : -1;
-  }
-
- private:
-  std::vector<int> vertices(int face) const {
-    std::vector<int> sorted(mesh_.corner_vertices + mesh_.face_offsets[face],
-                            mesh_.corner_vertices + mesh_.face_offsets[face + 1]);
-    std::sort(sorted.begin(), sorted.end());
-    return sorted;
-  }
-  const PolygonMesh& mesh_;
-  std::vector<std::pair<std::vector<int>, int>> faces_;
-};
-
 /// The selected faces of each vertex, once per corner.
 class VertexFaces {
  public:
@@ -114,8 +92,9 @@ class VertexFaces {
   }
   const int* begin(int vertex) const { return faces_.data() + start_[vertex]; }
   const int* end(int vertex) const { return faces_.data() + start_[static_cast<std::size_t>(vertex) + 1]; }
+  int count(int vertex) const { return static_cast<int>(end(vertex) - begin(vertex)); }
   bool share_a_face(int a, int b) const {
-    if (end(a) - begin(a) > end(b) - begin(b)) std::swap(a, b);
+    if (count(a) > count(b)) std::swap(a, b);
     // Ascending, as they were entered.
     return std::any_of(begin(a), end(a), [&](int face) { return std::binary_search(begin(b), end(b), face); });
   }
@@ -197,15 +176,32 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
   }
 }
 
-int match_faces(const FaceTable& table, MirrorSymmetry& result) {
+/// The face with these vertices, ascending, the first of several, or -1.
+int face_of(const PolygonMesh& mesh, const VertexFaces& faces, const std::vector<int>& vertices) {
+  const int rarest = *std::min_element(vertices.begin(), vertices.end(),
+                                       [&](int a, int b) { return faces.count(a) < faces.count(b); });
+  std::vector<int> own;
+  const int* const found = std::find_if(faces.begin(rarest), faces.end(rarest), [&](int face) {
+    own.assign(mesh.corner_vertices + mesh.face_offsets[face], mesh.corner_vertices + mesh.face_offsets[face + 1]);
+    std::sort(own.begin(), own.end());
+    return own == vertices;
+  });
+  return found == faces.end(rarest) ? -1 : *found;
+}
+
+/// Returns how many have an image.
+int match_faces(const PolygonMesh& mesh, const VertexFaces& faces, MirrorSymmetry& result) {
   int matched = 0;
   std::vector<int> mirrored;
-  for (const auto& [vertices, face] : table.faces()) {
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (!mesh.is_selected(face)) continue;
     mirrored.clear();
-    for (const int v : vertices) mirrored.push_back(result.vertex[v]);
+    for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+      mirrored.push_back(result.vertex[mesh.corner_vertices[c]]);
+    }
+    if (mirrored.empty() || std::find(mirrored.begin(), mirrored.end(), -1) != mirrored.end()) continue;
     std::sort(mirrored.begin(), mirrored.end());
-    if (mirrored.empty() || mirrored.front() < 0) continue;
-    result.face[face] = table.find(mirrored);
+    result.face[face] = face_of(mesh, faces, mirrored);
     matched += result.face[face] >= 0 ? 1 : 0;
   }
   return matched;
@@ -235,12 +231,11 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
   const VertexFaces faces(mesh);
-  const FaceTable table(mesh);
   int max_matched = 0;
   for (int axis = 0; axis < 3; ++axis) {
     MirrorSymmetry candidate{axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
     match_vertices(mesh, points, used, nearby, faces, candidate);
-    const int matched = match_faces(table, candidate);
+    const int matched = match_faces(mesh, faces, candidate);
     if (matched <= max_matched) continue;
     max_matched = matched;
     best = std::move(candidate);
