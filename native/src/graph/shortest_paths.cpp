@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <limits>
+#include <new>
 
 namespace spectral_conformal {
 
 ShortestPathSearch::ShortestPathSearch(int n_nodes)
-    : distance_(static_cast<std::size_t>(n_nodes), std::numeric_limits<double>::infinity()),
-      previous_(static_cast<std::size_t>(n_nodes), -1) {}
+    : n_nodes_(n_nodes),
+      reached_(static_cast<Reached*>(std::calloc(std::max<std::size_t>(n_nodes, 1), sizeof(Reached)))) {
+  if (!reached_) throw std::bad_alloc();
+}
 
 void ShortestPathSearch::offer(int node, double distance, int previous) {
   if (!improves(node, distance)) return;
-  distance_[node] = distance;
-  previous_[node] = previous;
+  reached_[node] = {distance, previous + 2};
   heap_.emplace_back(distance, node);
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
@@ -24,9 +25,21 @@ int ShortestPathSearch::settle() {
     const auto [distance, node] = heap_.front();
     std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
     heap_.pop_back();
-    if (distance == distance_[node]) return node;
+    if (distance == reached_[node].distance) return node;
   }
   return -1;
+}
+
+std::vector<double> ShortestPathSearch::distances() const {
+  std::vector<double> result(static_cast<std::size_t>(n_nodes_));
+  for (int node = 0; node < n_nodes_; ++node) result[static_cast<std::size_t>(node)] = distance(node);
+  return result;
+}
+
+std::vector<int> ShortestPathSearch::previous() const {
+  std::vector<int> result(static_cast<std::size_t>(n_nodes_));
+  for (int node = 0; node < n_nodes_; ++node) result[static_cast<std::size_t>(node)] = previous(node);
+  return result;
 }
 
 std::vector<int> steps_from(const Adjacency& graph, const std::vector<int>& sources) {

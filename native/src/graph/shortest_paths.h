@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdlib>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -21,21 +24,35 @@ class ShortestPathSearch {
  public:
   explicit ShortestPathSearch(int n_nodes);
   /// Whether a path of this length is shorter than all that were offered.
-  bool improves(int node, double distance) const { return distance < distance_[node]; }
+  bool improves(int node, double path) const { return path < distance(node); }
   /// Takes a path to a node if it is shorter than all before. `previous`: what its last step comes from or along, the
   /// caller's number for it; -1 at a source.
   void offer(int node, double distance, int previous = -1);
   /// The nearest node whose distance became final by this call, or -1 where no other can be reached.
   int settle();
   /// Of the shortest path that was offered; infinite where there is none.
-  double distance(int node) const { return distance_[node]; }
-  int previous(int node) const { return previous_[node]; }
-  const std::vector<double>& distances() const { return distance_; }
-  const std::vector<int>& previous() const { return previous_; }
+  double distance(int node) const {
+    return reached_[node].by == unreached ? std::numeric_limits<double>::infinity() : reached_[node].distance;
+  }
+  int previous(int node) const { return reached_[node].by == unreached ? -1 : reached_[node].by - 2; }
+  /// (n_nodes,) each, of all nodes.
+  std::vector<double> distances() const;
+  std::vector<int> previous() const;
 
  private:
-  std::vector<double> distance_;
-  std::vector<int> previous_;
+  /// All 0 where a node was not reached, as the system hands memory out: what a search that ends early does not come to
+  /// is never touched.
+  struct Reached {
+    double distance;
+    int by;  ///< `previous` + 2, which is at least 1
+  };
+  struct Free {
+    void operator()(void* memory) const { std::free(memory); }
+  };
+  static constexpr int unreached = 0;
+
+  int n_nodes_;
+  std::unique_ptr<Reached[], Free> reached_;
   std::vector<std::pair<double, int>> heap_;  ///< smallest first; entries of nodes that came nearer since are skipped
 };
 

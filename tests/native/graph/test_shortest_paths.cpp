@@ -89,9 +89,9 @@ TEST_CASE("every reachable node is settled once, near ones first") {
     }
     std::sort(settled.begin(), settled.end());
     CHECK(std::adjacent_find(settled.begin(), settled.end()) == settled.end());
+    const std::vector<double> distances = search.distances();
     const auto finite = [](double distance) { return std::isfinite(distance); };
-    CHECK(static_cast<std::ptrdiff_t>(settled.size()) ==
-          std::count_if(search.distances().begin(), search.distances().end(), finite));
+    CHECK(static_cast<std::ptrdiff_t>(settled.size()) == std::count_if(distances.begin(), distances.end(), finite));
   }
 }
 
