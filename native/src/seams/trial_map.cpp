@@ -38,34 +38,7 @@ void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mappe
     mapped.log2_scale.push_back(std::clamp(scale, -max_log2_scale, max_log2_scale));
     mapped.qc[face] = area > 0 ? mapped.qc[face] / area : 1;
   }
-}
-
-/// 2 cosh t, and beyond t = ln 4 the parabola that continues it smoothly.
-double bounded_cosh(double t) {
-  constexpr double from = 1.386294361119890618834464242916;
-  const double beyond = std::abs(t) - from;
-  if (beyond <= 0) return 2 * std::cosh(t);
-  return std::cosh(from) * (2 + beyond * beyond) + 2 * std::sinh(from) * beyond;
-}
-
-/// By bisection of the values around a pivot, the middle one by position of those that are left.
-double weighted_median(std::vector<std::pair<double, double>>& value_and_weight, double total) {
-  auto first = value_and_weight.begin();
-  auto last = value_and_weight.end();
-  double below = 0;
-  while (last - first > 1) {
-    const auto middle = first + (last - first) / 2;
-    std::nth_element(first, middle, last);
-    double left = below;
-    for (auto i = first; i != middle; ++i) left += i->second;
-    if (2 * left >= total) {
-      last = middle;
-    } else {
-      below = left;
-      first = middle;
-    }
-  }
-  return first == last ? 0 : first->first;
+  mapped.sums = DistortionSums(mapped.area, mapped.log2_scale, mapped.qc);
 }
 
 }  // namespace
@@ -104,32 +77,30 @@ double MapQuality::distortion() const { return solved ? energy - 4 : std::numeri
 
 MapQuality map_quality(const TrialMaps& charts, double scale_limit) {
   MapQuality result;
-  std::vector<std::pair<double, double>> scales;
+  std::vector<const DistortionSums*> all;
   double qc = 0;
   for (const auto& mapped : charts) {
     result.solved = result.solved && mapped->solved;
-    for (std::size_t f = 0; f < mapped->area.size(); ++f) {
-      scales.emplace_back(mapped->log2_scale[f], mapped->area[f]);
-      qc += mapped->area[f] * mapped->qc[f];
-      result.area += mapped->area[f];
-    }
+    if (mapped->sums.n_faces() == 0) continue;
+    all.push_back(&mapped->sums);
+    qc += mapped->sums.qc();
+    result.area += mapped->sums.area();
   }
   if (!(result.area > 0)) return result;
   result.mean_qc = qc / result.area;
-  result.median_log2_scale = weighted_median(scales, result.area);
-  result.within_limit = 0;
-  result.energy = 0;
-  for (const auto& mapped : charts) {
-    for (std::size_t f = 0; f < mapped->area.size(); ++f) {
-      const double weight = mapped->area[f] / result.area;
-      const double offset = mapped->log2_scale[f] - result.median_log2_scale;
-      // (s1^2 + s2^2) (1 + 1 / (s1 s2)^2), by the ratio and the product of the singular values.
-      const double shear = bounded_cosh(std::log(mapped->qc[f]));
-      result.energy += weight * shear * bounded_cosh(2 * std::log(2.0) * offset);
-      result.shear += weight * 2 * (shear - 2);
-      if (std::abs(offset) <= std::log2(scale_limit)) result.within_limit += weight;
-    }
+  result.median_log2_scale = DistortionSums::median_log2_scale(all, result.area);
+  const double limit = std::log2(scale_limit);
+  double within = 0;
+  double energy = 0;
+  double shear = 0;
+  for (const DistortionSums* sums : all) {
+    within += sums->area_up_to(result.median_log2_scale + limit) - sums->area_below(result.median_log2_scale - limit);
+    energy += sums->energy(result.median_log2_scale);
+    shear += sums->shear();
   }
+  result.within_limit = within / result.area;
+  result.energy = energy / result.area;
+  result.shear = shear / result.area;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/charts.h"
+#include "seams/distortion_sums.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/progress.h"
 
@@ -18,6 +19,7 @@ struct TrialMap {
   std::vector<double> log2_scale;  ///< per face, log2 of the root of (area in the plane / area in 3D), within +-16
   std::vector<double> qc;          ///< per face, weighted by area, each triangle's at most 1000
   std::vector<int> flipped;        ///< faces with a flipped triangle, as indices into the chart's, ascending
+  DistortionSums sums;             ///< of area, log2_scale and qc
 };
 
 /// Solves a chart of `mesh`, with `fallbacks` as in SolveOptions: a map that has to be replaced asks for a cut, and
@@ -40,7 +42,8 @@ struct MapQuality {
   double mean_qc = 1;            ///< weighted by area
   /// Symmetric Dirichlet energy s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of the faces' singular values at the median scale,
   /// mean weighted by area: 4 for an isometry. It grows with the square of the logarithm beyond a scale of 2 or a QC of
-  /// 4, so that neither a sliver nor the end of a long limb, whose energy is astronomical, outweighs all else.
+  /// 4 (bounded_cosh), so that neither a sliver nor the end of a long limb, whose energy is astronomical, outweighs all
+  /// else.
   double energy = 4;
   double shear = 0;  ///< the part of energy - 4 that the angles have in it: what would be left at one scale
   double area = 0;

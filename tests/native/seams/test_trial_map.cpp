@@ -41,6 +41,7 @@ TEST_CASE("quality is about the median and weighted by area") {
   chart.area = {4, 4, 1, 1};
   chart.log2_scale = {0.5, 0.5, 3, -0.25};
   chart.qc = {1, 1, 2, 1};
+  chart.sums = DistortionSums(chart.area, chart.log2_scale, chart.qc);
   const MapQuality quality = map_quality({std::make_shared<const TrialMap>(chart)}, 2);
   CHECK(quality.median_log2_scale == 0.5);
   CHECK(quality.within_limit == doctest::Approx(0.9));
@@ -54,6 +55,7 @@ TEST_CASE("the energy is the symmetric Dirichlet energy at the median scale, bou
     chart.area = {3, 1};
     chart.log2_scale = {0.7, 0.7 + log2_scale};
     chart.qc = {1, qc};
+    chart.sums = DistortionSums(chart.area, chart.log2_scale, chart.qc);
     return map_quality({std::make_shared<const TrialMap>(chart)}, 2).energy;
   };
   CHECK(energy(0, 1) == doctest::Approx(4));
