@@ -24,6 +24,11 @@ constexpr double preference_weight = 1.0;
 /// it: maps of folded or thin faces tell nothing of the fine ones.
 constexpr double min_turn_cosine = 0.5;
 constexpr double min_corner_height = 0.2;
+/// Both are lowered by `relaxed`, at most `max_relaxations` times, when a round merges less than the fraction `stalled`
+/// of the vertices: rough isosurfaces kept an eighth of theirs otherwise, and came there by one merge a round.
+constexpr double stalled = 0.01;
+constexpr double relaxed = 0.5;
+constexpr int max_relaxations = 3;
 constexpr std::size_t max_faces_around = 14;
 
 /// Sum of squared distances from planes, each with a weight, as x^T A x + 2 b^T x + c.
@@ -73,6 +78,8 @@ class ShrinkingMesh {
   int n_vertices() const { return n_left_; }
   /// Merges the cheapest vertices, at most `most`; returns how many.
   int merge_round(int most);
+  /// Allows merges that turn faces further and make them thinner.
+  void relax();
   /// Per vertex: itself, or the one that it was merged into.
   const std::vector<int>& into() const { return into_; }
   const std::vector<std::vector<int>>& faces() const { return faces_; }
@@ -113,6 +120,8 @@ class ShrinkingMesh {
   std::vector<int> failed_;   ///< per vertex: the last round in which it could not be merged
   std::vector<double> cost_;  ///< per vertex: see least_cost
   int round_ = 0;
+  double least_turn_cosine_ = min_turn_cosine;
+  double least_corner_height_ = min_corner_height;
   int n_left_;
   std::vector<std::pair<int, int>> neighbours_;  ///< scratch: a vertex, and in how many edges of faces it occurs
   std::vector<std::pair<int, int>> others_;
@@ -274,8 +283,8 @@ bool ShrinkingMesh::keeps_shapes(int v, int w) const {
     }
     const Shape old = shape(corners);
     const Shape made = shape(after);
-    if (old.normal.dot(made.normal) < min_turn_cosine * old.normal.norm() * made.normal.norm()) return false;
-    if (made.corner_height < std::min(min_corner_height, old.corner_height)) return false;
+    if (old.normal.dot(made.normal) < least_turn_cosine_ * old.normal.norm() * made.normal.norm()) return false;
+    if (made.corner_height < std::min(least_corner_height_, old.corner_height)) return false;
   }
   return true;
 }
@@ -379,6 +388,12 @@ void ShrinkingMesh::visit_fans(int v, const Visit& visit) const {
   }
 }
 
+void ShrinkingMesh::relax() {
+  least_turn_cosine_ *= relaxed;
+  least_corner_height_ *= relaxed;
+  std::fill(failed_.begin(), failed_.end(), 0);
+}
+
 int ShrinkingMesh::merge_round(int most) {
   ++round_;
   std::vector<Merge> merges;
@@ -417,9 +432,13 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
                          const std::vector<double>& preference, int n_vertices, const Progress& progress) {
   const bool symmetric = mirror.image == index;
   ShrinkingMesh mesh(fine, symmetric, mirror, side, preference);
+  int relaxations = 0;
   while (mesh.n_vertices() > n_vertices) {
     report(progress, 0, "seams");
-    if (mesh.merge_round(mesh.n_vertices() - n_vertices) == 0) break;
+    const int merged = mesh.merge_round(mesh.n_vertices() - n_vertices);
+    if (merged >= stalled * mesh.n_vertices()) continue;
+    if (++relaxations > max_relaxations) break;
+    mesh.relax();
   }
   CoarsePiece result;
   std::vector<int> root = mesh.into();

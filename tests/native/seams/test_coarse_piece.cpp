@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "graph/disjoint_sets.h"
@@ -71,6 +72,18 @@ TEST_CASE("a coarse piece has the topology of the fine one and hardly more verti
     CHECK(after.orientable == before.orientable);
     CHECK(after.reversed_faces == 0);
   }
+}
+
+TEST_CASE("surfaces as rough as scans come down to what is wanted, too") {
+  Mesh rough = torus(120, 60);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> noise(-0.1, 0.1);
+  for (Eigen::Vector3d& point : rough.points) point += Eigen::Vector3d(noise(random), noise(random), noise(random));
+  const FinePiece fine(rough);
+  const int wanted = static_cast<int>(fine.piece().vertices.size()) / 30;
+  const Chart coarse = whole_chart(fine.coarse(wanted).piece);
+  CHECK(coarse.n_vertices() <= 1.1 * wanted);
+  CHECK(coarse.euler_characteristic == 0);
 }
 
 TEST_CASE("its vertices and faces are some of the fine ones, in their order") {
