@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <set>
 #include <utility>
 
+#include "geometry/polygon_normal.h"
 #include "graph/parallel_calls.h"
 #include "seams/separating_cut.h"
 
@@ -28,6 +30,12 @@ std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& s
       static_cast<int>(searches.size()), max_searching_threads,
       [&](int i, const Progress&) { result[static_cast<std::size_t>(i)] = searches[static_cast<std::size_t>(i)](); },
       {}, "seams");
+  return result;
+}
+
+std::vector<int> all_of(const SeparableFaces& faces) {
+  std::vector<int> result(faces.size());
+  std::iota(result.begin(), result.end(), 0);
   return result;
 }
 
@@ -90,12 +98,12 @@ SeamEdges CutCandidates::cut_around(const Region& region) const {
     const auto first = piece.corner_vertices.begin() + piece.face_offsets[face];
     const auto last = piece.corner_vertices.begin() + piece.face_offsets[face + 1];
     if (std::find(first, last, region.vertex) == last) continue;
-    sources.push_back(face);
+    sources.push_back(static_cast<int>(i));
     sign += offset(i);
   }
   std::vector<int> sinks;
   for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
-    const int face = mapped.chart.faces[i];
+    const auto face = static_cast<int>(i);
     const bool near = std::find(sources.begin(), sources.end(), face) != sources.end();
     if (sign * offset(i) <= 0 && !near) sinks.push_back(face);
   }
@@ -132,17 +140,10 @@ std::vector<SeamEdges> CutCandidates::cuts_to_cones() const {
   return result;
 }
 
-std::vector<int> CutCandidates::faces_of_piece(int chart, const std::vector<int>& faces) const {
-  std::vector<int> result;
-  result.reserve(faces.size());
-  for (const int face : faces) result.push_back(charts_[chart]->chart.faces[face]);
-  return result;
-}
-
 std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<int>& defective) const {
-  const std::vector<int>& all = charts_[chart]->chart.faces;
   const SeparableFaces faces = separable(chart);
-  const std::vector<int> largest = connected_parts(faces, faces_of_piece(chart, defective)).front();
+  const std::vector<int> all = all_of(faces);
+  const std::vector<int> largest = connected_parts(faces, defective).front();
   std::vector<SeamEdges> result;
   const int one = farthest_face(faces, all, all.front());
   const int two = farthest_face(faces, all, one);
@@ -154,7 +155,7 @@ std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<in
 
 std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<int>& defective) const {
   const SeparableFaces faces = separable(chart);
-  const auto parts = connected_parts(faces, faces_of_piece(chart, defective));
+  const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
   const bool halved = seams_.self_mirrored(chart, chart_of_face_);
   if (halved) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
@@ -203,18 +204,31 @@ std::vector<SeamEdges> CutCandidates::halves() const {
   for (std::size_t i = 0; i < std::min(worst.size(), max_halved); ++i) {
     const int chart = worst[i].second;
     if (charts_[chart]->chart.faces.size() < 2) continue;
-    searches.emplace_back([&, chart] {
-      const std::vector<int>& all = charts_[chart]->chart.faces;
-      const SeparableFaces faces = separable(chart);
-      const int one = farthest_face(faces, all, all.front());
-      const int two = farthest_face(faces, all, one);
-      return seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
-    });
+    searches.emplace_back([&, chart] { return halve(chart); });
     if (seams_.self_mirrored(chart, chart_of_face_)) {
       searches.emplace_back([&, chart] { return seams_.cut_along_axis(separable(chart)); });
     }
   }
   return found_by(searches);
+}
+
+SeamEdges CutCandidates::halve(int chart) const {
+  const SeparableFaces faces = separable(chart);
+  const std::vector<int> all = all_of(faces);
+  const int one = farthest_face(faces, all, all.front());
+  const int two = farthest_face(faces, all, one);
+  return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
+}
+
+SeamEdges CutCandidates::halve_unsolved() const {
+  std::vector<std::function<SeamEdges()>> searches;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (!charts_[i]->solved && is_first_of_mirrored(chart)) searches.emplace_back([&, chart] { return halve(chart); });
+  }
+  SeamEdges all;
+  for (const SeamEdges& cut : found_by(searches)) all.insert(all.end(), cut.begin(), cut.end());
+  return all;
 }
 
 SeamEdges CutCandidates::blind_cut() const {
@@ -239,26 +253,24 @@ SeamEdges CutCandidates::blind_cut() const {
   return seams_.cut_to(vertex, false, chart, chart_of_face_);
 }
 
+/// The areas of a chart that is not solved are those of its polygons.
 SeparableFaces CutCandidates::separable(int chart) const {
   const Piece& piece = seams_.piece();
   const TrialMap& mapped = *charts_[chart];
-  const auto n = static_cast<std::size_t>(piece.n_faces());
-  SeparableFaces faces;
-  faces.graph = &seams_.graph();
-  faces.member.assign(n, 0);
-  faces.area.assign(n, 0);
-  faces.centre.assign(n, Eigen::Vector3d::Zero());
-  for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
-    const int face = mapped.chart.faces[i];
-    faces.member[face] = 1;
-    faces.area[face] = mapped.area[i];
+  std::vector<double> areas;
+  if (mapped.solved) areas = mapped.area;
+  std::vector<Eigen::Vector3d> centres;
+  centres.reserve(mapped.chart.faces.size());
+  for (const int face : mapped.chart.faces) {
     const int first = piece.face_offsets[face];
     const int last = piece.face_offsets[face + 1];
-    for (int c = first; c < last; ++c) {
-      faces.centre[face] += piece.positions.row(piece.corner_vertices[c]).transpose() / (last - first);
-    }
+    centres.emplace_back(Eigen::Vector3d::Zero());
+    Positions corners(last - first, 3);
+    for (int c = first; c < last; ++c) corners.row(c - first) = piece.positions.row(piece.corner_vertices[c]);
+    centres.back() = corners.colwise().mean();
+    if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());
   }
-  return faces;
+  return {seams_.graph(), mapped.chart.faces, std::move(areas), std::move(centres)};
 }
 
 }  // namespace spectral_conformal

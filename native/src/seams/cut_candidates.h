@@ -42,12 +42,14 @@ class CutCandidates {
   std::vector<SeamEdges> cuts_apart(int chart, const std::vector<int>& defective) const;
   /// Cuts through the middle of the charts with most distortion.
   std::vector<SeamEdges> halves() const;
+  /// Cuts through the middle of all charts that are not solved, together.
+  SeamEdges halve_unsolved() const;
   /// From the vertex of an unsolved or hopeless chart that is farthest from all cuts to the nearest of them.
   SeamEdges blind_cut() const;
 
  private:
+  SeamEdges halve(int chart) const;
   SeparableFaces separable(int chart) const;
-  std::vector<int> faces_of_piece(int chart, const std::vector<int>& faces) const;
 
   const PieceSeams& seams_;
   const TrialMaps& charts_;

@@ -60,8 +60,10 @@ constexpr std::size_t sewn_at_once = 4;
 constexpr std::int64_t sewing_vertices = 80000;
 /// The least cost of sewing, as a fraction of the distortion that is allowed: what costs less is free.
 constexpr double least_loss = 0.02;
-/// A piece that no map serves after this number of cuts gets one that fallbacks make.
+/// A piece that no map serves after this number of blind cuts gets one that fallbacks make. These take minutes on large
+/// pieces, whose charts are halved instead, until all have a map; at once where a coarse copy was solved already.
 constexpr int max_blind_cuts = 30;
+constexpr int max_blind_cuts_refined = 2;
 
 /// The area of some faces, each of which counts with a little of the whole, so that slivers count.
 double extent_of(const TrialMap& mapped, const std::vector<int>& faces, double whole) {
@@ -134,8 +136,15 @@ void Cutter::solve(const TrialMaps& known, const Progress& progress) {
 
 SeamEdges Cutter::step(double longest, const Progress& progress) {
   recent_ = std::exchange(fresh_, {});
-  if (!quality_.solved && blind_cuts_ >= max_blind_cuts && !fallbacks_) allow_fallbacks(progress);
   SeamEdges accepted;
+  if (!quality_.solved && blind_cuts_ >= max_blind()) {
+    if (!is_small()) accepted = halve_unsolved(longest, progress);
+    if (accepted.empty() && !fallbacks_) allow_fallbacks(progress);
+    if (!accepted.empty()) {
+      changed_ = true;
+      return accepted;
+    }
+  }
   const bool wanted = quality_.solved && !exhausted_ && !good_enough();
   if (wanted && losses_together_ < max_losses_together && (stage_.refined || quality_.within_limit < enough_area)) {
     accepted = cut_to_all(longest, progress);
@@ -558,13 +567,22 @@ Cutter::Parting Cutter::part_chart(int chart, const std::vector<int>& faces, dou
 
 /// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.
 SeamEdges Cutter::blind_cut(double longest, const Progress& progress) {
-  if (blind_cuts_ >= max_blind_cuts) return {};
+  if (blind_cuts_ >= max_blind()) return {};
   ++blind_cuts_;
   SeamEdges cut = candidates().blind_cut();
   if (cut.empty() || (quality_.solved && seams_.length(cut) > longest)) return {};
   Trial trial = attempt(std::move(cut), {}, progress);
   return quality_.solved && !trial.quality.solved ? SeamEdges{} : accept(std::move(trial));
 }
+
+SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
+  SeamEdges cut = candidates().halve_unsolved();
+  if (cut.empty() || seams_.length(cut) > longest) return {};
+  Trial trial = attempt(std::move(cut), {}, progress);
+  return makes_islands(trial) ? accept(std::move(trial)) : SeamEdges{};
+}
+
+int Cutter::max_blind() const { return stage_.refined ? max_blind_cuts_refined : max_blind_cuts; }
 
 bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {
   if (!quality.solved || quality.energy > std::max(options_.energy_limit, quality_.energy) ||

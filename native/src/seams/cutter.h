@@ -96,6 +96,8 @@ class Cutter {
   Parting part_chart(int chart, const std::vector<int>& faces, double longest, std::int64_t remembered,
                      const Progress& progress) const;
   SeamEdges blind_cut(double longest, const Progress& progress);
+  SeamEdges halve_unsolved(double longest, const Progress& progress);
+  int max_blind() const;
   bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
   void sew(const Progress& progress);
 

@@ -17,6 +17,19 @@ constexpr double axis_discount = 0.7;
 /// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
 constexpr double min_island = 0.02;
 
+/// The edges between two of the faces for which is_wanted(arc of the dual graph, the face that it leaves), ascending.
+template <class IsWanted>
+SeamEdges sorted_edges(const SeparableFaces& faces, const IsWanted& is_wanted) {
+  SeamEdges result;
+  for (int face = 0; face < faces.dual.n_nodes(); ++face) {
+    for (const auto& arc : faces.dual.arcs(face)) {
+      if (face < arc.to && is_wanted(arc, face)) result.push_back(arc.edge);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 }  // namespace
 
 PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
@@ -248,23 +261,21 @@ SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const std::vec
 }
 
 SeamEdges PieceSeams::cut_along_axis(const SeparableFaces& faces) const {
-  SeamEdges result;
-  for (int e = 0; e < n_edges(); ++e) {
-    const auto& edge = graph_.edges()[e];
-    if (!edge.cut && along_axis(e) && faces.member[edge.faces[0]] != 0) result.push_back(e);
-  }
-  return result;
+  return sorted_edges(faces, [&](const Adjacency::Arc& arc, int) { return along_axis(arc.edge); });
 }
 
 /// Makes a side that is mostly its own mirror image symmetric, and any other one disjoint from its image.
-void PieceSeams::clear_of_image(const std::vector<double>& area, std::vector<char>& side) const {
+void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const {
   const std::vector<char> whole = side;
-  const auto shared = [&](std::size_t f) { return whole[f] != 0 && whole[mirror_.face[f]] != 0; };
+  const auto shared = [&](std::size_t f) {
+    const int image = faces.index(mirror_.face[static_cast<std::size_t>(faces.faces[f])]);
+    return whole[f] != 0 && image >= 0 && whole[static_cast<std::size_t>(image)] != 0;
+  };
   double own_area = 0;
   double shared_area = 0;
   for (std::size_t f = 0; f < side.size(); ++f) {
-    own_area += whole[f] != 0 ? area[f] : 0;
-    shared_area += shared(f) ? area[f] : 0;
+    own_area += whole[f] != 0 ? faces.area[f] : 0;
+    shared_area += shared(f) ? faces.area[f] : 0;
   }
   for (std::size_t f = 0; f < side.size(); ++f) {
     side[f] = 2 * shared_area > own_area ? shared(f) : whole[f] != 0 && !shared(f);
@@ -274,23 +285,20 @@ void PieceSeams::clear_of_image(const std::vector<double>& area, std::vector<cha
 SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<int>& sources,
                                 const std::vector<int>& sinks, int chart, const std::vector<int>& chart_of_face) const {
   std::vector<char> side = separating_side(faces, sources, sinks, min_island);
-  if (self_mirrored(chart, chart_of_face)) clear_of_image(faces.area, side);
+  if (self_mirrored(chart, chart_of_face)) clear_of_image(faces, side);
   return between_sides(faces, side);
 }
 
 SeamEdges PieceSeams::border(const SeparableFaces& faces, const std::vector<int>& some) const {
-  std::vector<char> side(faces.member.size(), 0);
+  std::vector<char> side(faces.size(), 0);
   for (const int face : some) side[static_cast<std::size_t>(face)] = 1;
   return between_sides(faces, side);
 }
 
 SeamEdges PieceSeams::between_sides(const SeparableFaces& faces, const std::vector<char>& side) const {
-  SeamEdges cut;
-  for (int e = 0; e < n_edges(); ++e) {
-    const auto& edge = graph_.edges()[e];
-    if (!edge.cut && faces.member[edge.faces[0]] != 0 && side[edge.faces[0]] != side[edge.faces[1]]) cut.push_back(e);
-  }
-  return with_images(cut);
+  return with_images(sorted_edges(faces, [&](const Adjacency::Arc& arc, int from) {
+    return side[static_cast<std::size_t>(from)] != side[static_cast<std::size_t>(arc.to)];
+  }));
 }
 
 }  // namespace spectral_conformal

@@ -62,11 +62,11 @@ class PieceSeams {
   SeamEdges cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const;
   /// Cost of the cheapest path within a chart from every vertex to a cut; infinite where there is none.
   std::vector<double> distances_to_cuts(int chart, const std::vector<int>& chart_of_face) const;
-  /// The edges between some faces of a chart and its others, and their images.
+  /// The edges between some faces of a chart, by their indices in `faces`, and its others, and their images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
   /// All edges of the chart on the mirror plane that are not cut.
   SeamEdges cut_along_axis(const SeparableFaces& faces) const;
-  /// See separating_side.
+  /// See separating_side; sources and sinks by their indices, too.
   SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
                       int chart, const std::vector<int>& chart_of_face) const;
 
@@ -79,7 +79,7 @@ class PieceSeams {
   SeamEdges first_slit();
   int farthest_vertex(int source, bool on_axis_only) const;
   SeamEdges symmetric_outer_loop() const;
-  void clear_of_image(const std::vector<double>& area, std::vector<char>& side) const;
+  void clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const;
 
   const Piece* piece_;
   SeamGraph graph_;

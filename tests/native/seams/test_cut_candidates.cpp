@@ -91,6 +91,11 @@ TEST_CASE("without a map the cut starts far from all cuts") {
   const SeamEdges cut = disk.candidates().blind_cut();
   CHECK(disk.seams->length(cut) >= 4);
   CHECK(disk.charts_with(cut).size() == 1);
+  CHECK(disk.charts_with(disk.candidates().halve_unsolved()).size() > 1);
+}
+
+TEST_CASE("where all charts have maps none is halved for want of one") {
+  CHECK(SolvedPiece(quad_grid(4, 4)).candidates().halve_unsolved().empty());
 }
 
 TEST_SUITE_END();

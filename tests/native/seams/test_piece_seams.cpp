@@ -120,12 +120,12 @@ TEST_CASE("a hole is joined to the border, not to itself") {
 TEST_CASE("parts are cut apart symmetrically") {
   const OnePiece piece(spiky_grid(2, 5));
   PieceSeams seams = piece.seams();
-  SeparableFaces faces;
-  faces.graph = &seams.graph();
-  faces.member.assign(piece.one_chart.size(), 1);
-  faces.area.assign(piece.one_chart.size(), 1.0);
-  for (int f = 0; f < piece.mesh.n_faces(); ++f)
-    faces.centre.push_back(piece.mesh.points[piece.mesh.corners[piece.mesh.offsets[f]]]);
+  const std::size_t n = piece.one_chart.size();
+  std::vector<int> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Eigen::Vector3d> centres;
+  for (const int f : all) centres.push_back(piece.mesh.points[piece.mesh.corners[piece.mesh.offsets[f]]]);
+  const SeparableFaces faces(seams.graph(), all, std::vector<double>(n, 1), centres);
   PieceSeams along = seams;
   along.add(along.cut_along_axis(faces));
   CHECK(piece.charts(along).size() == 2);

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "meshes.h"
@@ -8,17 +9,18 @@
 namespace spectral_conformal::test {
 namespace {
 
-SeparableFaces all_faces(const Mesh& mesh, const SeamGraph& graph) {
-  SeparableFaces faces;
-  faces.graph = &graph;
+/// The faces of a mesh of quads, or all but some, each with an area of 1.
+SeparableFaces all_faces(const Mesh& mesh, const SeamGraph& graph, const std::vector<int>& without = {}) {
+  std::vector<int> faces;
+  std::vector<Eigen::Vector3d> centres;
   for (int f = 0; f < mesh.n_faces(); ++f) {
-    faces.member.push_back(1);
-    faces.area.push_back(1);
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (int c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) centre += 0.25 * mesh.points[mesh.corners[c]];
-    faces.centre.push_back(centre);
+    if (std::find(without.begin(), without.end(), f) != without.end()) continue;
+    faces.push_back(f);
+    centres.emplace_back(Eigen::Vector3d::Zero());
+    for (int c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) centres.back() += 0.25 * mesh.points[mesh.corners[c]];
   }
-  return faces;
+  const std::size_t n = faces.size();
+  return {graph, std::move(faces), std::vector<double>(n, 1), std::move(centres)};
 }
 
 /// Quads of a 17 x 7 grid that form two squares, joined by a strip one quad wide from x = 7 to x = 10.
@@ -66,17 +68,18 @@ TEST_CASE("no side is smaller than asked for") {
   CHECK(std::count(side.begin(), side.end(), 1) == 0);
 }
 
-TEST_CASE("distances keep within the members and do not cross cuts") {
+TEST_CASE("distances keep within the faces and do not cross cuts") {
   Mesh mesh = quad_grid(6, 2);
   mesh.seams = {{3, 10}, {10, 17}};
   const SeamGraph graph(mesh.view());
-  SeparableFaces faces = all_faces(mesh, graph);
-  std::vector<double> distance = face_distances(faces, {0});
+  const SeparableFaces faces = all_faces(mesh, graph);
+  const std::vector<double> distance = face_distances(faces, {0});
   for (int f = 0; f < mesh.n_faces(); ++f) CHECK(std::isfinite(distance[f]) == (x_of(faces, f) < 3));
   CHECK(distance[8] == doctest::Approx(3));
-  faces.member[1] = faces.member[6] = 0;
-  distance = face_distances(faces, {0});
-  CHECK(std::isinf(distance[7]));
+  const SeparableFaces fewer = all_faces(mesh, graph, {1, 6});
+  CHECK(fewer.index(6) == -1);
+  CHECK(fewer.faces[static_cast<std::size_t>(fewer.index(7))] == 7);
+  CHECK(std::isinf(face_distances(fewer, {0})[static_cast<std::size_t>(fewer.index(7))]));
 }
 
 TEST_CASE("connected parts, the largest first") {
