@@ -48,8 +48,10 @@ def isosurface(field: Callable[[np.ndarray], np.ndarray]) -> Callable[[int], Mes
         from skimage.measure import marching_cubes
 
         axis = np.linspace(-1, 1, resolution, dtype=np.float32)
-        points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
-        values = np.concatenate([field(part) for part in np.array_split(points, max(1, resolution // 16))])
+        slabs = np.array_split(axis, max(1, resolution // 16))
+        values = np.concatenate(
+            [field(np.stack(np.meshgrid(slab, axis, axis, indexing="ij"), axis=-1)) for slab in slabs]
+        )
         vertices, triangles, _, _ = marching_cubes(values, 0.0)
         return vertices.astype(float) * 2 / (resolution - 1) - 1, triangles.astype(np.int64)
 
