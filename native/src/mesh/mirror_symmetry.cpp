@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 namespace spectral_conformal {
@@ -15,8 +14,14 @@ namespace {
 class NearbyVertices {
  public:
   NearbyVertices(const Positions& points, const std::vector<int>& used, double radius)
-      : points_(points), radius_(radius), cell_(2 * radius) {
-    for (const int v : used) cells_[key(cell_of(points.row(v)))].push_back(v);
+      : points_(points), radius_(radius), cell_(2 * radius), next_(static_cast<std::size_t>(points.rows()), -1) {
+    std::size_t n_buckets = 1;
+    while (n_buckets < used.size()) n_buckets *= 2;
+    first_.assign(n_buckets, -1);
+    for (const int v : used) {
+      int& first = first_[bucket(cell_of(points.row(v)))];
+      next_[static_cast<std::size_t>(v)] = std::exchange(first, v);
+    }
   }
   /// Those within the radius, ascending.
   std::vector<int> near(const Eigen::RowVector3d& point) const {
@@ -27,9 +32,7 @@ class NearbyVertices {
     for (std::int64_t x = first[0]; x <= last[0]; ++x) {
       for (std::int64_t y = first[1]; y <= last[1]; ++y) {
         for (std::int64_t z = first[2]; z <= last[2]; ++z) {
-          const auto found = cells_.find(key({x, y, z}));
-          if (found == cells_.end()) continue;
-          for (const int v : found->second) {
+          for (int v = first_[bucket({x, y, z})]; v >= 0; v = next_[static_cast<std::size_t>(v)]) {
             if ((points_.row(v) - point).norm() <= radius_) result.push_back(v);
           }
         }
@@ -46,16 +49,20 @@ class NearbyVertices {
     return {static_cast<std::int64_t>(std::floor(p[0] / cell_)), static_cast<std::int64_t>(std::floor(p[1] / cell_)),
             static_cast<std::int64_t>(std::floor(p[2] / cell_))};
   }
-  /// Cells of the same key are told apart by the distances.
-  static std::uint64_t key(const Cell& cell) {
-    return static_cast<std::uint64_t>(cell[0]) * 73856093U ^ static_cast<std::uint64_t>(cell[1]) * 19349663U ^
-           static_cast<std::uint64_t>(cell[2]) * 83492791U;
+  /// Vertices of several cells in one bucket are told apart by their distances.
+  std::size_t bucket(const Cell& cell) const {
+    std::uint64_t key = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
+                        static_cast<std::uint64_t>(cell[1]) * 19349663U ^
+                        static_cast<std::uint64_t>(cell[2]) * 83492791U;
+    key *= 0x9E3779B97F4A7C15U;  // Fibonacci hashing: neighbouring cells have keys that differ in few bits
+    return static_cast<std::size_t>(key >> 32) & (first_.size() - 1);
   }
 
   const Positions& points_;
   double radius_;
   double cell_;
-  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+  std::vector<int> first_;  ///< vertex per bucket, -1 for none
+  std::vector<int> next_;   ///< per vertex, the next in its bucket, or -1
 };
 
 /// Vertices of selected faces with finite coordinates.
