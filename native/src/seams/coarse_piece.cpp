@@ -87,6 +87,7 @@ class ShrinkingMesh {
  private:
   struct Shape {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Newell's
+    double length = 0;                                 ///< of the normal
     double corner_height = 0;
   };
 
@@ -98,7 +99,8 @@ class ShrinkingMesh {
   double cost(int v, int w) const;
   bool can_merge(int v, int w);
   bool has_only_common_triangles(int v, int w);
-  bool keeps_shapes(int v, int w) const;
+  void collect_shapes(int v);
+  bool keeps_shapes(int v, int w);
   double least_cost(int v) const;
   int best_neighbour(int v);
   void merge(int v, int w);
@@ -125,6 +127,8 @@ class ShrinkingMesh {
   int n_left_;
   std::vector<std::pair<int, int>> neighbours_;  ///< scratch: a vertex, and in how many edges of faces it occurs
   std::vector<std::pair<int, int>> others_;
+  std::vector<Shape> shapes_;  ///< scratch: of the faces around a vertex
+  std::vector<int> after_;     ///< scratch: the corners of a face once a vertex is merged
 };
 
 ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirror& mirror,
@@ -194,8 +198,13 @@ ShrinkingMesh::Shape ShrinkingMesh::shape(const std::vector<int>& corners) const
     result.normal += (point(c) - origin).cross(point(c + 1) - origin);
     squares += (point(c + 1) - point(c)).squaredNorm();
   }
-  const double length = result.normal.norm();
+  result.length = result.normal.norm();
+  const double length = result.length;
   if (!(length > 0) || !(squares > 0)) return result;
+  if (n == 3) {
+    result.corner_height = length / (squares / 3);
+    return result;
+  }
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < n; ++c) {
     const Eigen::Vector3d corner = point(c + 1);
@@ -270,26 +279,31 @@ bool ShrinkingMesh::has_only_common_triangles(int v, int w) {
   return triangles == common && faces_of_[v].size() + faces_of_[w].size() - 2 * shared <= max_faces_around;
 }
 
-bool ShrinkingMesh::keeps_shapes(int v, int w) const {
-  std::vector<int> after;
-  for (const int f : faces_of_[v]) {
-    const std::vector<int>& corners = faces_[f];
+/// Expects the shapes of the faces around v.
+bool ShrinkingMesh::keeps_shapes(int v, int w) {
+  for (std::size_t i = 0; i < faces_of_[v].size(); ++i) {
+    const std::vector<int>& corners = faces_[faces_of_[v][i]];
     const bool shared = has_corner(corners, w);
     if (shared && corners.size() <= 3) continue;
-    after.clear();
+    after_.clear();
     for (const int c : corners) {
-      if (c != v) after.push_back(c);
-      if (c == v && !shared) after.push_back(w);
+      if (c != v) after_.push_back(c);
+      if (c == v && !shared) after_.push_back(w);
     }
-    const Shape old = shape(corners);
-    const Shape made = shape(after);
-    if (old.normal.dot(made.normal) < least_turn_cosine_ * old.normal.norm() * made.normal.norm()) return false;
+    const Shape& old = shapes_[i];
+    const Shape made = shape(after_);
+    if (old.normal.dot(made.normal) < least_turn_cosine_ * old.length * made.length) return false;
     if (made.corner_height < std::min(least_corner_height_, old.corner_height)) return false;
   }
   return true;
 }
 
-/// Expects the neighbours of v.
+void ShrinkingMesh::collect_shapes(int v) {
+  shapes_.clear();
+  for (const int f : faces_of_[v]) shapes_.push_back(shape(faces_[f]));
+}
+
+/// Expects the neighbours of v, and the shapes of the faces around it.
 bool ShrinkingMesh::can_merge(int v, int w) {
   if (is_border(v) && is_border(w)) {
     // Along the boundary only.
@@ -298,7 +312,7 @@ bool ShrinkingMesh::can_merge(int v, int w) {
   } else if (is_border(v)) {
     return false;
   }
-  return has_only_common_triangles(v, w) && keeps_shapes(v, w);
+  return keeps_shapes(v, w) && has_only_common_triangles(v, w);
 }
 
 /// Of merging v into a neighbour, whether or not it can be; infinite where v has to stay.
@@ -320,6 +334,7 @@ int ShrinkingMesh::best_neighbour(int v) {
     if (!crosses && (!is_border(v) || count == 1)) merges.push_back({cost(v, w), w});
   }
   std::sort(merges.begin(), merges.end());
+  collect_shapes(v);
   for (const Merge& merge : merges) {
     if (can_merge(v, merge.vertex)) return merge.vertex;
   }
@@ -365,6 +380,7 @@ void ShrinkingMesh::merge_with_image(int v, int w) {
   const int image = mirrored(v);
   const int image_into = mirrored(w);
   collect_neighbours(image);
+  collect_shapes(image);
   const bool joined = std::any_of(neighbours_.begin(), neighbours_.end(),
                                   [&](const auto& neighbour) { return neighbour.first == image_into; });
   if (joined && is_simple_fan(image) && can_merge(image, image_into)) {
