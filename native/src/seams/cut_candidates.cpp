@@ -52,7 +52,8 @@ CutCandidates::CutCandidates(const PieceSeams& seams, const TrialMaps& charts, c
     : seams_(seams),
       charts_(charts),
       quality_(quality),
-      chart_of_face_(static_cast<std::size_t>(seams.piece().n_faces()), -1) {
+      chart_of_face_(static_cast<std::size_t>(seams.piece().n_faces()), -1),
+      separable_(charts.size()) {
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
   }
@@ -141,7 +142,7 @@ std::vector<SeamEdges> CutCandidates::cuts_to_cones() const {
 }
 
 std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<int>& defective) const {
-  const SeparableFaces faces = separable(chart);
+  const SeparableFaces& faces = separable(chart);
   const std::vector<int> all = all_of(faces);
   const std::vector<int> largest = connected_parts(faces, defective).front();
   std::vector<SeamEdges> result;
@@ -154,7 +155,7 @@ std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<in
 }
 
 std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<int>& defective) const {
-  const SeparableFaces faces = separable(chart);
+  const SeparableFaces& faces = separable(chart);
   const auto parts = connected_parts(faces, defective);
   std::vector<std::function<SeamEdges()>> searches;
   const bool halved = seams_.self_mirrored(chart, chart_of_face_);
@@ -213,7 +214,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
 }
 
 SeamEdges CutCandidates::halve(int chart) const {
-  const SeparableFaces faces = separable(chart);
+  const SeparableFaces& faces = separable(chart);
   const std::vector<int> all = all_of(faces);
   const int one = farthest_face(faces, all, all.front());
   const int two = farthest_face(faces, all, one);
@@ -254,7 +255,10 @@ SeamEdges CutCandidates::blind_cut() const {
 }
 
 /// The areas of a chart that is not solved are those of its polygons.
-SeparableFaces CutCandidates::separable(int chart) const {
+const SeparableFaces& CutCandidates::separable(int chart) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::unique_ptr<const SeparableFaces>& result = separable_[static_cast<std::size_t>(chart)];
+  if (result) return *result;
   const Piece& piece = seams_.piece();
   const TrialMap& mapped = *charts_[chart];
   std::vector<double> areas;
@@ -270,7 +274,9 @@ SeparableFaces CutCandidates::separable(int chart) const {
     centres.back() = corners.colwise().mean();
     if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());
   }
-  return {seams_.graph(), mapped.chart.faces, std::move(areas), std::move(centres)};
+  result =
+      std::make_unique<const SeparableFaces>(seams_.graph(), mapped.chart.faces, std::move(areas), std::move(centres));
+  return *result;
 }
 
 }  // namespace spectral_conformal

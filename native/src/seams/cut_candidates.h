@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "seams/distorted_regions.h"
@@ -40,6 +42,8 @@ class CutCandidates {
   /// Cuts that part a chart of several faces in any case: its halves, the largest part of the defective faces from the
   /// rest, and one of them.
   std::vector<SeamEdges> cuts_apart(int chart, const std::vector<int>& defective) const;
+  /// The cut through the middle of a chart; empty where it has one face.
+  SeamEdges halve(int chart) const;
   /// Cuts through the middle of the charts with most distortion.
   std::vector<SeamEdges> halves() const;
   /// Cuts through the middle of all charts that are not solved, together.
@@ -48,13 +52,15 @@ class CutCandidates {
   SeamEdges blind_cut() const;
 
  private:
-  SeamEdges halve(int chart) const;
-  SeparableFaces separable(int chart) const;
+  /// Made once per chart.
+  const SeparableFaces& separable(int chart) const;
 
   const PieceSeams& seams_;
   const TrialMaps& charts_;
   const MapQuality& quality_;
   std::vector<int> chart_of_face_;  ///< of the piece; -1 where a face is in no chart
+  mutable std::mutex mutex_;        ///< of separable_
+  mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, as far as it was asked for
 };
 
 }  // namespace spectral_conformal

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -58,6 +59,15 @@ constexpr double worth_trying = 0.15;
 /// costs is sewn up, and altogether until this number of vertices was solved for: the time of the search before.
 constexpr std::size_t sewn_at_once = 4;
 constexpr std::int64_t sewing_vertices = 80000;
+/// Of a piece whose coarse copy has its seams already, more cuts against distortion are looked for until so many times
+/// its vertices were solved for, the map with these seams included; then only those are left that part defects. A copy
+/// has cut as far as that pays; what is left on a rough surface of a million faces took minutes and gained 1 % of
+/// energy. For the same reason only the few worst regions are cut to.
+constexpr std::int64_t refined_patience = 3;
+/// After so many steps that part defects of such a piece, charts with more than `few_vertices` are halved, after the
+/// next those with half as many, and so on: noise flips faces all over, of which cuts chosen by trials remove a few.
+constexpr int max_chosen_partings = 1;
+constexpr int min_halved = 300;
 /// The least cost of sewing, as a fraction of the distortion that is allowed: what costs less is free.
 constexpr double least_loss = 0.02;
 /// A piece that no map serves after this number of blind cuts gets one that fallbacks make. These take minutes on large
@@ -124,7 +134,11 @@ Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
     : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices(), false}, changed_(true) {}
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
-    : seams_(std::move(seams)), options_(options), stage_(stage), changed_(!stage.refined) {}
+    : seams_(std::move(seams)),
+      options_(options),
+      stage_(stage),
+      changed_(!stage.refined),
+      cones_tried_(stage.refined) {}
 
 void Cutter::solve(const Progress& progress) { solve({}, progress); }
 
@@ -145,7 +159,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
       return accepted;
     }
   }
-  const bool wanted = quality_.solved && !exhausted_ && !good_enough();
+  const bool wanted = quality_.solved && !exhausted_ && !good_enough() && !is_patience_spent();
   if (wanted && losses_together_ < max_losses_together && (stage_.refined || quality_.within_limit < enough_area)) {
     accepted = cut_to_all(longest, progress);
     losses_together_ = accepted.empty() ? losses_together_ + 1 : 0;
@@ -378,6 +392,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, stage_.n_vertices), 2 * 4, 24));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
+    if (all && stage_.refined && !is_small()) break;
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
       std::vector<Proposal> proposals;
       if (!std::exchange(cones_tried_, true)) {
@@ -480,6 +495,7 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
     return charts_[static_cast<std::size_t>(parted[a])]->chart.faces.size() >
            charts_[static_cast<std::size_t>(parted[b])]->chart.faces.size();
   });
+  if (!parted.empty()) ++partings_;
   std::vector<Parting> partings(parted.size());
   try_in_parallel(
       parted.size(),
@@ -509,6 +525,11 @@ Cutter::Parting Cutter::part_chart(int chart, const std::vector<int>& faces, dou
                                    const Progress& progress) const {
   Parting result;
   const CutCandidates candidates = this->candidates();
+  if (charts_[static_cast<std::size_t>(chart)]->chart.n_vertices() > max_chosen_vertices()) {
+    result.cut = candidates.halve(chart);
+    if (!result.cut.empty() && seams_.length(result.cut) <= longest) return result;
+    result.cut.clear();
+  }
   const double before = extent_of(*charts_[static_cast<std::size_t>(chart)], faces, quality_.area);
   for (const bool at_any_price : {false, true}) {
     std::vector<SeamEdges> cuts =
@@ -582,6 +603,17 @@ SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
   return makes_islands(trial) ? accept(std::move(trial)) : SeamEdges{};
 }
 
+bool Cutter::is_patience_spent() const {
+  return stage_.refined && !is_small() && solved_vertices_ > refined_patience * seams_.graph().n_vertices();
+}
+
+/// Of a chart whose defects are parted by cuts that trials choose.
+int Cutter::max_chosen_vertices() const {
+  const int more = partings_ - max_chosen_partings;
+  if (!stage_.refined || is_small() || more <= 0) return std::numeric_limits<int>::max();
+  return std::max(min_halved, few_vertices >> std::min(more - 1, 16));
+}
+
 int Cutter::max_blind() const { return stage_.refined ? max_blind_cuts_refined : max_blind_cuts; }
 
 bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {
@@ -594,6 +626,19 @@ bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) cons
                      [&](const auto& mapped) { return contains(charts_, mapped) || defective_faces(*mapped).empty(); });
 }
 
+/// Of the charts beside some edges, together.
+std::int64_t Cutter::vertices_beside(const SeamEdges& edges) const {
+  std::set<int> charts;
+  for (const int edge : edges) {
+    for (const int face : seams_.graph().edges()[edge].faces) {
+      if (face >= 0 && chart_of_face_[face] >= 0) charts.insert(chart_of_face_[face]);
+    }
+  }
+  std::int64_t sum = 0;
+  for (const int chart : charts) sum += charts_[static_cast<std::size_t>(chart)]->chart.n_vertices();
+  return sum;
+}
+
 /// Longest first, as long as the maps stay good enough.
 void Cutter::sew(const Progress& progress) {
   if (!quality_.solved) return;
@@ -603,6 +648,8 @@ void Cutter::sew(const Progress& progress) {
     std::vector<Trial> trials;
     for (SeamEdges& chain : seams_.chains()) {
       if (kept.count(chain) > 0 || trials.size() == sewn_at_once) continue;
+      // On its coarse copies it was tried already.
+      if (stage_.refined && vertices_beside(chain) > sewing_vertices) continue;
       trials.emplace_back();
       trials.back().cut = std::move(chain);
     }

@@ -98,7 +98,10 @@ class Cutter {
   SeamEdges blind_cut(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   int max_blind() const;
+  int max_chosen_vertices() const;
+  bool is_patience_spent() const;
   bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
+  std::int64_t vertices_beside(const SeamEdges& edges) const;
   void sew(const Progress& progress);
 
   PieceSeams seams_;
@@ -113,12 +116,13 @@ class Cutter {
   std::vector<Futile> futile_;
   TrialMaps sound_;  ///< those of charts_ that are known to be without defects
   bool finished_ = false;
-  bool exhausted_ = false;  ///< no cut gains any more
-  bool cones_tried_ = false;
+  bool exhausted_ = false;    ///< no cut gains any more
+  bool cones_tried_ = false;  ///< also where they were on a coarser piece
   int losses_together_ = 0;
   int blind_cuts_ = 0;
   bool fallbacks_ = false;  ///< are allowed to trial maps
   int losing_splits_ = 0;
+  int partings_ = 0;                                      ///< steps that part defects
   mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< by several threads at once
 };
 

@@ -60,15 +60,23 @@ double best_level(const SeparableFaces& faces, const std::vector<double>& level,
 SeparableFaces::SeparableFaces(const SeamGraph& seam_graph, std::vector<int> some, std::vector<double> areas,
                                std::vector<Eigen::Vector3d> centres)
     : graph(&seam_graph), faces(std::move(some)), area(std::move(areas)), centre(std::move(centres)) {
-  dual = Adjacency::from_arcs(static_cast<int>(faces.size()), [&](auto&& visit) {
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      for (const int e : graph->edges_of_face(faces[f])) {
-        const SeamGraph::Edge& edge = graph->edges()[static_cast<std::size_t>(e)];
-        if (edge.cut) continue;
-        const int other = index(edge.faces[0] == faces[f] ? edge.faces[1] : edge.faces[0]);
-        if (other >= 0) visit(static_cast<int>(f), e, other);
-      }
+  struct Arc {
+    int from;
+    int edge;
+    int to;
+  };
+  std::vector<Arc> arcs;
+  arcs.reserve(3 * faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const int e : graph->edges_of_face(faces[f])) {
+      const SeamGraph::Edge& edge = graph->edges()[static_cast<std::size_t>(e)];
+      if (edge.cut) continue;
+      const int other = index(edge.faces[0] == faces[f] ? edge.faces[1] : edge.faces[0]);
+      if (other >= 0) arcs.push_back({static_cast<int>(f), e, other});
     }
+  }
+  dual = Adjacency::from_arcs(static_cast<int>(faces.size()), [&](auto&& visit) {
+    for (const Arc& arc : arcs) visit(arc.from, arc.edge, arc.to);
   });
 }
 
