@@ -48,6 +48,9 @@ constexpr double nearly_as_good = 0.25;
 constexpr std::int64_t remembered_vertices = 400000;
 /// Only of larger pieces are short cuts left out.
 constexpr int small_piece = 3000;
+/// Of larger pieces no more than has to be is solved for at their finer levels: on a sword of 22,000 vertices such
+/// haste saved nothing and left the energy above its limit.
+constexpr int large_piece = 60000;
 /// Vertices that a round of trials solves for, for 2 to 4 regions, and all rounds before giving up, for 8 to 24.
 constexpr int few_vertices = 12000;
 constexpr int many_vertices = 30000;
@@ -59,9 +62,9 @@ constexpr double worth_trying = 0.15;
 /// costs is sewn up, and altogether until this number of vertices was solved for: the time of the search before.
 constexpr std::size_t sewn_at_once = 4;
 constexpr std::int64_t sewing_vertices = 80000;
-/// Of a piece whose coarse copy has its seams already, more cuts against distortion are looked for until so many times
-/// its vertices were solved for, the map with these seams included; then only those are left that part defects. A copy
-/// has cut as far as that pays; what is left on a rough surface of a million faces took minutes and gained 1 % of
+/// Of a large piece whose coarse copy has its seams already, more cuts against distortion are looked for until so many
+/// times its vertices were solved for, the map with these seams included; then only those are left that part defects. A
+/// copy has cut as far as that pays; what is left on a rough surface of a million faces took minutes and gained 1 % of
 /// energy. For the same reason only the few worst regions are cut to.
 constexpr std::int64_t refined_patience = 3;
 /// After so many steps that part defects of such a piece, charts with more than `few_vertices` are halved, after the
@@ -138,7 +141,7 @@ Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Sta
       options_(options),
       stage_(stage),
       changed_(!stage.refined),
-      cones_tried_(stage.refined) {}
+      cones_tried_(stage.refined && is_large()) {}
 
 void Cutter::solve(const Progress& progress) { solve({}, progress); }
 
@@ -152,7 +155,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   recent_ = std::exchange(fresh_, {});
   SeamEdges accepted;
   if (!quality_.solved && blind_cuts_ >= max_blind()) {
-    if (!is_small()) accepted = halve_unsolved(longest, progress);
+    if (is_large()) accepted = halve_unsolved(longest, progress);
     if (accepted.empty() && !fallbacks_) allow_fallbacks(progress);
     if (!accepted.empty()) {
       changed_ = true;
@@ -303,6 +306,8 @@ std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& prop
 
 bool Cutter::is_small() const { return stage_.n_vertices <= small_piece; }
 
+bool Cutter::is_large() const { return stage_.n_vertices > large_piece; }
+
 bool Cutter::makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
 
 double Cutter::price(const SeamEdges& cut) const { return seams_.length(cut) + base_price * std::sqrt(quality_.area); }
@@ -392,7 +397,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, stage_.n_vertices), 2 * 4, 24));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
-    if (all && stage_.refined && !is_small()) break;
+    if (all && stage_.refined && is_large()) break;
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
       std::vector<Proposal> proposals;
       if (!std::exchange(cones_tried_, true)) {
@@ -604,17 +609,17 @@ SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
 }
 
 bool Cutter::is_patience_spent() const {
-  return stage_.refined && !is_small() && solved_vertices_ > refined_patience * seams_.graph().n_vertices();
+  return stage_.refined && is_large() && solved_vertices_ > refined_patience * seams_.graph().n_vertices();
 }
 
 /// Of a chart whose defects are parted by cuts that trials choose.
 int Cutter::max_chosen_vertices() const {
   const int more = partings_ - max_chosen_partings;
-  if (!stage_.refined || is_small() || more <= 0) return std::numeric_limits<int>::max();
+  if (!stage_.refined || !is_large() || more <= 0) return std::numeric_limits<int>::max();
   return std::max(min_halved, few_vertices >> std::min(more - 1, 16));
 }
 
-int Cutter::max_blind() const { return stage_.refined ? max_blind_cuts_refined : max_blind_cuts; }
+int Cutter::max_blind() const { return stage_.refined && is_large() ? max_blind_cuts_refined : max_blind_cuts; }
 
 bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {
   if (!quality.solved || quality.energy > std::max(options_.energy_limit, quality_.energy) ||
@@ -649,7 +654,7 @@ void Cutter::sew(const Progress& progress) {
     for (SeamEdges& chain : seams_.chains()) {
       if (kept.count(chain) > 0 || trials.size() == sewn_at_once) continue;
       // On its coarse copies it was tried already.
-      if (stage_.refined && vertices_beside(chain) > sewing_vertices) continue;
+      if (stage_.refined && is_large() && vertices_beside(chain) > sewing_vertices) continue;
       trials.emplace_back();
       trials.back().cut = std::move(chain);
     }

@@ -71,6 +71,7 @@ class Cutter {
   void allow_fallbacks(const Progress& progress);
   bool good_enough() const;
   bool is_small() const;
+  bool is_large() const;
   TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
                        const Progress& progress) const;
   void take_maps(TrialMaps&& charts, const MapQuality& quality);
