@@ -37,9 +37,8 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: b
     is_whole = bool(affected.all())
     points = _points(uv if is_whole else uv[corners])
     for face in bm.faces if is_whole else compress(bm.faces, affected.tolist()):
-        # The loops first: they end before a point is taken that is the next face's.
-        for loop, point in zip(face.loops, points):
-            loop[layer].uv = point
+        for loop in face.loops:
+            loop[layer].uv = next(points)
     if update:
         bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
 
