@@ -105,6 +105,35 @@ double ConformalEnergy::weight(std::size_t triangle) const {
   return in_quad / std::max(shape.area() / weight_unit_, 1 / (max_entry * shape.relative_height()));
 }
 
+/// Calls visit(i, j, w cot t / 2, w / 2) for every half-edge i -> j of every triangle with weight w, t its opposite
+/// angle: what the half-edge has in E_D (Eq. 3) and in A.
+template <class Visit>
+void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
+  const std::vector<TriangleShape>& shapes = energy_shapes();
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& triangle = triangles_[t];
+    const TriangleShape& s = shapes[t];
+    const double half_weight = 0.5 * weight(t);
+    const double double_area = s.x1 * s.y2;
+    // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
+    const std::array<double, 3> scaled_cotangents = s.scaled_cotangents();
+    for (int k = 0; k < 3; ++k) {
+      const int i = triangle[(k + 1) % 3];
+      const int j = triangle[(k + 2) % 3];
+      if (i != j) visit(i, j, half_weight * (scaled_cotangents[k] / double_area), half_weight);
+    }
+  }
+}
+
+double ConformalEnergy::max_diagonal() const {
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
+  for_each_half_edge([&](int i, int j, double dirichlet, double) {
+    diagonal[i] += dirichlet;
+    diagonal[j] += dirichlet;
+  });
+  return std::max(0.0, diagonal.maxCoeff());
+}
+
 HermitianMatrix ConformalEnergy::matrix() const {
   struct Entry {
     int row;
@@ -121,31 +150,18 @@ HermitianMatrix ConformalEnergy::matrix() const {
   LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices_]));
   std::vector<int> fill(start.begin(), start.end() - 1);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
-  const std::vector<TriangleShape>& shapes = energy_shapes();
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const auto& triangle = triangles_[t];
-    const TriangleShape& s = shapes[t];
-    const double half_weight = 0.5 * weight(t);
-    const double double_area = s.x1 * s.y2;
-    // Cotangent at corner k, opposite to the half-edge from corner k+1 to corner k+2.
-    const std::array<double, 3> scaled_cotangents = s.scaled_cotangents();
-    for (int k = 0; k < 3; ++k) {
-      const int i = triangle[(k + 1) % 3];
-      const int j = triangle[(k + 2) % 3];
-      if (i == j) continue;
-      const double dirichlet = half_weight * (scaled_cotangents[k] / double_area);  // w cot t / 2: E_D (Eq. 3)
-      diagonal[i] += dirichlet;
-      diagonal[j] += dirichlet;
-      // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2 (minus A, Eq. 2),
-      // L_ji its conjugate.
-      const Complex entry_ij(-dirichlet, half_weight);
-      if (i > j) {
-        entries[fill[j]++] = {i, entry_ij};
-      } else {
-        entries[fill[i]++] = {j, std::conj(entry_ij)};
-      }
+  for_each_half_edge([&](int i, int j, double dirichlet, double half_weight) {
+    diagonal[i] += dirichlet;
+    diagonal[j] += dirichlet;
+    // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2 (minus A, Eq. 2),
+    // L_ji its conjugate.
+    const Complex entry_ij(-dirichlet, half_weight);
+    if (i > j) {
+      entries[fill[j]++] = {i, entry_ij};
+    } else {
+      entries[fill[i]++] = {j, std::conj(entry_ij)};
     }
-  }
+  });
   // Merge the two halves of every edge. The order of summation is that of the triangles: insertion sort is stable.
   std::vector<int> column_size(static_cast<std::size_t>(n_vertices_), 0);
   for_each_index(column_size.size(), [&](std::size_t column) {

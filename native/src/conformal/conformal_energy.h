@@ -38,6 +38,7 @@ class ConformalEnergy {
 
   /// L, assembled by each call: it is large, and needed for a factorisation only.
   HermitianMatrix matrix() const;
+  double max_diagonal() const;  ///< largest diagonal entry of L, summed up by each call
   int n_vertices() const { return n_vertices_; }
   Weights weights() const { return weights_; }
   int clamped_triangles() const { return clamped_triangles_; }
@@ -66,6 +67,9 @@ class ConformalEnergy {
  private:
   void weigh();
   double weight(std::size_t triangle) const;
+  template <class Visit>
+  void for_each_half_edge(const Visit& visit) const;
+
   SharedVector<std::array<int, 3>> triangles_;
   SharedVector<double> triangle_weights_;
   std::vector<TriangleShape> shapes_;

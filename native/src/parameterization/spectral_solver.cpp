@@ -213,7 +213,7 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     result.change = correction.change;
     ComplexVector r;
     result.lambda = eigen_residual(*energy_, quotient, result.z, r);  // Eq. 5
-    result.residual = r.norm() / (max_diagonal_ * result.z.norm());
+    result.residual = r.norm() / (max_diagonal() * result.z.norm());
   }
   return result;
 }
@@ -241,6 +241,8 @@ ShiftedFactor SpectralSolver::factored(const BoundaryForm& form, double relative
   }
   return factor_shifted(std::move(matrix), patch_->positions, form, relative_shift, backend_, progress);
 }
+
+double SpectralSolver::max_diagonal() const { return max_diagonal_ > 0 ? max_diagonal_ : energy_->max_diagonal(); }
 
 SpectralMap SpectralSolver::factorize(const Progress& progress) {
   factor_ = factored(form_, first_relative_shift, progress);
@@ -292,7 +294,7 @@ SpectralSolver::Numbers SpectralSolver::numbers(const ComplexVector& whole) cons
   ComplexVector r;
   const double lambda = eigen_residual(*energy_, quotient_form(form_), whole, r);
   result.eigenvalue = lambda * eigenvalue_unit(Method::spectral);
-  result.residual = r.norm() / (max_diagonal_ * whole.norm());
+  result.residual = r.norm() / (max_diagonal() * whole.norm());
   return result;
 }
 
@@ -305,6 +307,7 @@ void SpectralSolver::forget() {
   factor_ = {};
   ritz_basis_ = {};
   previous_.resize(0);
+  max_diagonal_ = 0;
 }
 
 int SpectralSolver::clamp(double min_relative_height) {

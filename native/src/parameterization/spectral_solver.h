@@ -86,14 +86,15 @@ class SpectralSolver {
                           ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
   /// Factors L + s M, as factor_shifted does.
   ShiftedFactor factored(const BoundaryForm& form, double relative_shift, const Progress& progress);
-  void forget();  ///< what belongs to the factor
+  double max_diagonal() const;  ///< the unit of residuals
+  void forget();                ///< what belongs to the factor
   ExtendedForm extended_form(const BoundaryForm& form, const SolveOptions& options, const Pins& attractors) const;
 
   const NormalizedPatch* patch_;
   FactorizationBackend backend_;
   BoundaryMeasure boundary_;
   std::unique_ptr<ConformalEnergy> energy_;  ///< L
-  double max_diagonal_ = 0;                  ///< largest diagonal entry of L, once it was factored
+  double max_diagonal_ = 0;                  ///< largest diagonal entry of L as it is now, once it was factored, else 0
   BoundaryForm form_;                        ///< M, and B^ with the constants taken out
   ShiftedFactor factor_;                     ///< of L + s M
   RitzBasis ritz_basis_;                     ///< of the last solve with soft constraints and factor_

@@ -68,6 +68,17 @@ TEST_CASE("outcomes are typed: winding under an extender needs no second attempt
   CHECK(none.solve({}, {}, {}, timings).rejection != Rejection::none);
 }
 
+TEST_CASE("the numbers of a map do not depend on a factor") {
+  const Patch patch(bumpy_grid(5, 4));
+  const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
+  SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
+  const ComplexVector map = random_map(normalized.n_vertices);
+  const double without = solver.numbers(map).residual;
+  CHECK((std::isfinite(without) && without > 0));
+  solver.factorize({});
+  CHECK(solver.numbers(map).residual == without);
+}
+
 TEST_CASE("an outer loop without length is refused") {
   const Patch patch(bumpy_grid(3, 3));
   NormalizedPatch point = normalized_patch(patch.chart, patch.positions, false);

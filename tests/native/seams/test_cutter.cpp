@@ -24,6 +24,29 @@ PieceSeams opened(const Mesh& mesh, std::vector<Piece>& pieces) {
   return seams;
 }
 
+/// Long arms around a corner lie on each other in the map of what is cut open only.
+Mesh long_arms() {
+  return cell_surface(9, [](int i, int j, int k) {
+    return k < 1 && (j == 0 || i == 8 || j == 8 || (i == 0 && j > 1) || (j == 2 && i < 7) || (i == 6 && j < 7));
+  });
+}
+
+TrialMaps maps_of(const Piece& piece, const std::vector<std::array<int, 2>>& seams) {
+  PolygonMesh view = piece.view();
+  view.seam_edges = seams.data();
+  view.n_seam_edges = static_cast<int>(seams.size());
+  TrialMaps charts;
+  for (Chart& chart : build_charts(view).charts) {
+    charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(view, std::move(chart), {}, false, {})));
+  }
+  return charts;
+}
+
+bool is_sound(const TrialMaps& charts) {
+  return map_quality(charts, 2).solved &&
+         std::all_of(charts.begin(), charts.end(), [](const auto& mapped) { return defective_faces(*mapped).empty(); });
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("cutter");
@@ -54,36 +77,35 @@ TEST_CASE("every step lowers the distortion, until the limits are met") {
   }
 }
 
+TEST_CASE("of a large piece whose copy was cut already, less is solved for, and no defect is left either") {
+  for (const Mesh& mesh : {long_arms(), spiky_grid(6, 8)}) {
+    std::int64_t solved[2] = {0, 0};
+    for (const bool is_large : {false, true}) {
+      std::vector<Piece> pieces;
+      const SeamSuggestionOptions options;
+      Cutter cutter(opened(mesh, pieces), options, {is_large ? 100000 : 5000, true});
+      cutter.solve({});
+      while (!cutter.step(unlimited, {}).empty()) {
+      }
+      CHECK(is_sound(maps_of(pieces[0], cutter.seams().with({}))));
+      solved[is_large ? 1 : 0] = cutter.solved_vertices();
+    }
+    CHECK(solved[1] < solved[0]);
+  }
+}
+
 TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam is left that can be sewn up") {
-  // Long arms around a corner lie on each other in the map of what is cut open only.
-  const Mesh mesh = cell_surface(9, [](int i, int j, int k) {
-    return k < 1 && (j == 0 || i == 8 || j == 8 || (i == 0 && j > 1) || (j == 2 && i < 7) || (i == 6 && j < 7));
-  });
+  const Mesh mesh = long_arms();
   std::vector<Piece> pieces;
   const SeamSuggestionOptions options;
   Cutter cutter(opened(mesh, pieces), options);
   cutter.solve({});
   while (!cutter.step(unlimited, {}).empty()) {
   }
-  const auto maps = [&](const std::vector<std::array<int, 2>>& seams) {
-    PolygonMesh view = pieces[0].view();
-    view.seam_edges = seams.data();
-    view.n_seam_edges = static_cast<int>(seams.size());
-    TrialMaps charts;
-    for (Chart& chart : build_charts(view).charts) {
-      charts.push_back(std::make_shared<const TrialMap>(solve_trial_map(view, std::move(chart), {}, false, {})));
-    }
-    return charts;
-  };
-  const auto is_sound = [&](const TrialMaps& charts) {
-    return map_quality(charts, 2).solved && std::all_of(charts.begin(), charts.end(), [](const auto& mapped) {
-             return defective_faces(*mapped).empty();
-           });
-  };
-  CHECK(is_sound(maps(cutter.seams().with({}))));
+  CHECK(is_sound(maps_of(pieces[0], cutter.seams().with({}))));
   CHECK(cutter.quality().energy <= options.energy_limit);
   for (const SeamEdges& chain : cutter.seams().chains()) {
-    const TrialMaps charts = maps(cutter.seams().without(chain));
+    const TrialMaps charts = maps_of(pieces[0], cutter.seams().without(chain));
     const MapQuality quality = map_quality(charts, options.scale_limit);
     CHECK_FALSE((is_sound(charts) && quality.energy <= options.energy_limit && quality.mean_qc <= options.qc_limit &&
                  quality.within_limit >= 0.95));
