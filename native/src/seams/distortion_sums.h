@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -40,9 +41,9 @@ class DistortionSums {
   std::vector<double> log2_scale_;  ///< ascending
   /// All others: (F + 1,), sums over the first faces by scale.
   std::vector<double> area_{0};
-  std::vector<double> shear_[3]{{0}, {0}, {0}};  ///< of shear times powers of the scale's logarithm
-  std::vector<double> wider_{0};                 ///< of shear times the squared scale
-  std::vector<double> narrower_{0};              ///< of shear by the squared scale, but over the last faces
+  std::array<std::vector<double>, 3> shear_{{{0.0}, {0.0}, {0.0}}};  ///< of shear times powers of the scale's logarithm
+  std::vector<double> wider_{0};                                     ///< of shear times the squared scale
+  std::vector<double> narrower_{0};  ///< of shear by the squared scale, but over the last faces
   double qc_ = 0;
 };
 
