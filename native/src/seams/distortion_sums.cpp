@@ -11,8 +11,7 @@ namespace {
 constexpr double ln4 = 1.386294361119890618834464242916;
 constexpr double cosh_ln4 = 2.125;
 constexpr double sinh_ln4 = 1.875;
-/// Bounds of the logarithm of scales, and how near two bounds come by bisection before faces between them are sorted.
-constexpr double max_log2_scale = 16;
+/// How near two bounds of the median come by bisection before the faces between them are sorted.
 constexpr double near_median = 1e-9;
 
 }  // namespace

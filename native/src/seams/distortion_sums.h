@@ -6,6 +6,9 @@
 
 namespace spectral_conformal {
 
+/// What a map all but collapses counts as much as this: the binary logarithm of a scale is within plus and minus it.
+constexpr double max_log2_scale = 16;
+
 /// Symmetric Dirichlet energy s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of singular values, as the ratio and the product of
 /// these tell it: shear * bounded_cosh(2 ln 2 times the difference of the scale's binary logarithm to that of a unit).
 /// 2 cosh t, and beyond t = ln 4 the parabola that continues it smoothly.

@@ -12,8 +12,7 @@
 namespace spectral_conformal {
 namespace {
 
-// Faces that a map all but collapses count as much as these, so that one of them does not outweigh all others.
-constexpr double max_log2_scale = 16;
+// Faces that a map all but collapses count as much as this, so that one of them does not outweigh all others.
 constexpr double max_qc = 1000;
 
 /// Sums the triangles of each face up, of a quad those of one split.
