@@ -1,12 +1,15 @@
 #include "parameterization/normalized_patch.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
+#include "geometry/quad_splits.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/chart_checks.h"
 #include "mesh/hole_filling.h"
 #include "quality/map_degree.h"
+#include "quality/overlap.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -83,6 +86,17 @@ bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z) {
   std::vector<BoundaryLoop> loops = patch.inner;
   loops.push_back(patch.outer);
   return !has_degree_at_most_one(loops, z);
+}
+
+int n_covering_triangles(const NormalizedPatch& patch, const ComplexVector& z) {
+  if (!may_cover_itself(patch, z)) return 0;
+  const auto n = static_cast<std::ptrdiff_t>(patch.triangles.size() - patch.n_virtual);
+  const std::vector<std::array<int, 3>> all(patch.triangles.begin(), patch.triangles.begin() + n);
+  const std::vector<double> weights(patch.triangle_weights.begin(), patch.triangle_weights.begin() + n);
+  std::vector<std::array<int, 3>> triangles;
+  for (const int t : mapped_triangulation(all, weights, z)) triangles.push_back(all[static_cast<std::size_t>(t)]);
+  const std::vector<bool> overlapping = overlapping_triangles(triangles, z);
+  return static_cast<int>(std::count(overlapping.begin(), overlapping.end(), true));
 }
 
 }  // namespace spectral_conformal

@@ -39,4 +39,8 @@ Distortion chart_distortion(const NormalizedPatch& patch, const ComplexVector& z
 /// (map_degree.h).
 bool may_cover_itself(const NormalizedPatch& patch, const ComplexVector& z);
 
+/// How many triangles of a map (chart vertices,), positively oriented, lie on others: found only where the border
+/// leaves that possible.
+int n_covering_triangles(const NormalizedPatch& patch, const ComplexVector& z);
+
 }  // namespace spectral_conformal

@@ -57,7 +57,7 @@ class SpectralSolver {
   SpectralMap solve(const SolveOptions& options, const Pins& attractors, const Progress& progress, Timings& timings);
 
   /// Lowers the mean QC of a map of this solver (polish.h) and returns the number of steps; not the whole way, or none
-  /// of it, where the border would cross itself that did not before. 0, and the map stays, where no step lowers it, or
+  /// of it, where more of it would lie on itself than before. 0, and the map stays, where no step lowers it, or
   /// the factor was not kept: the map took a second attempt.
   int polish(SpectralMap& map, const Progress& progress, Timings& timings);
 

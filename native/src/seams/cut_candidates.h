@@ -42,6 +42,9 @@ class CutCandidates {
   /// Cuts that part a chart of several faces in any case: its halves, the largest part of the defective faces from the
   /// rest, and one of them.
   std::vector<SeamEdges> cuts_apart(int chart, const std::vector<int>& defective) const;
+  /// Makes islands of the defective faces without which the others are none any more (faces_in_the_way.h); empty where
+  /// they are more than a hundredth of the chart's, or a part of them has more than 50 faces.
+  SeamEdges cut_out(int chart, const std::vector<int>& defective) const;
   /// The cut through the middle of a chart; empty where it has one face.
   SeamEdges halve(int chart) const;
   /// Cuts through the middle of the charts with most distortion.

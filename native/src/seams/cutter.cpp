@@ -67,8 +67,9 @@ constexpr std::int64_t sewing_vertices = 80000;
 /// copy has cut as far as that pays; what is left on a rough surface of a million faces took minutes and gained 1 % of
 /// energy. For the same reason only the few worst regions are cut to.
 constexpr std::int64_t refined_patience = 3;
-/// After so many steps that part defects of such a piece, charts with more than `few_vertices` are halved, after the
-/// next those with half as many, and so on: noise flips faces all over, of which cuts chosen by trials remove a few.
+/// Flaps of a few faces are cut out of its large charts. Where there is more that overlaps, charts with more than
+/// `few_vertices` are halved after so many steps that part defects, after the next those with half as many, and so on:
+/// noise flips faces all over, of which cuts chosen by trials remove a few.
 constexpr int max_chosen_partings = 1;
 constexpr int min_halved = 300;
 /// The least cost of sewing, as a fraction of the distortion that is allowed: what costs less is free.
@@ -137,11 +138,7 @@ Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
     : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices(), false}, changed_(true) {}
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
-    : seams_(std::move(seams)),
-      options_(options),
-      stage_(stage),
-      changed_(!stage.refined),
-      cones_tried_(stage.refined && is_large()) {}
+    : seams_(std::move(seams)), options_(options), stage_(stage), changed_(!stage.refined), cones_tried_(hurries()) {}
 
 void Cutter::solve(const Progress& progress) { solve({}, progress); }
 
@@ -308,6 +305,8 @@ bool Cutter::is_small() const { return stage_.n_vertices <= small_piece; }
 
 bool Cutter::is_large() const { return stage_.n_vertices > large_piece; }
 
+bool Cutter::hurries() const { return stage_.refined && is_large(); }
+
 bool Cutter::makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
 
 double Cutter::price(const SeamEdges& cut) const { return seams_.length(cut) + base_price * std::sqrt(quality_.area); }
@@ -397,7 +396,7 @@ SeamEdges Cutter::best_cut(double longest, const Progress& progress) {
   const auto many = static_cast<std::size_t>(std::clamp(many_vertices / std::max(1, stage_.n_vertices), 2 * 4, 24));
   std::array<std::size_t, 2> first{0, 0};
   for (const bool all : {false, true}) {
-    if (all && stage_.refined && is_large()) break;
+    if (all && hurries()) break;
     for (std::size_t round = 0; round < (all ? many / few : 1); ++round) {
       std::vector<Proposal> proposals;
       if (!std::exchange(cones_tried_, true)) {
@@ -507,8 +506,8 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
       [&](int i, const Progress& going_on) {
         const std::size_t k = order[static_cast<std::size_t>(i)];
         const std::int64_t remembered = remembered_vertices / static_cast<std::int64_t>(parted.size());
-        partings[k] =
-            part_chart(parted[k], defects[static_cast<std::size_t>(parted[k])], longest, remembered, going_on);
+        partings[k] = part_chart(candidates, parted[k], defects[static_cast<std::size_t>(parted[k])], longest,
+                                 remembered, going_on);
       },
       progress);
   SeamEdges all;
@@ -526,12 +525,13 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
 
 /// The cut that parts the defects of one chart: with the least distortion and length, or in any case. Maps of as many
 /// vertices as are to be `remembered` are returned with it.
-Cutter::Parting Cutter::part_chart(int chart, const std::vector<int>& faces, double longest, std::int64_t remembered,
-                                   const Progress& progress) const {
+Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces,
+                                   double longest, std::int64_t remembered, const Progress& progress) const {
   Parting result;
-  const CutCandidates candidates = this->candidates();
-  if (charts_[static_cast<std::size_t>(chart)]->chart.n_vertices() > max_chosen_vertices()) {
-    result.cut = candidates.halve(chart);
+  const int n_vertices = charts_[static_cast<std::size_t>(chart)]->chart.n_vertices();
+  if (stage_.refined && n_vertices > std::min(small_piece, max_chosen_vertices())) {
+    result.cut = candidates.cut_out(chart, faces);
+    if (result.cut.empty() && n_vertices > max_chosen_vertices()) result.cut = candidates.halve(chart);
     if (!result.cut.empty() && seams_.length(result.cut) <= longest) return result;
     result.cut.clear();
   }
@@ -609,17 +609,17 @@ SeamEdges Cutter::halve_unsolved(double longest, const Progress& progress) {
 }
 
 bool Cutter::is_patience_spent() const {
-  return stage_.refined && is_large() && solved_vertices_ > refined_patience * seams_.graph().n_vertices();
+  return hurries() && solved_vertices_ > refined_patience * seams_.graph().n_vertices();
 }
 
 /// Of a chart whose defects are parted by cuts that trials choose.
 int Cutter::max_chosen_vertices() const {
   const int more = partings_ - max_chosen_partings;
-  if (!stage_.refined || !is_large() || more <= 0) return std::numeric_limits<int>::max();
+  if (!hurries() || more <= 0) return std::numeric_limits<int>::max();
   return std::max(min_halved, few_vertices >> std::min(more - 1, 16));
 }
 
-int Cutter::max_blind() const { return stage_.refined && is_large() ? max_blind_cuts_refined : max_blind_cuts; }
+int Cutter::max_blind() const { return hurries() ? max_blind_cuts_refined : max_blind_cuts; }
 
 bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {
   if (!quality.solved || quality.energy > std::max(options_.energy_limit, quality_.energy) ||
@@ -654,7 +654,7 @@ void Cutter::sew(const Progress& progress) {
     for (SeamEdges& chain : seams_.chains()) {
       if (kept.count(chain) > 0 || trials.size() == sewn_at_once) continue;
       // On its coarse copies it was tried already.
-      if (stage_.refined && is_large() && vertices_beside(chain) > sewing_vertices) continue;
+      if (hurries() && vertices_beside(chain) > sewing_vertices) continue;
       trials.emplace_back();
       trials.back().cut = std::move(chain);
     }

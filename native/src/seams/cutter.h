@@ -72,6 +72,7 @@ class Cutter {
   bool good_enough() const;
   bool is_small() const;
   bool is_large() const;
+  bool hurries() const;  ///< at the finer levels of a large piece
   TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
                        const Progress& progress) const;
   void take_maps(TrialMaps&& charts, const MapQuality& quality);
@@ -94,8 +95,8 @@ class Cutter {
   SeamEdges best_cut(double longest, const Progress& progress);
   SeamEdges split_in_half(double longest, const Progress& progress);
   SeamEdges part_defects(double longest, const Progress& progress);
-  Parting part_chart(int chart, const std::vector<int>& faces, double longest, std::int64_t remembered,
-                     const Progress& progress) const;
+  Parting part_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces, double longest,
+                     std::int64_t remembered, const Progress& progress) const;
   SeamEdges blind_cut(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   int max_blind() const;

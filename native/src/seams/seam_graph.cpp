@@ -87,19 +87,14 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
                       Eigen::Vector3d::Zero()});
     i = end;
   }
-  first_side_.assign(static_cast<std::size_t>(mesh.n_faces) + 1, 0);
-  const auto for_each_side = [&](const auto& visit) {
+  dual_ = Adjacency::from_arcs(mesh.n_faces, [&](auto&& visit) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
-      for (const int face : edges_[e].faces) {
-        if (face >= 0) visit(static_cast<std::size_t>(face), static_cast<int>(e));
-      }
+      if (edges_[e].cut) continue;
+      const auto [one, other] = edges_[e].faces;
+      visit(one, static_cast<int>(e), other);
+      visit(other, static_cast<int>(e), one);
     }
-  };
-  for_each_side([&](std::size_t face, int) { ++first_side_[face + 1]; });
-  for (std::size_t face = 1; face < first_side_.size(); ++face) first_side_[face] += first_side_[face - 1];
-  edge_of_side_.resize(static_cast<std::size_t>(first_side_.back()));
-  std::vector<int> fill(first_side_.begin(), first_side_.end() - 1);
-  for_each_side([&](std::size_t face, int edge) { edge_of_side_[static_cast<std::size_t>(fill[face]++)] = edge; });
+  });
 }
 
 void SeamGraph::price_edges(const PolygonMesh& mesh) {

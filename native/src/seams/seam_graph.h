@@ -24,22 +24,13 @@ class SeamGraph {
     int other_end(int vertex) const { return vertices[0] == vertex ? vertices[1] : vertices[0]; }
   };
 
-  struct EdgeRange {
-    const int* first;
-    const int* last;
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-  };
-
   /// Takes the selected faces and the seams of `mesh`. Coordinates must be finite.
   explicit SeamGraph(const PolygonMesh& mesh);
 
   int n_vertices() const { return adjacency_.n_nodes(); }
   const std::vector<Edge>& edges() const { return edges_; }
-  /// The edges of a face, ascending; of an edge with three or more faces only two have it.
-  EdgeRange edges_of_face(int face) const {
-    return {edge_of_side_.data() + first_side_[face], edge_of_side_.data() + first_side_[face + 1]};
-  }
+  /// The faces as nodes, joined over every edge between exactly two, cut or not, with the numbers of the edges.
+  const Adjacency& dual() const { return dual_; }
   /// The vertices as nodes, with the numbers of the edges.
   const Adjacency& adjacency() const { return adjacency_; }
   /// The edge between two vertices, or -1.
@@ -66,9 +57,8 @@ class SeamGraph {
 
   Positions positions_;
   std::vector<Edge> edges_;
-  std::vector<int> first_side_;    ///< per face, and at last how many there are
-  std::vector<int> edge_of_side_;  ///< the edges of the faces, face by face
   Adjacency adjacency_;
+  Adjacency dual_;
 };
 
 }  // namespace spectral_conformal

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "seams/carried_seams.h"
 #include "seams/coarse_piece.h"
 #include "seams/cutter.h"
+#include "seams/filled_piece.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
 #include "seams/seam_preferences.h"
@@ -61,6 +63,7 @@ class SeamFinder {
     mirrors_ = mirror_pieces(mesh, decomposition, pieces_, symmetry_);
     cutters_.resize(pieces_.size());
     levels_.resize(pieces_.size());
+    filled_.resize(pieces_.size());
     began_on_copies_.resize(pieces_.size(), false);
   }
 
@@ -131,6 +134,11 @@ class SeamFinder {
     const PieceMirror* mirror = &mirrors_[i];
     // Coarse seams are shorter than those that they become, so that a limit of the length could not be kept.
     if (std::isfinite(options_.max_length)) return;
+    filled_[i] = fill_small_holes(pieces_[i], static_cast<int>(i), mirrors_[i]);
+    if (filled_[i]) {
+      finer = &filled_[i]->piece;
+      mirror = &filled_[i]->mirror;
+    }
     int n = n_vertices(i);
     while (n > coarse_vertices) {
       n = n / level_ratio > 2 * coarse_vertices ? n / level_ratio : coarse_vertices;
@@ -164,13 +172,15 @@ class SeamFinder {
   void refine(std::size_t i) {
     const std::unique_ptr<CoarsePiece> coarse = std::move(levels_[i].back());
     levels_[i].pop_back();
-    PieceSeams seams = unseamed(i);
+    const bool was_filled = levels_[i].empty() && filled_[i];
+    PieceSeams seams = was_filled ? priced(filled_[i]->piece, i, filled_[i]->mirror) : unseamed(i);
     std::vector<SeamEdges> cuts;
     for (const auto& [piece, cut] : cuts_) {
       if (piece == i) cuts.push_back(cut);
     }
     length_left_ += copies(i) * cutters_[i]->seams().length(cutters_[i]->seams().edges());
-    const std::vector<SeamEdges> carried = carry_seams(*coarse, cutters_[i]->seams(), cuts, seams);
+    std::vector<SeamEdges> carried = carry_seams(*coarse, cutters_[i]->seams(), cuts, seams);
+    if (was_filled) seams = with_holes(i, seams, carried);
     length_left_ -= copies(i) * seams.length(seams.edges());
     auto next = carried.begin();
     for (auto& [piece, cut] : cuts_) {
@@ -178,6 +188,18 @@ class SeamFinder {
     }
     cutters_[i] = cutter(i, std::move(seams), true);
     cutters_[i]->solve(quiet());
+  }
+  /// The seams of a filled piece on the piece itself, whose edges have the same numbers. Those around holes are left
+  /// out.
+  PieceSeams with_holes(std::size_t i, const PieceSeams& filled, std::vector<SeamEdges>& cuts) const {
+    PieceSeams seams = unseamed(i);
+    if (!filled.is_symmetric()) seams.forget_symmetry();
+    for (SeamEdges& cut : cuts) {
+      cut.erase(std::remove_if(cut.begin(), cut.end(), [&](int edge) { return seams.graph().edges()[edge].cut; }),
+                cut.end());
+      seams.add(cut);
+    }
+    return seams;
   }
   /// Solves report that they go on, not how far they are; the fraction done only rises.
   Progress quiet() const {
@@ -240,7 +262,8 @@ class SeamFinder {
   MirrorSymmetry symmetry_;
   std::vector<PieceMirror> mirrors_;
   std::vector<std::vector<std::unique_ptr<CoarsePiece>>>
-      levels_;  ///< copies on which seams are still to be looked for, each coarser
+      levels_;                                      ///< copies on which seams are still to be looked for, each coarser
+  std::vector<std::optional<FilledPiece>> filled_;  ///< what the first of them is made from, where it has small holes
   std::vector<bool> began_on_copies_;
   std::vector<std::unique_ptr<Cutter>> cutters_;
   std::vector<std::pair<std::size_t, SeamEdges>> cuts_;  ///< with their pieces

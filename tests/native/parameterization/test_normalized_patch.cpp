@@ -71,6 +71,8 @@ TEST_CASE("a border that goes over itself lets a map cover itself") {
   };
   CHECK_FALSE(may_cover_itself(strip, bent(0.9)));
   CHECK(may_cover_itself(strip, bent(1.2)));
+  CHECK(n_covering_triangles(strip, bent(0.9)) == 0);
+  CHECK(n_covering_triangles(strip, bent(1.2)) > 4);
 }
 
 TEST_CASE("a chart that is no disk is refused") {

@@ -64,6 +64,21 @@ TEST_CASE("regions come in falling order, of mirrored ones one, and are joined t
   }
 }
 
+TEST_CASE("few defective faces are cut out, many are not") {
+  SolvedPiece grid(bumpy_grid(30, 30));
+  auto broken = *grid.charts.front();
+  const int face = static_cast<int>(broken.chart.faces.size()) / 2;
+  broken.flipped = {face};
+  grid.charts.front() = std::make_shared<const TrialMap>(std::move(broken));
+  const CutCandidates candidates = grid.candidates();
+  const std::vector<Chart> charts = grid.charts_with(candidates.cut_out(0, {face}));
+  REQUIRE(charts.size() == 2);
+  CHECK(std::min(charts[0].faces.size(), charts[1].faces.size()) == 1);
+  std::vector<int> many;
+  for (int f = 0; f < 100; ++f) many.push_back(f);
+  CHECK(candidates.cut_out(0, many).empty());
+}
+
 TEST_CASE("the cut around a region makes an island, and halves are two charts") {
   const SolvedPiece spikes(spiky_grid(2, 8));
   const CutCandidates candidates = spikes.candidates();

@@ -73,6 +73,28 @@ TEST_CASE("surfaces of every topology come within the limits, symmetric ones by 
   }
 }
 
+TEST_CASE("a scan full of small holes gets the seams of one with few") {
+  const Mesh ball = sphere(36);  // of 7778 vertices, so that there are coarse copies
+  const auto torn = [&](int every) {
+    Mesh mesh;
+    mesh.points = ball.points;
+    for (int f = 0; f < ball.n_faces(); ++f) {
+      if (f % every == 6) continue;
+      mesh.add({ball.corners.begin() + ball.offsets[f], ball.corners.begin() + ball.offsets[f + 1]});
+    }
+    return mesh;
+  };
+  const Mesh many = torn(97);
+  const SeamSuggestion seams = suggested(many);
+  const SeamGraph graph(many.view());
+  for (const auto& [a, b] : seams.edges) CHECK_FALSE(graph.edges()[graph.find_edge(a, b)].cut);
+  const Mesh few = torn(4000);
+  CHECK(length(many, seams.edges) < 1.2 * length(few, suggested(few).edges));
+  const MapQuality quality = quality_with(many, seams.edges);
+  CHECK(quality.solved);
+  CHECK(quality.energy < SeamSuggestionOptions{}.energy_limit);
+}
+
 TEST_CASE("a one-sided strip is cut to a disk") {
   const Mesh mesh = ring(24, 1);
   CHECK(quality_with(mesh, suggested(mesh).edges).solved);

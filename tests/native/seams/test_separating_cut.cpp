@@ -61,6 +61,17 @@ TEST_CASE("the cut goes through the neck, wherever in the two parts the ends are
   }
 }
 
+TEST_CASE("the cut of many faces is short, too, although it is looked for near its level only") {
+  const Mesh mesh = quad_grid(500, 120);
+  const SeamGraph graph(mesh.view());
+  const std::vector<char> side = separating_side(all_faces(mesh, graph), {30000}, {30499}, 0.02);
+  double across = 0;
+  for (const auto& edge : graph.edges()) {
+    if (!edge.cut && side[edge.faces[0]] != side[edge.faces[1]]) across += edge.length;
+  }
+  CHECK(across == doctest::Approx(120));
+}
+
 TEST_CASE("no side is smaller than asked for") {
   const Mesh mesh = dumbbell();
   const SeamGraph graph(mesh.view());

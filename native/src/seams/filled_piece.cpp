@@ -1,0 +1,90 @@
+#include "seams/filled_piece.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "geometry/polygon_normal.h"
+#include "mesh/boundary_loops.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// A hole is small where its loop is shorter than this fraction of the root of the piece's area: 35 edges in a million
+/// triangles, which is 5 faces across, and those of single faces only in pieces of 10,000.
+constexpr double longest_small_loop = 0.05;
+
+double area_of(const Piece& piece) {
+  double area = 0;
+  for (int f = 0; f < piece.n_faces(); ++f) {
+    const int first = piece.face_offsets[f];
+    const int size = piece.face_offsets[f + 1] - first;
+    Positions corners(size, 3);
+    for (int i = 0; i < size; ++i) corners.row(i) = piece.positions.row(piece.corner_vertices[first + i]);
+    area += 0.5 * polygon_normal(corners, corners.row(0).transpose()).norm();
+  }
+  return area;
+}
+
+struct SmallLoop {
+  BoundaryLoop hole;  ///< the hole on its left
+  int face = -1;      ///< that fills it
+};
+
+/// By their sorted vertices.
+using SmallLoops = std::map<std::vector<int>, SmallLoop>;
+
+SmallLoops small_loops(const Piece& piece) {
+  PolygonMesh mesh = piece.view();
+  mesh.n_seam_edges = 0;
+  const double longest = longest_small_loop * std::sqrt(area_of(piece));
+  SmallLoops result;
+  for (const Chart& chart : build_charts(mesh).charts) {
+    for (const BoundaryLoop& loop : chart.boundary_loops) {
+      BoundaryLoop hole;
+      for (auto v = loop.rbegin(); v != loop.rend(); ++v) hole.push_back(chart.vertices[*v]);
+      std::vector<int> key = hole;
+      std::sort(key.begin(), key.end());
+      const bool is_simple = hole.size() > 2 && std::adjacent_find(key.begin(), key.end()) == key.end();
+      if (is_simple && loop_length(hole, piece.positions) <= longest) result[std::move(key)].hole = std::move(hole);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<FilledPiece> fill_small_holes(const Piece& piece, int index, const PieceMirror& mirror) {
+  SmallLoops loops = small_loops(piece);
+  const bool is_own_image = mirror.image == index;
+  const auto image_of = [&](const std::vector<int>& vertices) {
+    std::vector<int> key;
+    key.reserve(vertices.size());
+    for (const int v : vertices) key.push_back(mirror.vertex[v]);
+    std::sort(key.begin(), key.end());
+    return loops.find(key);
+  };
+  if (is_own_image) {
+    // The length of an image may be rounded to the other side of the limit.
+    for (auto loop = loops.begin(); loop != loops.end();) {
+      loop = image_of(loop->first) == loops.end() ? loops.erase(loop) : std::next(loop);
+    }
+  }
+  if (loops.empty()) return std::nullopt;
+  FilledPiece result{piece, mirror};
+  int next = piece.n_faces();
+  for (auto& loop : loops) loop.second.face = next++;
+  for (const auto& [vertices, loop] : loops) {
+    if (is_own_image) result.mirror.face.push_back(image_of(vertices)->second.face);
+    const BoundaryLoop& hole = loop.hole;
+    result.piece.corner_vertices.insert(result.piece.corner_vertices.end(), hole.begin(), hole.end());
+    result.piece.face_offsets.push_back(static_cast<int>(result.piece.corner_vertices.size()));
+    result.piece.faces.push_back(-1);
+  }
+  return result;
+}
+
+}  // namespace spectral_conformal
