@@ -33,12 +33,7 @@ def test_the_same_each_time():
         np.testing.assert_array_equal(one, other)
 
 
-# One island of 42 faces covers itself in 5 with the seams suggested for the whole mesh, though by itself it gets
-# seams without overlaps.
-OPEN = {"welded primitives": pytest.mark.xfail(strict=True, reason="an island of a mesh that is not manifold overlaps")}
-
-
-@pytest.mark.parametrize("name", [pytest.param(name, marks=OPEN.get(name, ())) for name in generated_assets.ASSETS])
+@pytest.mark.parametrize("name", generated_assets.ASSETS)
 def test_suggested_seams_unwrap_it(name):
     vertices, triangles = generated_assets.asset(name, FACES)
     mesh = vertices, np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()

@@ -255,8 +255,10 @@ SeamEdges CutCandidates::blind_cut() const {
   const std::vector<double> distance = seams_.graph().distances(cut_vertices, [](int) { return true; });
   int vertex = -1;
   int chart = -1;
+  int last_hopeless = -1;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     if (!map_quality({charts_[i]}, 2).hopeless()) continue;
+    if (charts_[i]->chart.faces.size() > 1) last_hopeless = static_cast<int>(i);
     for (const int v : charts_[i]->chart.vertices) {
       if (!(distance[v] > 0) || !std::isfinite(distance[v])) continue;
       if (vertex >= 0 && distance[v] <= distance[vertex]) continue;
@@ -264,7 +266,7 @@ SeamEdges CutCandidates::blind_cut() const {
       chart = static_cast<int>(i);
     }
   }
-  if (vertex < 0) return {};
+  if (vertex < 0) return last_hopeless < 0 ? SeamEdges{} : halve(last_hopeless);
   if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
   return seams_.cut_to(vertex, false, chart, chart_of_face_);
 }

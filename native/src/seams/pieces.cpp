@@ -18,6 +18,21 @@ std::vector<std::array<int, 2>> sorted_seams(const PolygonMesh& mesh) {
   return seams;
 }
 
+/// The edges between two vertices of a chart that are on its boundary twice: an edge of four faces, two of which are
+/// joined around both of its ends. By these two alone it would be no boundary.
+std::vector<std::array<int, 2>> slit_edges(const Chart& chart) {
+  std::vector<std::array<int, 2>> edges;
+  for (const BoundaryLoop& loop : chart.boundary_loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back(sorted_pair(loop[i], loop[(i + 1) % loop.size()]));
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::array<int, 2>> result;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i] == edges[i - 1]) result.push_back(edges[i]);
+  }
+  return result;
+}
+
 /// Matches the corners of a piece's faces with those of their images. False when that is no map of the pieces.
 bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const std::vector<int>& face_in_piece,
                    const MirrorSymmetry& symmetry, PieceMirror& mirror) {
@@ -84,6 +99,8 @@ std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecompo
       }
       piece.face_offsets.push_back(static_cast<int>(piece.corner_vertices.size()));
     }
+    const std::vector<std::array<int, 2>> slits = slit_edges(chart);
+    piece.seams.insert(piece.seams.end(), slits.begin(), slits.end());
     std::sort(piece.seams.begin(), piece.seams.end());
     piece.seams.erase(std::unique(piece.seams.begin(), piece.seams.end()), piece.seams.end());
     pieces.push_back(std::move(piece));

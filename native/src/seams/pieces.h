@@ -10,12 +10,13 @@ namespace spectral_conformal {
 
 /// One chart as a mesh of its own, whose vertices are the chart's: what was cut around it is its border.
 struct Piece {
-  Positions positions;                    ///< (V, 3)
-  std::vector<int> face_offsets{0};       ///< (F + 1,)
-  std::vector<int> corner_vertices;       ///< (C,)
-  std::vector<std::array<int, 2>> seams;  ///< seams inside the chart that do not cut it apart
-  std::vector<int> vertices;              ///< (V,) in the whole mesh
-  std::vector<int> faces;                 ///< (F,) in the whole mesh
+  Positions positions;               ///< (V, 3)
+  std::vector<int> face_offsets{0};  ///< (F + 1,)
+  std::vector<int> corner_vertices;  ///< (C,)
+  std::vector<std::array<int, 2>>
+      seams;                  ///< inside the chart, that do not cut it apart; also its slits, see pieces.cpp
+  std::vector<int> vertices;  ///< (V,) in the whole mesh
+  std::vector<int> faces;     ///< (F,) in the whole mesh
 
   /// Valid while the piece is neither changed nor destroyed.
   PolygonMesh view() const;

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <utility>
+
 #include "meshes.h"
 #include "seams/pieces.h"
 
@@ -44,6 +46,24 @@ TEST_CASE("a seam whose ends stay whole remains a seam of the piece") {
   REQUIRE(slit.pieces.size() == 1);
   CHECK(slit.pieces[0].seams == std::vector<std::array<int, 2>>{{12, 13}});
   CHECK(slit.mirrors[0].image == -1);  // the seam is on one side only
+}
+
+TEST_CASE("an edge of four faces is a seam of the piece that has two of them joined around both ends") {
+  // Two fins on either of two opposite edges of a tetrahedron.
+  Mesh finned = tetrahedron();
+  REQUIRE(finned.points.size() == 4);
+  for (const auto& [a, b] : {std::pair{0, 1}, {2, 3}}) {
+    for (const double side : {3.0, -3.0}) {
+      finned.points.emplace_back(0.5 * side, 0.3 * a, side);
+      finned.add({a, b, static_cast<int>(finned.points.size()) - 1});
+    }
+  }
+  const Pieces pieces(finned);
+  REQUIRE(pieces.pieces.size() == 5);
+  CHECK(pieces.pieces[0].seams == std::vector<std::array<int, 2>>{{0, 1}, {2, 3}});
+  const ChartDecomposition again = build_charts(pieces.pieces[0].view());
+  REQUIRE(again.charts.size() == 1);
+  CHECK(again.charts[0].boundary_loops.size() == 2);
 }
 
 TEST_CASE("pieces are mapped onto themselves or each other") {

@@ -95,6 +95,18 @@ TEST_CASE("a scan full of small holes gets the seams of one with few") {
   CHECK(quality.energy < SeamSuggestionOptions{}.energy_limit);
 }
 
+TEST_CASE("a body whose vertices are all on edges of four faces is parted through its middle") {
+  Mesh finned = tetrahedron();
+  for (const auto& [a, b] : {std::pair{0, 1}, {2, 3}}) {
+    for (const double side : {3.0, -3.0}) {
+      finned.points.emplace_back(0.5 * side, 0.3 * a, side);
+      finned.add({a, b, static_cast<int>(finned.points.size()) - 1});
+    }
+  }
+  CHECK_FALSE(quality_with(finned, {}).solved);
+  CHECK(quality_with(finned, suggested(finned).edges).solved);
+}
+
 TEST_CASE("a one-sided strip is cut to a disk") {
   const Mesh mesh = ring(24, 1);
   CHECK(quality_with(mesh, suggested(mesh).edges).solved);
