@@ -23,7 +23,7 @@ constexpr std::size_t parted_faces = 20000;
 
 /// What is cut out of a chart: flaps of one or two faces and what they lie on, as at the ragged edges of scans. Halving
 /// instead made 1727 islands of a torn scan of a million faces, in more time, this 678.
-constexpr double few_faces = 0.01;
+constexpr double few_faces = 0.03;
 constexpr std::size_t max_flap = 50;
 
 /// A tenth of a search goes into cuts that part faces.

@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "geometry/quad_splits.h"
+#include "graph/disjoint_sets.h"
+#include "quality/box_tree.h"
 #include "quality/overlap.h"
 
 namespace spectral_conformal {
@@ -15,26 +18,28 @@ namespace {
 /// The images of some faces of a chart.
 class FaceImages {
  public:
-  FaceImages(const TrialMap& mapped, const std::vector<int>& some) : map_(mapped.z) {
-    std::vector<char> wanted(mapped.chart.faces.size(), 0);
-    for (const int face : some) wanted[static_cast<std::size_t>(face)] = 1;
+  /// some: ascending.
+  FaceImages(const TrialMap& mapped, const std::vector<int>& some)
+      : map_(mapped.z), faces_(some), first_(some.size() + 1, 0) {
     const Chart& chart = mapped.chart;
     for (const int t : mapped_triangulation(chart.triangles, chart.triangle_weights, map_)) {
-      const int face = chart.triangle_face[static_cast<std::size_t>(t)];
-      if (wanted[static_cast<std::size_t>(face)] == 0) continue;
+      const int i = index(chart.triangle_face[static_cast<std::size_t>(t)]);
+      if (i < 0) continue;
       triangles_.push_back(chart.triangles[static_cast<std::size_t>(t)]);
-      face_.push_back(face);
+      first_[static_cast<std::size_t>(i) + 1] = static_cast<int>(triangles_.size());
     }
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] = std::max(first_[i], first_[i - 1]);
   }
 
   /// Those of some faces, ascending, that cover part of each other's image.
   std::vector<int> overlapping(const std::vector<int>& some) const {
     std::vector<std::array<int, 3>> triangles;
     std::vector<int> face;
-    for (std::size_t t = 0; t < face_.size(); ++t) {
-      if (!std::binary_search(some.begin(), some.end(), face_[t])) continue;
-      triangles.push_back(triangles_[t]);
-      face.push_back(face_[t]);
+    for (const int f : some) {
+      for_each_triangle(f, [&](const std::array<int, 3>& triangle) {
+        triangles.push_back(triangle);
+        face.push_back(f);
+      });
     }
     const std::vector<bool> overlaps = overlapping_triangles(triangles, map_, face);
     std::vector<int> result;
@@ -44,10 +49,58 @@ class FaceImages {
     return result;
   }
 
+  /// Some faces, ascending, in sets that cannot overlap each other, each ascending.
+  std::vector<std::vector<int>> apart(const std::vector<int>& some) const {
+    std::vector<PlaneBox> boxes;
+    boxes.reserve(some.size());
+    for (const int f : some) boxes.push_back(box(f));
+    const BoxTree tree(boxes);
+    DisjointSets sets(static_cast<int>(some.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      tree.for_each_meeting(boxes[i], [&](int other) {
+        sets.unite(static_cast<int>(i), other);
+        return true;
+      });
+    }
+    std::vector<std::vector<int>> result;
+    std::vector<int> number(some.size(), -1);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      int& set = number[static_cast<std::size_t>(sets.find(static_cast<int>(i)))];
+      if (set < 0) {
+        set = static_cast<int>(result.size());
+        result.emplace_back();
+      }
+      result[static_cast<std::size_t>(set)].push_back(some[i]);
+    }
+    return result;
+  }
+
  private:
+  int index(int face) const {
+    const auto at = std::lower_bound(faces_.begin(), faces_.end(), face);
+    return at == faces_.end() || *at != face ? -1 : static_cast<int>(at - faces_.begin());
+  }
+  template <class Visit>
+  void for_each_triangle(int face, const Visit& visit) const {
+    const auto i = static_cast<std::size_t>(index(face));
+    for (int t = first_[i]; t < first_[i + 1]; ++t) visit(triangles_[static_cast<std::size_t>(t)]);
+  }
+  PlaneBox box(int face) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    PlaneBox result{{infinite, infinite}, {-infinite, -infinite}};
+    for_each_triangle(face, [&](const std::array<int, 3>& triangle) {
+      for (const int v : triangle) {
+        const std::array<double, 2> point{map_[v].real(), map_[v].imag()};
+        result.include({point, point});
+      }
+    });
+    return result;
+  }
+
   const ComplexVector& map_;
+  const std::vector<int>& faces_;
+  std::vector<int> first_;  ///< per face its first triangle, and at last how many there are
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<int> face_;  ///< per triangle, ascending
 };
 
 std::vector<int> without(const std::vector<int>& faces, const std::vector<int>& some) {
@@ -56,13 +109,8 @@ std::vector<int> without(const std::vector<int>& faces, const std::vector<int>& 
   return result;
 }
 
-}  // namespace
-
-std::vector<int> faces_in_the_way(const SeparableFaces& faces, const TrialMap& mapped,
-                                  const std::vector<int>& defective) {
-  const FaceImages images(mapped, defective);
-  std::vector<int> result = mapped.flipped;
-  std::vector<int> left = images.overlapping(without(defective, mapped.flipped));
+/// Takes parts out of faces that overlap, smaller ones first, until none of the others do.
+void take_out(const SeparableFaces& faces, const FaceImages& images, std::vector<int> left, std::vector<int>& result) {
   std::vector<std::vector<int>> parts = connected_parts(faces, left);
   std::reverse(parts.begin(), parts.end());
   for (const bool by_faces : {false, true}) {
@@ -84,6 +132,16 @@ std::vector<int> faces_in_the_way(const SeparableFaces& faces, const TrialMap& m
   }
   // Whatever could not be told apart.
   result.insert(result.end(), left.begin(), left.end());
+}
+
+}  // namespace
+
+std::vector<int> faces_in_the_way(const SeparableFaces& faces, const TrialMap& mapped,
+                                  const std::vector<int>& defective) {
+  const FaceImages images(mapped, defective);
+  std::vector<int> result = mapped.flipped;
+  const std::vector<int> overlapping = images.overlapping(without(defective, mapped.flipped));
+  for (std::vector<int>& some : images.apart(overlapping)) take_out(faces, images, std::move(some), result);
   std::sort(result.begin(), result.end());
   return result;
 }
