@@ -47,6 +47,13 @@ def test_suggested_seams_unwrap_it(name):
             assert (chart.flipped, chart.overlapping) == (0, 0)
 
 
+def test_double_faces_are_measured_once():
+    triangles = np.array([[0, 1, 2], [2, 1, 3], [1, 2, 0], [3, 2, 1], [3, 2, 4]])
+    assert generated_assets.without_doubles(triangles).tolist() == [0, 1, 4]
+    # They belong to the islands of those that they double.
+    assert generated_assets.in_process("soiled scan", 2500, "spectral")["islands"] < 40
+
+
 def test_one_map_is_measured_in_a_process_of_its_own():
     found = generated_assets.in_process("blocks, 300", 1000, "spectral")
     assert found["faces"] == 3600

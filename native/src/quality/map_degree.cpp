@@ -70,6 +70,7 @@ bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Comple
   int counter_clockwise = 0;
   std::vector<BoundaryEdge> edges;
   for (const BoundaryLoop& loop : loops) {
+    if (loop.size() == 2) continue;  // the two banks of a slit, that lie on each other
     const int sense = orientation_of_simple(loop, z);
     if (sense == 0) return false;
     if (sense > 0) ++counter_clockwise;

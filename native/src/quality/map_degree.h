@@ -18,6 +18,7 @@ namespace spectral_conformal {
 //  - If moreover no triangle is clockwise, N+ <= 1: nothing overlaps, the map is injective.
 //  - Conversely, if the loops are simple and disjoint and the map of a connected chart is injective, its image is a
 //    connected domain whose boundary these loops are, so that exactly one runs counter-clockwise.
+// A loop of two vertices, one edge there and back, winds round nothing and is left out.
 // Interior vertices with angles of more than 2 pi need no care: they show at the boundary.
 
 /// Whether the boundary proves that the degree is at most 1 everywhere: all loops are simple, disjoint polygons,

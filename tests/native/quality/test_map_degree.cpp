@@ -53,6 +53,15 @@ TEST_CASE("flat patches, with and without holes, are injective; mirrored ones ar
   }
 }
 
+TEST_CASE("a slit of one edge, whose ends stay whole, leaves a patch injective") {
+  Mesh slit = flat_grid(12, 9);
+  slit.seams = {{30, 31}, {60, 61}};
+  const Patch patch(slit);
+  REQUIRE(patch.chart.boundary_loops.size() == 3);
+  CHECK(certainly_injective(patch, flat_map(patch.positions)));
+  CHECK_FALSE(certainly_injective(patch, mapped(patch, bent(0.6, 4))));
+}
+
 TEST_CASE("a strip bent past itself overlaps without a flip, one that spirals outwards does not overlap") {
   const Patch patch(flat_grid(40, 4));
   struct Strip {
