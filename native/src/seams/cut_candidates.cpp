@@ -268,7 +268,8 @@ SeamEdges CutCandidates::blind_cut() const {
   }
   if (vertex < 0) return last_hopeless < 0 ? SeamEdges{} : halve(last_hopeless);
   if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
-  return seams_.cut_to(vertex, false, chart, chart_of_face_);
+  SeamEdges cut = seams_.cut_to(vertex, false, chart, chart_of_face_);
+  return cut.empty() && last_hopeless >= 0 ? halve(last_hopeless) : cut;
 }
 
 /// The areas of a chart that is not solved are those of its polygons.

@@ -51,8 +51,8 @@ class CutCandidates {
   std::vector<SeamEdges> halves() const;
   /// Cuts through the middle of all charts that are not solved, together.
   SeamEdges halve_unsolved() const;
-  /// From the vertex of an unsolved or hopeless chart that is farthest from all cuts to the nearest of them. Where all
-  /// vertices are on cuts, through the middle of one.
+  /// From the vertex of an unsolved or hopeless chart that is farthest from all cuts to the nearest of them. Where
+  /// there is no such path, through the middle of one.
   SeamEdges blind_cut() const;
 
  private:
