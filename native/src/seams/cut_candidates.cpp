@@ -266,9 +266,11 @@ SeamEdges CutCandidates::blind_cut() const {
       chart = static_cast<int>(i);
     }
   }
-  if (vertex < 0) return last_hopeless < 0 ? SeamEdges{} : halve(last_hopeless);
-  if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
-  SeamEdges cut = seams_.cut_to(vertex, false, chart, chart_of_face_);
+  SeamEdges cut;
+  if (vertex >= 0) {
+    if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
+    cut = seams_.cut_to(vertex, false, chart, chart_of_face_);
+  }
   return cut.empty() && last_hopeless >= 0 ? halve(last_hopeless) : cut;
 }
 

@@ -180,7 +180,10 @@ class SeamFinder {
     }
     length_left_ += copies(i) * cutters_[i]->seams().length(cutters_[i]->seams().edges());
     std::vector<SeamEdges> carried = carry_seams(*coarse, cutters_[i]->seams(), cuts, seams);
-    if (was_filled) seams = with_holes(i, seams, carried);
+    if (was_filled) {
+      seams = with_holes(i, seams, carried);
+      filled_[i].reset();
+    }
     length_left_ -= copies(i) * seams.length(seams.edges());
     auto next = carried.begin();
     for (auto& [piece, cut] : cuts_) {
