@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that differs between the Blender versions that this add-on runs in (3.4 and later)."""
 
+import ctypes
 import functools
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -24,6 +26,24 @@ LINE_SHADER = "POLYLINE_UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_
 # Whether the 3D viewport's menu of unwraps shows the UV editor's, entries of add-ons included. In 4.3 it opens it; no
 # 4.4 was tried.
 VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)
+
+
+@contextmanager
+def data_of_no_file() -> Iterator[bpy.types.BlendData]:
+    """Yield data of its own beside the user's file, gone with all that is made in it when the context ends.
+
+    Removing from the user's file makes Blender build its graph of all objects anew, whatever it is that is removed.
+    """
+    manager = bpy.data.temp_data()
+    data = manager.__enter__()
+    # Known of 3.4 to 5.2: this reference is the manager's own, not another one (`bpy_rna_data_context_enter`), so that
+    # the object would be freed twice. There are to be three: the manager's, that of `data`, and the argument's.
+    if sys.getrefcount(data) < 3:
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(data))
+    try:
+        yield data
+    finally:
+        manager.__exit__(None, None, None)
 
 
 def translated(text: str) -> str:

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 
 import bpy
 import numpy as np
+from bmesh.types import BMesh
 
 from .. import names
 
@@ -19,19 +20,20 @@ def leading_modifier(edit_object: bpy.types.Object) -> bpy.types.SubsurfModifier
 
 
 @contextmanager
-def subdivided(
-    mesh: bpy.types.Mesh, modifier: bpy.types.SubsurfModifier
-) -> Iterator[tuple[bpy.types.Mesh, np.ndarray]]:
-    """Yield `mesh` as `modifier` subdivides it, for the time of the context, and the face of `mesh` of its every face.
+def subdivided(bm: BMesh, modifier: bpy.types.SubsurfModifier) -> Iterator[tuple[bpy.types.Mesh, np.ndarray]]:
+    """Yield `bm` as `modifier` subdivides it, for the time of the context, and of its every face the one of `bm`.
 
-    `mesh` gets an attribute. Its vertices come first in the subdivided mesh.
+    The vertices of `bm` come first in the subdivided mesh.
     """
-    attribute = mesh.attributes.new(names.ORIGINAL_FACE_ATTRIBUTE, "INT", "FACE")
-    attribute.data.foreach_set("value", np.arange(len(mesh.polygons), dtype=np.int32))
-    # In a scene of its own no view layer of the user's changes, nor does Simplify limit the levels.
+    # What an object is to show must be in the user's file. In a scene of its own no view layer of the user's changes,
+    # nor does Simplify limit the levels.
+    mesh = bpy.data.meshes.new(names.TEMPORARY_MESH)
     scene = bpy.data.scenes.new(names.TEMPORARY_SCENE)
     carrier = bpy.data.objects.new(names.TEMPORARY_OBJECT, mesh)
     try:
+        bm.to_mesh(mesh)
+        attribute = mesh.attributes.new(names.ORIGINAL_FACE_ATTRIBUTE, "INT", "FACE")
+        attribute.data.foreach_set("value", np.arange(len(mesh.polygons), dtype=np.int32))
         scene.collection.objects.link(carrier)
         copy = carrier.modifiers.new(modifier.name, modifier.type)
         for setting in _COPIED_SETTINGS:
@@ -48,3 +50,5 @@ def subdivided(
     finally:
         bpy.data.objects.remove(carrier)
         bpy.data.scenes.remove(scene)
+        # Nothing refers to it any more, so that nothing needs to be searched for references, nor redrawn.
+        bpy.data.meshes.remove(mesh, do_unlink=False, do_ui_user=False)

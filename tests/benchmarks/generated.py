@@ -42,6 +42,7 @@ class Scene:
         noise: every vertex is moved at random by this part of an edge.
         is_shuffled: vertices and faces are numbered at random.
         is_sampled: a disk whose vertices lie at random, in place of a grid; triangles always, numbered at random.
+        bystanders: further objects in the file, which are not in edit mode.
     """
 
     side: int
@@ -51,6 +52,7 @@ class Scene:
     noise: float = 0.0
     is_shuffled: bool = False
     is_sampled: bool = False
+    bystanders: int = 0
 
     @property
     def n_vertices(self) -> int:
@@ -58,7 +60,9 @@ class Scene:
         return self.objects * self.islands * self.side**2
 
     def scaled(self, scale: float) -> Scene:
-        """Return the scene with about `scale` times as many vertices: fewer patches where there are many."""
+        """Return the scene with about `scale` times as many vertices: fewer of what there is much of."""
+        if self.bystanders >= MANY:
+            return replace(self, bystanders=max(2, round(self.bystanders * scale)))
         if self.objects >= MANY:
             return replace(self, objects=max(2, round(self.objects * scale)))
         if self.islands >= MANY:

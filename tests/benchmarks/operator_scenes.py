@@ -16,7 +16,7 @@ import importlib
 import json
 import pstats
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +42,7 @@ SCENES = {
     "islands-6": Scene(60, islands=6),
     "objects-500": Scene(8, objects=500),
     "objects-10": Scene(8, objects=10, islands=100),
+    "among-10000": Scene(8, bystanders=10_000),
 }
 LARGE = ("grid-134k", "grid-535k", "grid-1M")
 
@@ -51,14 +52,15 @@ def operators(
     methods: Sequence[str] = ("CONFORMAL",),
     seconds: float = SECONDS,
     is_profiled: bool = False,
+    bystanders: int = 0,
 ) -> runs.Figures:
-    """Run our operator and Blender's with the `methods` in this Blender; return the figures."""
+    """Run our operator and Blender's with the `methods` in this Blender, with so many objects beside the meshes'."""
     import bpy  # first: it puts Blender's own modules on the path
 
     # The first call loads the native module.
     _make(bpy, Scene(3).meshes())
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    _make(bpy, meshes)
+    _make(bpy, meshes, bystanders)
     phases = _Phases()
     # Without them each call solves everything.
     kept_maps = importlib.import_module("spectral_unwrap.core.kept_maps")
@@ -148,11 +150,14 @@ def _known(bpy: Any, methods: Sequence[str]) -> list[str]:  # noqa: ANN401 - a m
     return [method for method in methods if method in known]
 
 
-def _make(bpy: Any, meshes: Sequence[Mesh]) -> None:  # noqa: ANN401
+def _make(bpy: Any, meshes: Sequence[Mesh], bystanders: int = 0) -> None:  # noqa: ANN401
     import addon_utils
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     addon_utils.enable("spectral_unwrap")
+    shared = bpy.data.meshes.new("Bystander")
+    for _ in range(bystanders):
+        bpy.context.collection.objects.link(bpy.data.objects.new("Bystander", shared))
     for given in meshes:
         mesh = mesh_of(bpy, given)
         new = bpy.data.objects.new("Object", mesh)
@@ -248,9 +253,14 @@ def suggested_seams(subdivisions: int) -> runs.Figures:
     return {"vertices": len(mesh[0]), "seconds": time.perf_counter() - start, "seam_edges": len(seams)}
 
 
+def options_of(scene: Scene, options: Mapping[str, object]) -> runs.Figures:
+    """Return the arguments with which `operators` measures a scene."""
+    return {**options, "bystanders": scene.bystanders}
+
+
 def run(scene: Scene, blender: str = runs.BLENDER, **options: object) -> runs.Figures:
     """Measure a scene in a process of its own."""
-    return runs.run("operator_scenes", "operators", options, scene.meshes(), blender)
+    return runs.run("operator_scenes", "operators", options_of(scene, options), scene.meshes(), blender)
 
 
 def _print(name: str, figures: runs.Figures) -> None:

@@ -5,6 +5,7 @@ Python reports what it opens, lists, connects and starts, also on behalf of the 
 system does to find the add-on's own modules is not the add-on's doing.
 """
 
+import ctypes
 import os
 import sys
 from pathlib import Path
@@ -30,7 +31,9 @@ class Watch:
         sys.addaudithook(self)
 
     def __call__(self, event, arguments):
-        if self.is_on and event.startswith(WATCHED) and is_ours():
+        # Python's own functions are in the process.
+        is_inside = event == "ctypes.dlsym" and arguments[0] is ctypes.pythonapi
+        if self.is_on and event.startswith(WATCHED) and not is_inside and is_ours():
             self.events.append((event, repr(arguments)[:200]))
 
     def __enter__(self):

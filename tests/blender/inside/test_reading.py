@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reading a mesh gives what is there, and costs nothing that grows with the file."""
 
+import gc
 import importlib
+import sys
 from types import SimpleNamespace
 
 import bpy
@@ -12,10 +14,66 @@ from tests.blender.inside import scenes
 
 compatibility = importlib.import_module("spectral_unwrap.compatibility")
 read = importlib.import_module("spectral_unwrap.edit_mesh.read")
+subsurf = importlib.import_module("spectral_unwrap.edit_mesh.subsurf")
 
 
-@pytest.mark.parametrize("use_subsurf", [False, True])
-def test_the_temporary_mesh_goes_without_a_search_of_the_file(use_subsurf, monkeypatch):
+def test_reading_makes_nothing_in_the_file(monkeypatch):
+    grid = scenes.grid(3, 2)
+    scenes.edit(grid)
+    read.read_mesh(grid)  # which asks Blender for the names of flags, the first time
+    monkeypatch.setattr(compatibility, "bpy", SimpleNamespace(data=SimpleNamespace(temp_data=bpy.data.temp_data)))
+    monkeypatch.setattr(read, "bpy", SimpleNamespace(types=bpy.types))
+    assert len(read.read_mesh(grid).polygons.selected_faces) == 6
+    assert len(read.read_uv(read.read_mesh(grid))) == 24
+
+
+def test_reading_leaves_the_graph_of_objects_alone():
+    grid = scenes.grid(3, 2)
+    scenes.edit(grid)
+    read.read_mesh(grid)  # as above
+    bpy.context.view_layer.update()
+    updates = []
+
+    def on_update(_scene, graph):
+        updates.extend(update.id.name for update in graph.updates)
+
+    bpy.app.handlers.depsgraph_update_post.append(on_update)
+    try:
+        read.read_mesh(grid)
+        bpy.context.view_layer.update()
+        assert not updates
+        # What it would be like.
+        bpy.data.meshes.remove(bpy.data.meshes.new("Mesh"))
+        bpy.context.view_layer.update()
+        assert updates
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(on_update)
+
+
+def test_data_of_no_file_is_freed_once():
+    before = {mesh.name for mesh in bpy.data.meshes}
+    held = []
+    for _ in range(20):
+        with compatibility.data_of_no_file() as data:
+            held.append((data, data.meshes.new("Mesh")))
+            # Within each other, too, and while Python looks for what nobody refers to.
+            with compatibility.data_of_no_file() as inner:
+                inner.meshes.new("Mesh")
+            gc.collect()
+            assert [mesh.name for mesh in data.meshes] == ["Mesh"]
+    assert {mesh.name for mesh in bpy.data.meshes} == before
+    for data, mesh in held:
+        assert sys.getrefcount(data) == 3  # `held`, `data` and the argument
+        with pytest.raises(ReferenceError):
+            _ = mesh.vertices
+    # What is let go of while other data is there is not the other's.
+    with compatibility.data_of_no_file() as data:
+        held.clear()
+        gc.collect()
+        data.meshes.new("Mesh")
+
+
+def test_the_mesh_to_subdivide_goes_without_a_search_of_the_file(monkeypatch):
     cylinder = scenes.cylinder()
     cylinder.modifiers.new("Subdivision", "SUBSURF").levels = 1
     scenes.edit(cylinder)
@@ -27,11 +85,13 @@ def test_the_temporary_mesh_goes_without_a_search_of_the_file(use_subsurf, monke
         removals.append(options)
         meshes.remove(mesh, **options)
 
-    spied = SimpleNamespace(meshes=SimpleNamespace(new=meshes.new, remove=remove))
-    spy = SimpleNamespace(data=spied, types=bpy.types)
-    monkeypatch.setattr(read, "bpy", spy)
+    data = bpy.data
+    spied = SimpleNamespace(
+        meshes=SimpleNamespace(new=meshes.new, remove=remove), scenes=data.scenes, objects=data.objects
+    )
+    monkeypatch.setattr(subsurf, "bpy", SimpleNamespace(data=spied, types=bpy.types))
     before = {mesh.name for mesh in meshes}
-    assert (read.read_mesh(cylinder, use_subsurf=use_subsurf).subdivision is not None) == use_subsurf
+    assert read.read_mesh(cylinder, use_subsurf=True).subdivision is not None
     # By default Blender looks through the whole file for references, and redraws all windows.
     assert [options["do_unlink"] for options in removals] == [False]
     assert {mesh.name for mesh in meshes} == before
