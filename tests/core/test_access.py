@@ -47,6 +47,10 @@ MODULES = {
     "pathlib",  # where the add-on's own manual lies; what reads and writes is among METHODS
     *("bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bpy_extras", "numpy"),
 }
+# The one file that may use more, this and no other of it: Blender's context manager of temporary data lets go of a
+# reference that it has given away, and only Python's own function can make up for that.
+REFERENCES = {"ctypes.pythonapi.Py_IncRef", "ctypes.py_object", "sys.getrefcount"}
+MORE = {ROOT / "addon" / "compatibility.py": REFERENCES}
 BUILTINS = {"open", "exec", "eval", "compile", "__import__", "input", "breakpoint"}
 METHODS = {
     *("load", "save", "savez", "savez_compressed", "loadtxt", "savetxt", "genfromtxt", "fromfile", "tofile", "memmap"),
@@ -84,12 +88,21 @@ def chain(node):
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def findings(source):
-    """Return what a Python source uses that reaches outside the process."""
+def findings(source, more=frozenset()):
+    """Return what a Python source uses that reaches outside the process, but for functions with the names of `more`."""
     found = []
-    for node in ast.walk(ast.parse(source)):
+    modules = {name.partition(".")[0] for name in more}
+    tree = ast.parse(source)
+    used = {id(node) for name in (n for n in ast.walk(tree) if chain(n) in more) for node in ast.walk(name)}
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            found += [alias.name for alias in node.names if alias.name.partition(".")[0] not in MODULES]
+            found += [
+                alias.name
+                for alias in node.names
+                if alias.name.partition(".")[0] not in MODULES and (alias.name not in modules or alias.asname)
+            ]
+        elif isinstance(node, ast.Name) and node.id in modules and id(node) not in used:
+            found.append(node.id)
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
             found += [node.module] * (node.module.partition(".")[0] not in MODULES)
         elif isinstance(node, ast.Name) and node.id in BUILTINS:
@@ -103,7 +116,24 @@ def findings(source):
 
 @pytest.mark.parametrize("path", PYTHON, ids=relative)
 def test_python_reaches_nothing_outside_the_process(path):
-    assert findings(path.read_text(encoding="utf-8")) == []
+    assert findings(path.read_text(encoding="utf-8"), MORE.get(path, frozenset())) == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        *(
+            "import ctypes\nctypes.CDLL('file')",
+            "import ctypes\nlibrary = ctypes",
+            "import ctypes as c\nc.CDLL('file')",
+        ),
+        *("import ctypes\nctypes.pythonapi.PyRun_SimpleString(b'')", "from ctypes import CDLL", "import ctypes.util"),
+        *("import sys\nsys.modules['os'].system('ls')", "import os"),
+    ],
+)
+def test_the_one_file_that_may_use_more_may_use_nothing_else(source):
+    assert findings("import ctypes\nctypes.pythonapi.Py_IncRef(ctypes.py_object(data))", REFERENCES) == []
+    assert findings(source, REFERENCES) != []
 
 
 @pytest.mark.parametrize(
