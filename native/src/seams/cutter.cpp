@@ -48,9 +48,6 @@ constexpr double nearly_as_good = 0.25;
 constexpr std::int64_t remembered_vertices = 400000;
 /// Only of larger pieces are short cuts left out.
 constexpr int small_piece = 3000;
-/// Of larger pieces no more than has to be is solved for at their finer levels: on a sword of 22,000 vertices such
-/// haste saved nothing and left the energy above its limit.
-constexpr int large_piece = 60000;
 /// Vertices that a round of trials solves for, for 2 to 4 regions, and all rounds before giving up, for 8 to 24.
 constexpr int few_vertices = 12000;
 constexpr int many_vertices = 30000;
@@ -135,7 +132,7 @@ void add_new(const SeamEdges& more, SeamEdges& all) {
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
-    : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices(), false}, changed_(true) {}
+    : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices(), false, false}, changed_(true) {}
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
     : seams_(std::move(seams)), options_(options), stage_(stage), changed_(!stage.refined), cones_tried_(hurries()) {}
@@ -152,7 +149,7 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   recent_ = std::exchange(fresh_, {});
   SeamEdges accepted;
   if (!quality_.solved && blind_cuts_ >= max_blind()) {
-    if (is_large()) accepted = halve_unsolved(longest, progress);
+    if (stage_.is_large) accepted = halve_unsolved(longest, progress);
     if (accepted.empty() && !fallbacks_) allow_fallbacks(progress);
     if (!accepted.empty()) {
       changed_ = true;
@@ -303,9 +300,7 @@ std::vector<Cutter::Trial> Cutter::attempt_all(const std::vector<Proposal>& prop
 
 bool Cutter::is_small() const { return stage_.n_vertices <= small_piece; }
 
-bool Cutter::is_large() const { return stage_.n_vertices > large_piece; }
-
-bool Cutter::hurries() const { return stage_.refined && is_large(); }
+bool Cutter::hurries() const { return stage_.refined && stage_.is_large; }
 
 bool Cutter::makes_islands(const Trial& trial) const { return trial.charts.size() > charts_.size(); }
 

@@ -26,8 +26,9 @@ class Cutter {
 
   /// Where in the search a piece is: it may stand for a finer one, and its seams may come from a coarser one.
   struct Stage {
-    int n_vertices = 0;    ///< of the finest piece, which the number of trials is chosen by
-    bool refined = false;  ///< the seams were found on a coarser piece
+    int n_vertices = 0;     ///< of the finest piece, which the number of trials is chosen by
+    bool refined = false;   ///< the seams were found on a coarser piece
+    bool is_large = false;  ///< no more than has to be is solved for at the finer levels
   };
 
   /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
@@ -71,7 +72,6 @@ class Cutter {
   void allow_fallbacks(const Progress& progress);
   bool good_enough() const;
   bool is_small() const;
-  bool is_large() const;
   bool hurries() const;  ///< at the finer levels of a large piece
   TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
                        const Progress& progress) const;

@@ -83,7 +83,7 @@ TEST_CASE("of a large piece whose copy was cut already, less is solved for, and 
     for (const bool is_large : {false, true}) {
       std::vector<Piece> pieces;
       const SeamSuggestionOptions options;
-      Cutter cutter(opened(mesh, pieces), options, {is_large ? 100000 : 5000, true});
+      Cutter cutter(opened(mesh, pieces), options, {is_large ? 100000 : 5000, true, is_large});
       cutter.solve({});
       while (!cutter.step(unlimited, {}).empty()) {
       }

@@ -11,6 +11,7 @@
 #include "seams/trial_map.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/seam_suggestion.h"
+#include "spectral_conformal/thread_limit.h"
 #include "spectral_conformal/unwrap.h"
 
 namespace spectral_conformal::test {
@@ -203,6 +204,21 @@ TEST_CASE("seams keep out of the viewer's sight and go where weights want them")
 TEST_CASE("the same input gives the same seams") {
   const Mesh mesh = torus(24, 12);
   CHECK(suggested(mesh).edges == suggested(mesh).edges);
+}
+
+TEST_CASE("bodies that are searched at once get the seams that they get one after the other") {
+  Mesh mesh = spiky_grid(2, 8);
+  for (const int n : {4, 5, 6, 7}) {
+    Mesh other = sphere(n);
+    for (Eigen::Vector3d& p : other.points) p.x() += 10 * n;
+    mesh.append(other);
+  }
+  const ThreadLimit one(1);
+  const SeamSuggestion alone = suggested(mesh);
+  const ThreadLimit many(4);
+  const SeamSuggestion at_once = suggested(mesh);
+  CHECK(alone.edges == at_once.edges);
+  CHECK(alone.cut_offsets == at_once.cut_offsets);
 }
 
 TEST_CASE("bad parts get no seams and do not stop the others") {

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mesh/mirror_symmetry.h"
+#include "seams/coarse_piece.h"
+#include "seams/cutter.h"
+#include "seams/filled_piece.h"
+#include "seams/piece_seams.h"
+#include "seams/pieces.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/seam_suggestion.h"
+
+namespace spectral_conformal {
+
+/// What the searches of all pieces look at; nothing of it changes.
+struct SearchedMesh {
+  const SeamSuggestionOptions& options;
+  const std::vector<Piece>& pieces;
+  const std::vector<PieceMirror>& mirrors;
+  const MirrorSymmetry& symmetry;
+  const std::vector<int>& given_vertices;  ///< of the pieces' vertices those that options.vertex_preference is of
+};
+
+/// The search for the seams of one piece, which looks at no other: on coarse copies of a large one first, each of which
+/// has the seams of the coarser one to begin with.
+class PieceSearch {
+ public:
+  struct Cut {
+    std::vector<std::array<int, 2>> edges;  ///< the piece's vertices
+    double urgency;                         ///< before it was made; infinite for what topology needs
+  };
+
+  /// `mesh` must outlive this object.
+  PieceSearch(const SearchedMesh& mesh, int index);
+
+  /// Whether no other piece is to be searched at the same time, as the maps of this one take much memory.
+  bool is_large() const;
+  /// Cuts what topology needs, whatever its length, and solves. Throws Cancelled.
+  void begin(const Progress& progress);
+  /// The next cuts, not longer than `longest` together, or the next finer copy; begin() was called, and it is not
+  /// finished(). Throws Cancelled.
+  void step(double longest, const Progress& progress);
+  bool finished() const { return !cutter_; }
+
+  /// The distortion that is left, of what is searched at present.
+  double urgency() const;
+  /// Of all new seams of the piece.
+  double length() const { return cutter_ ? cutter_->seams().length(cutter_->seams().edges()) : length_; }
+  /// The cuts in the order in which they were found, without what was sewn up since; of a finished search.
+  std::vector<Cut> cuts() const { return result_; }
+
+ private:
+  struct FoundCut {
+    SeamEdges edges;
+    double urgency;
+  };
+
+  const Piece& piece() const;
+  const PieceMirror& mirror() const;
+  int n_vertices() const;
+  void make_levels(const Progress& progress);
+  void open(const Progress& progress);
+  bool takes_too_long() const;
+  void begin_again_on_copies(const Progress& progress);
+  std::unique_ptr<Cutter> cutter(PieceSeams&& seams, bool refined) const;
+  PieceSeams unseamed() const;
+  PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
+  void refine(const Progress& progress);
+  PieceSeams with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const;
+  void finish();
+
+  const SearchedMesh& mesh_;
+  int index_;
+  SeamSuggestionOptions coarse_options_;
+  std::vector<std::unique_ptr<CoarsePiece>>
+      levels_;                         ///< copies on which seams are still to be looked for, each coarser
+  std::optional<FilledPiece> filled_;  ///< what the first of them is made from, where it has small holes
+  bool began_on_copies_ = false;
+  std::unique_ptr<Cutter> cutter_;
+  int steps_ = 0;  ///< at this level
+  std::vector<FoundCut> cuts_;
+  std::vector<Cut> result_;
+  double length_ = 0;
+};
+
+}  // namespace spectral_conformal

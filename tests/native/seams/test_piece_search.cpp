@@ -1,0 +1,75 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "meshes.h"
+#include "seams/piece_search.h"
+#include "seams/seam_graph.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// The first piece of a mesh, and all that its search looks at.
+struct Searched {
+  Mesh mesh;
+  SeamSuggestionOptions options;
+  std::vector<Piece> pieces;
+  std::vector<PieceMirror> mirrors;
+  MirrorSymmetry symmetry;
+  std::vector<int> vertices;
+  SearchedMesh view{options, pieces, mirrors, symmetry, vertices};
+
+  explicit Searched(Mesh given) : mesh(std::move(given)) {
+    const ChartDecomposition decomposition = build_charts(mesh.view());
+    pieces = split_into_pieces(mesh.view(), decomposition);
+    symmetry = find_mirror_symmetry(mesh.view());
+    mirrors = mirror_pieces(mesh.view(), decomposition, pieces, symmetry);
+    for (int v = 0; v < mesh.view().n_vertices; ++v) vertices.push_back(v);
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("piece_search");
+
+TEST_CASE("a search ends with cuts along edges of the piece, first what topology needs") {
+  const Searched searched(sphere(9));
+  PieceSearch search(searched.view, 0);
+  search.begin({});
+  CHECK_FALSE(search.is_large());
+  CHECK(search.length() > 0);
+  while (!search.finished()) {
+    CHECK_FALSE(std::isnan(search.urgency()));
+    search.step(no_limit, {});
+  }
+  const std::vector<PieceSearch::Cut> cuts = search.cuts();
+  REQUIRE_FALSE(cuts.empty());
+  CHECK(std::isinf(cuts.front().urgency));
+  const SeamGraph graph(searched.pieces.front().view());
+  double length = 0;
+  for (const PieceSearch::Cut& cut : cuts) {
+    CHECK_FALSE(cut.edges.empty());
+    for (const auto& [a, b] : cut.edges) {
+      CHECK(graph.find_edge(a, b) >= 0);
+      length += (searched.pieces.front().positions.row(a) - searched.pieces.front().positions.row(b)).norm();
+    }
+  }
+  CHECK(search.length() == doctest::Approx(length).epsilon(1e-9));
+}
+
+TEST_CASE("no cut is longer than it may be, but for what topology needs") {
+  const Searched searched(spiky_grid(2, 8));
+  for (const double longest : {0.0, no_limit}) {
+    PieceSearch search(searched.view, 0);
+    search.begin({});
+    while (!search.finished()) search.step(longest, {});
+    CHECK(search.cuts().empty() == (longest == 0));
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
