@@ -51,7 +51,7 @@ class PieceSearch {
   /// Of all new seams of the piece.
   double length() const { return cutter_ ? cutter_->seams().length(cutter_->seams().edges()) : length_; }
   /// The cuts in the order in which they were found, without what was sewn up since; of a finished search.
-  std::vector<Cut> cuts() const { return result_; }
+  const std::vector<Cut>& cuts() const { return result_; }
 
  private:
   struct FoundCut {

@@ -122,20 +122,19 @@ class SeamFinder {
   SeamSuggestion result() const {
     SeamSuggestion result;
     std::set<std::array<int, 2>> proposed;
-    std::vector<std::vector<PieceSearch::Cut>> cuts(searches_.size());
     std::vector<std::size_t> taken(searches_.size(), 0);
     std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
     const auto queue = [&](std::size_t i) {
-      if (taken[i] < cuts[i].size()) next.emplace(cuts[i][taken[i]].urgency, -static_cast<int>(i));
+      const std::vector<PieceSearch::Cut>& cuts = searches_[i]->cuts();
+      if (taken[i] < cuts.size()) next.emplace(cuts[taken[i]].urgency, -static_cast<int>(i));
     };
     for (std::size_t i = 0; i < searches_.size(); ++i) {
-      if (searches_[i]) cuts[i] = searches_[i]->cuts();
-      queue(i);
+      if (searches_[i]) queue(i);
     }
     while (!next.empty()) {
       const auto i = static_cast<std::size_t>(-next.top().second);
       next.pop();
-      add(i, cuts[i][taken[i]++], proposed, result);
+      add(i, searches_[i]->cuts()[taken[i]++], proposed, result);
       queue(i);
     }
     return result;
