@@ -147,6 +147,8 @@ _DESCRIPTIONS = {
     "and sharp, so that islands go across; the file's own vertices stay; 0 for none",
     "unwrap": "solve the islands, or leave them as they are",
     "pack": "pack all islands together, or leave them where they are",
+    "qc_gain": "what a cut of --seams suggest has to lower the mean quasi-conformal distortion by for each length of "
+    "the root of the area, where nothing but that is beyond its limit; 0 for all cuts up to the limit",
     "margin_pixels": "space between packed islands in pixels of the texture",
     "texture_size": "pixels of one side of the texture, for --margin-pixels",
     "uv_map": "name of the UV map to write, made where it is missing; the active one unless given",

@@ -29,6 +29,7 @@ class Options:
     weights: str = "uniform"
     boundary: str = "length"
     front: tuple[float, float, float] | None = None
+    qc_gain: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -115,6 +116,7 @@ def _suggest(
             max_length=options.max_length,
             scale_limit=options.scale_limit,
             qc_limit=options.qc_limit,
+            qc_gain=options.qc_gain,
             front=options.front,
             weights=options.weights,
             boundary=options.boundary,

@@ -105,6 +105,7 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   result.max_length = max_length.is_none() ? std::numeric_limits<double>::infinity() : max_length.cast<double>();
   result.scale_limit = options.attr("scale_limit").cast<double>();
   result.qc_limit = options.attr("qc_limit").cast<double>();
+  result.qc_gain = options.attr("qc_gain").cast<double>();
   result.energy_limit = options.attr("energy_limit").cast<double>();
   const py::object front = options.attr("front");
   if (!front.is_none()) result.front = front.cast<std::array<double, 3>>();

@@ -19,8 +19,9 @@ import resource
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
+from types import MappingProxyType
 
 import numpy as np
 
@@ -276,7 +277,7 @@ def asset(name: str, faces: int) -> Mesh:
 
 
 def spectral(
-    vertices: np.ndarray, triangles: np.ndarray, qc_limit: float | None = None
+    vertices: np.ndarray, triangles: np.ndarray, limits: Mapping[str, float] = MappingProxyType({})
 ) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
     """Suggest seams, unwrap, pack: (triangles, (3 F, 2) map, seconds of the phases and failed islands)."""
     import spectral_conformal as sc
@@ -285,7 +286,6 @@ def spectral(
 
     offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
     start = time.process_time()
-    limits = {} if qc_limit is None else {"qc_limit": qc_limit}
     seams = sc.suggest_seams(vertices, offsets, corners, **limits)
     cut = time.process_time()
     result = sc.unwrap(vertices, offsets, corners, seam_edges=seams, polish=True)
@@ -338,7 +338,7 @@ def without_doubles(triangles: np.ndarray) -> np.ndarray:
 METHODS = {"spectral": (spectral, None), "xatlas": (by_xatlas, "xatlas"), "Smart UV": (smart_project, "bpy")}
 
 
-def measured(name: str, faces: int, method: str, qc_limit: float | None) -> dict[str, float]:
+def measured(name: str, faces: int, method: str, limits: Mapping[str, float]) -> dict[str, float]:
     """Make one map of one mesh and measure it."""
     import spectral_conformal as sc
 
@@ -346,8 +346,8 @@ def measured(name: str, faces: int, method: str, qc_limit: float | None) -> dict
 
     vertices, triangles = asset(name, faces)
     start, used = time.perf_counter(), time.process_time()
-    own = {"qc_limit": qc_limit} if method == "spectral" else {}
-    triangles, uv, phases = METHODS[method][0](vertices, triangles, **own)
+    own = (limits,) if method == "spectral" else ()
+    triangles, uv, phases = METHODS[method][0](vertices, triangles, *own)
     seconds, used = time.perf_counter() - start, time.process_time() - used
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     once = without_doubles(triangles)
@@ -359,11 +359,13 @@ def measured(name: str, faces: int, method: str, qc_limit: float | None) -> dict
     return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}
 
 
-def in_process(name: str, faces: int, method: str, qc_limit: float | None = None) -> dict[str, float] | str:
+def in_process(
+    name: str, faces: int, method: str, limits: Mapping[str, float] = MappingProxyType({})
+) -> dict[str, float] | str:
     """`measured` in a process of its own; what went wrong as text."""
     module = "tests.benchmarks.generated_assets"
     command = [sys.executable, "-m", module, "--faces", str(faces), "--measure", name, method]
-    command += [] if qc_limit is None else ["--qc-limit", str(qc_limit)]
+    command += [f"--{key.replace('_', '-')}={value}" for key, value in limits.items()]
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES << 30, GIGABYTES << 30))
@@ -387,18 +389,21 @@ def main() -> None:
     parser.add_argument("--only", nargs="*", choices=[*ASSETS], default=[*ASSETS], metavar="NAME")
     there = [name for name, (_, needs) in METHODS.items() if not needs or importlib.util.find_spec(needs)]
     parser.add_argument("--methods", nargs="*", choices=there, default=there, metavar="NAME")
-    parser.add_argument("--qc-limit", type=float, help="of the suggested seams, see SeamOptions")
+    for name in ("qc_limit", "qc_gain"):
+        parser.add_argument(f"--{name.replace('_', '-')}", type=float, help="of the suggested seams, see SeamOptions")
     parser.add_argument("--measure", nargs=2, metavar=("NAME", "METHOD"), help="one map, measured, as JSON")
     arguments = parser.parse_args()
+    given = {name: getattr(arguments, name) for name in ("qc_limit", "qc_gain")}
+    limits = {name: value for name, value in given.items() if value is not None}
     if arguments.measure:
         name, method = arguments.measure
-        print(json.dumps(measured(name, arguments.faces, method, arguments.qc_limit)))
+        print(json.dumps(measured(name, arguments.faces, method, limits)))
         return
     columns = ("islands", "QC", "seams", "flipped", "overlapping", "seconds", "processor s", "GB", "phases")
     print(f"| mesh | faces | method | {' | '.join(columns)} |\n" + "|---" * (3 + len(columns)) + "|", flush=True)
     for name in arguments.only:
         for method in arguments.methods:
-            found = in_process(name, arguments.faces, method, arguments.qc_limit)
+            found = in_process(name, arguments.faces, method, limits)
             if isinstance(found, str):
                 print(f"| {name} | | {method} | {found} |", flush=True)
                 continue

@@ -70,13 +70,14 @@ def test_refused_mesh_does_not_stop_the_others(module):
 
 def test_options_and_seams_reach_the_module(module):
     module.cuts = [[]]
-    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex", (0.0, -2.0, 0.0)))
+    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex", (0.0, -2.0, 0.0), 0.01))
     (options,) = module.asked
     assert options.pop("seam_edges").tolist() == [[2, 3]]
     assert options.pop("selected_faces").tolist() == [True]
     assert options == {
         "scale_limit": 3.0,
         "qc_limit": 1.2,
+        "qc_gain": 0.01,
         "max_length": 7.0,
         "weights": "inverse_area",
         "boundary": "vertex",
@@ -141,6 +142,7 @@ def _without_seams():
         ([_without_seams()], Options()),
         ([square(), square()], Options()),
         ([square()], Options(qc_limit=1.2)),
+        ([square()], Options(qc_gain=0.01)),
         ([square()], Options(front=(0.0, -1.0, 0.0))),
         ([square()], Options(), None, [np.ones(4)]),
         ([square()], Options(max_length=1.0)),

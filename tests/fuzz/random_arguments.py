@@ -143,6 +143,7 @@ PARAMETERS = {
     "max_length": power_of_ten(-2, 2),
     "scale_limit": lambda rng, mesh: 1 + float(10 ** rng.uniform(-2, 1)),
     "qc_limit": lambda rng, mesh: 1 + float(10 ** rng.uniform(-3, 0)),
+    "qc_gain": power_of_ten(-4, 0),
     "energy_limit": lambda rng, mesh: 4 + float(10 ** rng.uniform(-3, 1)),
     "front": lambda rng, mesh: tuple(rng.normal(size=3) * 10 ** rng.uniform(-2, 2)),
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),

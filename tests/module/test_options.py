@@ -166,6 +166,7 @@ def test_seam_options_and_keywords_are_the_same():
         ({"max_length": -1.0}, "max_length must be a number of at least 0"),
         ({"scale_limit": 0.5}, "scale_limit must be a number of at least 1"),
         ({"qc_limit": "a"}, "qc_limit must be a number of at least 1"),
+        ({"qc_gain": -1.0}, "qc_gain must be a number of at least 0"),
         ({"weights": "magic"}, "weights must be one of"),
     ):
         with pytest.raises(ValueError, match=said):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import spectral_conformal as sc
 
+from tests.benchmarks import generated_assets
 from tests.module import meshes
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
@@ -94,6 +95,27 @@ def test_tighter_limits_take_more_seams():
     mesh = closed_creature()
     loose, tight = (sc.suggest_seams(*mesh, scale_limit=s, qc_limit=q) for s, q in ((4.0, 10), (1.2, 1.01)))
     assert length(mesh[0], loose) < length(mesh[0], tight)
+
+
+def test_cuts_against_qc_alone_are_made_while_they_gain_enough_for_their_length():
+    """Of six spheres: what a cut gains counts for the whole mesh."""
+    ball, triangles = generated_assets.ball(8)
+    mesh = (
+        np.concatenate([ball + [3 * k, 0, 0] for k in range(6)]),
+        *meshes.polygons(np.concatenate([triangles + k * len(ball) for k in range(6)])),
+    )
+    root_of_area = np.sqrt(polygon_areas(mesh[0][mesh[2]], mesh[1]).sum())
+
+    def cost_and_gain(**options):
+        seams = sc.suggest_seams(*mesh, energy_limit=5.0, **options)
+        return length(mesh[0], seams) / root_of_area, quality(mesh, seams)[0]
+
+    found = [cost_and_gain(qc_limit=1.0, qc_gain=gain) for gain in (1.0, 0.01, 0.003, 0.001)]
+    # Where all are too dear it is as if the limit were met from the first.
+    assert found[0][0] <= cost_and_gain(qc_limit=10.0)[0] * (1 + 1e-12)
+    for gain, (short, distorted), (long, better) in zip((0.01, 0.003, 0.001), found, found[1:]):
+        assert long > short
+        assert distorted - better >= gain * (long - short)
 
 
 def test_existing_seams_are_kept_and_completed():
@@ -284,6 +306,7 @@ def test_progress_and_cancelling():
         ({"max_length": float("nan")}, "max_length"),
         ({"scale_limit": 0.5}, "scale_limit must be a number of at least 1"),
         ({"qc_limit": "low"}, "qc_limit"),
+        ({"qc_gain": -0.1}, "qc_gain must be a number of at least 0"),
         ({"energy_limit": 3.9}, "energy_limit must be a number of at least 4"),
         ({"front": (0, 1)}, "front must be three finite numbers"),
         ({"vertex_preference": [2.0]}, "vertex_preference must be"),

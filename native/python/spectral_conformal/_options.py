@@ -129,6 +129,9 @@ class SeamOptions:
             s^2 + t^2 + 1 / s^2 + 1 / t^2, s and t being the singular values of the map of a face at the median scale.
             4 means nothing is stretched. Large ones count as the square of their logarithm. None takes what goes with
             the other limits, 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2): 4.32 at their defaults.
+        qc_gain: at least 0: where nothing but the mean quasi-conformal distortion is beyond its limit, a cut has to
+            lower that of the whole mesh by so much for each length of the root of the mesh's area, or it is not made;
+            with a `qc_limit` of 1 this alone says how far cuts go, and at 0 the limit alone does.
         front: (3,) the direction from the mesh to its viewer, or None. Its length says how much seams keep out of the
             viewer's sight: an edge whose faces look at the viewer counts as 1 + length times as long.
         weights: of the maps, see `Options`.
@@ -140,6 +143,7 @@ class SeamOptions:
     scale_limit: float = 2.0
     qc_limit: float = 1.1
     energy_limit: float | None = None
+    qc_gain: float = 0.0
     front: Vector | None = None
     weights: Weights = "uniform"
     boundary: Boundary = "length"
@@ -156,6 +160,7 @@ class SeamOptions:
             _set(self, "max_length", _arguments.checked_at_least(self.max_length, 0.0, "max_length"))
         for name in ("scale_limit", "qc_limit"):
             _set(self, name, _arguments.checked_at_least(getattr(self, name), 1.0, name))
+        _set(self, "qc_gain", _arguments.checked_at_least(self.qc_gain, 0.0, "qc_gain"))
         if self.energy_limit is not None:
             _set(self, "energy_limit", _arguments.checked_at_least(self.energy_limit, 4.0, "energy_limit"))
         if self.front is not None:
@@ -218,6 +223,7 @@ class SeamOptionChanges(TypedDict, total=False):
     scale_limit: float
     qc_limit: float
     energy_limit: float | None
+    qc_gain: float
     front: Vector | None
     weights: Weights
     boundary: Boundary

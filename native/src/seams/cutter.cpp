@@ -53,6 +53,12 @@ constexpr int few_vertices = 12000;
 constexpr int many_vertices = 30000;
 /// Charts of a piece that are parted although that does not lower the distortion.
 constexpr int max_losing_splits = 12;
+/// Where cuts are priced by their gain in QC, a chart is halved for nothing if what it has beyond the limit is this
+/// multiple of the price.
+constexpr double later_gain = 1.5;
+/// No more than so many in a row without a cut of another kind that gains: noise is in every face, even of small
+/// charts.
+constexpr int max_losing_splits_in_a_row = 30;
 /// Cuts against one kind of distortion, of scale or of angles, are tried where it has this fraction of the whole.
 constexpr double worth_trying = 0.15;
 /// Seams that are tried to be sewn up are solved for at once in fours, of which the one that saves most for what it
@@ -133,7 +139,7 @@ void add_new(const SeamEdges& more, SeamEdges& all) {
 }  // namespace
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options)
-    : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices(), false, false}, changed_(true) {}
+    : seams_(std::move(seams)), options_(options), stage_{seams_.graph().n_vertices()}, changed_(true) {}
 
 Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Stage& stage)
     : seams_(std::move(seams)), options_(options), stage_(stage), changed_(!stage.refined), cones_tried_(hurries()) {}
@@ -162,7 +168,9 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     accepted = cut_to_all(longest, progress);
     losses_together_ = accepted.empty() ? losses_together_ + 1 : 0;
   }
+  const bool is_priced = only_qc_counts();
   if (wanted && accepted.empty()) accepted = best_cut(longest, progress);
+  if (is_priced && !accepted.empty()) losing_splits_ = 0;
   if (accepted.empty() && quality_.hopeless()) accepted = blind_cut(longest, progress);
   if (wanted && accepted.empty()) accepted = split_in_half(longest, progress);
   if (wanted) exhausted_ = accepted.empty();
@@ -318,10 +326,27 @@ double Cutter::excess(const MapQuality& quality) const {
   return quality.distortion() + qc_weight * std::max(0.0, quality.mean_qc - options_.qc_limit);
 }
 
+/// Whether cuts are priced by options_.qc_gain.
+bool Cutter::only_qc_counts() const {
+  return options_.qc_gain > 0 && quality_.solved && quality_.within_limit >= enough_area &&
+         quality_.energy <= options_.energy_limit;
+}
+
+/// What seams of this length have to lower the mean QC of the piece by; 0 where there is no such price.
+double Cutter::least_qc_gain(const SeamEdges& cut) const {
+  if (!(options_.qc_gain > 0)) return 0;
+  const double mesh_area = stage_.mesh_area > 0 ? stage_.mesh_area : quality_.area;
+  return options_.qc_gain * seams_.length(cut) * std::sqrt(mesh_area) / quality_.area;
+}
+
 double Cutter::gain(const Trial& trial) const {
   if (!trial.quality.solved) return 0;
   const double less = excess(quality_) - excess(trial.quality);
-  if (less < min_gain * excess(quality_)) return 0;
+  if (only_qc_counts()) {
+    if (!(less > 0) || quality_.mean_qc - trial.quality.mean_qc < least_qc_gain(trial.cut)) return 0;
+  } else if (less < min_gain * excess(quality_)) {
+    return 0;
+  }
   return (makes_islands(trial) ? island_penalty : 1) * less / price(trial.cut);
 }
 
@@ -440,8 +465,19 @@ SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
   // Where none gains that is the first, of the worst chart: others lose less, but cut off crumbs.
   const auto best =
       std::max_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return gain(a) < gain(b); });
-  if (!(gain(*best) > 0) && ++losing_splits_ > max_losing_splits) return {};
+  if (!(gain(*best) > 0) && !may_gain_later(*best)) return {};
   return accept(std::move(*best));
+}
+
+/// Whether a cut that gains nothing now is made for those that its parts may have.
+bool Cutter::may_gain_later(const Trial& halved) {
+  if (!only_qc_counts()) return ++losing_splits_ <= max_losing_splits;
+  if (++losing_splits_ > max_losing_splits_in_a_row) return false;
+  double beyond = 0;
+  for (const auto& mapped : charts_) {
+    if (!contains(halved.charts, mapped)) beyond += mapped->sums.qc() - options_.qc_limit * mapped->sums.area();
+  }
+  return beyond >= later_gain * quality_.area * least_qc_gain(halved.cut);
 }
 
 /// The best of several trials, and all that are nearly as good together, which saves solves, but no more than needed.
@@ -617,13 +653,14 @@ int Cutter::max_chosen_vertices() const {
 
 int Cutter::max_blind() const { return hurries() ? max_blind_cuts_refined : max_blind_cuts; }
 
-bool Cutter::is_sewable(const TrialMaps& charts, const MapQuality& quality) const {
+bool Cutter::is_sewable(const Trial& trial) const {
+  const MapQuality& quality = trial.quality;
   if (!quality.solved || quality.energy > std::max(options_.energy_limit, quality_.energy) ||
-      quality.mean_qc > std::max(options_.qc_limit, quality_.mean_qc) ||
+      quality.mean_qc > std::max(options_.qc_limit, quality_.mean_qc + least_qc_gain(trial.cut)) ||
       quality.within_limit < std::min(enough_area, quality_.within_limit)) {
     return false;
   }
-  return std::all_of(charts.begin(), charts.end(),
+  return std::all_of(trial.charts.begin(), trial.charts.end(),
                      [&](const auto& mapped) { return contains(charts_, mapped) || defective_faces(*mapped).empty(); });
 }
 
@@ -662,7 +699,7 @@ void Cutter::sew(const Progress& progress) {
           Trial& trial = trials[static_cast<std::size_t>(i)];
           trial.charts = map_charts(seams_.without(trial.cut), trial.cut, {}, going_on);
           trial.quality = map_quality(trial.charts, options_.scale_limit);
-          sewable[static_cast<std::size_t>(i)] = is_sewable(trial.charts, trial.quality) ? 1 : 0;
+          sewable[static_cast<std::size_t>(i)] = is_sewable(trial) ? 1 : 0;
         },
         progress);
     remember(trials);

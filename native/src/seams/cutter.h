@@ -29,6 +29,7 @@ class Cutter {
     int n_vertices = 0;     ///< of the finest piece, which the number of trials is chosen by
     bool refined = false;   ///< the seams were found on a coarser piece
     bool is_large = false;  ///< no more than has to be is solved for at the finer levels
+    double mesh_area = 0;   ///< of the whole mesh, which SeamSuggestionOptions::qc_gain is for; 0: of the piece alone
   };
 
   /// `seams` are open already (PieceSeams::open). `options` must outlive this object.
@@ -85,7 +86,10 @@ class Cutter {
   bool makes_islands(const Trial& trial) const;
   double price(const SeamEdges& cut) const;
   double excess(const MapQuality& quality) const;
+  bool only_qc_counts() const;
+  double least_qc_gain(const SeamEdges& cut) const;
   double gain(const Trial& trial) const;
+  bool may_gain_later(const Trial& halved);
   bool is_tried(const Proposal& proposal) const;
   std::vector<Trial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress);
@@ -102,7 +106,7 @@ class Cutter {
   int max_blind() const;
   int max_chosen_vertices() const;
   bool is_patience_spent() const;
-  bool is_sewable(const TrialMaps& charts, const MapQuality& quality) const;
+  bool is_sewable(const Trial& trial) const;
   std::int64_t vertices_beside(const SeamEdges& edges) const;
   void sew(const Progress& progress);
 

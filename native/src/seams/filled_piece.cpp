@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/polygon_normal.h"
 #include "mesh/boundary_loops.h"
 
 namespace spectral_conformal {
@@ -16,18 +15,6 @@ namespace {
 /// A hole is small where its loop is shorter than this fraction of the root of the piece's area: 35 edges in a million
 /// triangles, which is 5 faces across, and those of single faces only in pieces of 10,000.
 constexpr double longest_small_loop = 0.05;
-
-double area_of(const Piece& piece) {
-  double area = 0;
-  for (int f = 0; f < piece.n_faces(); ++f) {
-    const int first = piece.face_offsets[f];
-    const int size = piece.face_offsets[f + 1] - first;
-    Positions corners(size, 3);
-    for (int i = 0; i < size; ++i) corners.row(i) = piece.positions.row(piece.corner_vertices[first + i]);
-    area += 0.5 * polygon_normal(corners, corners.row(0).transpose()).norm();
-  }
-  return area;
-}
 
 struct SmallLoop {
   BoundaryLoop hole;  ///< the hole on its left
@@ -40,7 +27,7 @@ using SmallLoops = std::map<std::vector<int>, SmallLoop>;
 SmallLoops small_loops(const Piece& piece) {
   PolygonMesh mesh = piece.view();
   mesh.n_seam_edges = 0;
-  const double longest = longest_small_loop * std::sqrt(area_of(piece));
+  const double longest = longest_small_loop * std::sqrt(piece.area());
   SmallLoops result;
   for (const Chart& chart : build_charts(mesh).charts) {
     for (const BoundaryLoop& loop : chart.boundary_loops) {

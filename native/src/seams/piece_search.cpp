@@ -133,7 +133,7 @@ void PieceSearch::begin_again_on_copies(const Progress& progress) {
 std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
   const bool is_one_of_many = mesh_.given_vertices.size() > large_mesh && n_vertices() > max_searched;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : coarse_options_,
-                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many});
+                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
 }
 
 /// The coarsest level that is left, without seams.

@@ -23,6 +23,7 @@ struct SearchedMesh {
   const std::vector<PieceMirror>& mirrors;
   const MirrorSymmetry& symmetry;
   const std::vector<int>& given_vertices;  ///< of the pieces' vertices those that options.vertex_preference is of
+  double area = 0;                         ///< of the pieces together
 };
 
 /// The search for the seams of one piece, which looks at no other: on coarse copies of a large one first, each of which

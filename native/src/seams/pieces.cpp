@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/polygon_normal.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -77,6 +79,18 @@ PolygonMesh Piece::view() const {
   mesh.seam_edges = seams.data();
   mesh.n_seam_edges = static_cast<int>(seams.size());
   return mesh;
+}
+
+double Piece::area() const {
+  double area = 0;
+  for (int f = 0; f < n_faces(); ++f) {
+    const int first = face_offsets[f];
+    const int size = face_offsets[f + 1] - first;
+    Positions corners(size, 3);
+    for (int i = 0; i < size; ++i) corners.row(i) = positions.row(corner_vertices[first + i]);
+    area += 0.5 * polygon_normal(corners, corners.row(0).transpose()).norm();
+  }
+  return area;
 }
 
 std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition) {

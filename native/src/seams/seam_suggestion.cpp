@@ -44,6 +44,7 @@ class SeamFinder {
       const int image = mirrors_[i].image;
       const bool is_image = image >= 0 && image < static_cast<int>(i);
       const bool is_searched = has_extent(pieces_[i]) && !is_image;
+      if (has_extent(pieces_[i])) searched_.area += pieces_[i].area();
       searches_.push_back(is_searched ? std::make_unique<PieceSearch>(searched_, static_cast<int>(i)) : nullptr);
     }
   }

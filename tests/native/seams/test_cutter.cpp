@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -50,6 +52,32 @@ bool is_sound(const TrialMaps& charts) {
 }  // namespace
 
 TEST_SUITE_BEGIN("cutter");
+
+TEST_CASE("where only the mean QC is beyond its limit cuts have to pay for their length") {
+  const Mesh mesh = sphere(10);
+  const auto searched = [&](double qc_gain, double mesh_area) {
+    std::vector<Piece> pieces;
+    SeamSuggestionOptions options;
+    options.qc_limit = 1;
+    options.qc_gain = qc_gain;
+    options.energy_limit = options.scale_limit = 1e6;
+    Cutter cutter(opened(mesh, pieces), options, {static_cast<int>(mesh.points.size()), false, false, mesh_area});
+    cutter.solve({});
+    const double before = cutter.quality().mean_qc;
+    const double uncut = cutter.seams().length(cutter.seams().edges());
+    while (!cutter.step(unlimited, {}).empty()) {
+    }
+    const double length = cutter.seams().length(cutter.seams().edges()) - uncut;
+    return std::array<double, 3>{length, before - cutter.quality().mean_qc, cutter.quality().area};
+  };
+  const auto [none, nothing, area] = searched(1, 0);
+  CHECK(none <= 0);
+  CHECK(nothing == doctest::Approx(0));
+  const auto [length, gained, same] = searched(0.002, 0);
+  CHECK(length > 0);
+  CHECK(gained >= 0.002 * length / std::sqrt(area));
+  CHECK(searched(0.001, 4 * area) == std::array<double, 3>{length, gained, same});
+}
 
 TEST_CASE("every step lowers the distortion, until the limits are met") {
   for (const Mesh& mesh : {spiky_grid(2, 8), sphere(6), torus(24, 12)}) {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <utility>
 
 #include "meshes.h"
@@ -37,6 +38,15 @@ TEST_CASE("a piece is its chart as a mesh of its own, cut as the chart was") {
     CHECK(cut.pieces[i].faces == expected.faces);
     CHECK(cut.pieces[i].vertices == expected.vertices);
   }
+}
+
+TEST_CASE("the area of a piece is that of its faces, bent ones as their vector areas") {
+  Mesh mesh = quad_grid(6, 3);
+  mesh.seams = {{3, 10}, {10, 17}, {17, 24}};
+  for (const Piece& piece : Pieces(mesh).pieces) CHECK(piece.area() == doctest::Approx(9));
+  Mesh bent = quad_grid(1, 1);
+  bent.points[0].z() = 2;
+  CHECK(Pieces(bent).pieces[0].area() == doctest::Approx(std::sqrt(1 + 1 + 1)));
 }
 
 TEST_CASE("a seam whose ends stay whole remains a seam of the piece") {
