@@ -41,12 +41,20 @@ SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
 
 }  // namespace
 
-PieceSearch::PieceSearch(const SearchedMesh& mesh, int index)
-    : mesh_(mesh), index_(index), coarse_options_(with_less_energy(mesh.options)) {}
+SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredPieces& parts,
+                           const std::vector<int>& given_vertices)
+    : options(options), parts(parts), given_vertices(given_vertices), coarse_options(with_less_energy(options)) {
+  for (const Piece& piece : parts.pieces) {
+    const double piece_area = piece.area();
+    if (std::isfinite(piece_area)) area += piece_area;
+  }
+}
 
-const Piece& PieceSearch::piece() const { return mesh_.pieces[static_cast<std::size_t>(index_)]; }
+PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index) {}
 
-const PieceMirror& PieceSearch::mirror() const { return mesh_.mirrors[static_cast<std::size_t>(index_)]; }
+const Piece& PieceSearch::piece() const { return mesh_.parts.pieces[static_cast<std::size_t>(index_)]; }
+
+const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[static_cast<std::size_t>(index_)]; }
 
 int PieceSearch::n_vertices() const { return static_cast<int>(piece().vertices.size()); }
 
@@ -96,7 +104,7 @@ void PieceSearch::make_levels(const Progress& progress) {
     std::vector<signed char> side;
     std::vector<double> preference;
     for (const int v : finer->vertices) {
-      if (is_own_image) side.push_back(mesh_.symmetry.side[v]);
+      if (is_own_image) side.push_back(mesh_.parts.symmetry.side[v]);
       if (mesh_.options.vertex_preference == nullptr) continue;
       preference.push_back(mesh_.options.vertex_preference[mesh_.given_vertices[static_cast<std::size_t>(v)]]);
     }
@@ -132,7 +140,7 @@ void PieceSearch::begin_again_on_copies(const Progress& progress) {
 
 std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
   const bool is_one_of_many = mesh_.given_vertices.size() > large_mesh && n_vertices() > max_searched;
-  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : coarse_options_,
+  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
                                   Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
 }
 
@@ -143,7 +151,7 @@ PieceSeams PieceSearch::unseamed() const {
 
 /// Without seams yet.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
-  PieceSeams seams(piece, index_, mirror, mesh_.symmetry);
+  PieceSeams seams(piece, index_, mirror, mesh_.parts.symmetry);
   std::vector<int> given_vertices;
   given_vertices.reserve(piece.vertices.size());
   for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);

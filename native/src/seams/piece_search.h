@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/mirror_symmetry.h"
 #include "seams/coarse_piece.h"
 #include "seams/cutter.h"
 #include "seams/filled_piece.h"
@@ -18,12 +17,16 @@ namespace spectral_conformal {
 
 /// What the searches of all pieces look at; nothing of it changes.
 struct SearchedMesh {
+  /// All must outlive this object. Of the pieces' vertices, `given_vertices` are those that options.vertex_preference
+  /// is of.
+  SearchedMesh(const SeamSuggestionOptions& options, const MirroredPieces& parts,
+               const std::vector<int>& given_vertices);
+
   const SeamSuggestionOptions& options;
-  const std::vector<Piece>& pieces;
-  const std::vector<PieceMirror>& mirrors;
-  const MirrorSymmetry& symmetry;
-  const std::vector<int>& given_vertices;  ///< of the pieces' vertices those that options.vertex_preference is of
-  double area = 0;                         ///< of the pieces together
+  const MirroredPieces& parts;
+  const std::vector<int>& given_vertices;
+  SeamSuggestionOptions coarse_options;  ///< of coarse copies
+  double area = 0;                       ///< of the pieces together, but for those that are not finite
 };
 
 /// The search for the seams of one piece, which looks at no other: on coarse copies of a large one first, each of which
@@ -76,7 +79,6 @@ class PieceSearch {
 
   const SearchedMesh& mesh_;
   int index_;
-  SeamSuggestionOptions coarse_options_;
   std::vector<std::unique_ptr<CoarsePiece>>
       levels_;                         ///< copies on which seams are still to be looked for, each coarser
   std::optional<FilledPiece> filled_;  ///< what the first of them is made from, where it has small holes

@@ -146,4 +146,10 @@ std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecom
   return mirrors;
 }
 
+MirroredPieces::MirroredPieces(const PolygonMesh& mesh) : symmetry(find_mirror_symmetry(mesh)) {
+  const ChartDecomposition decomposition = build_charts(mesh);
+  pieces = split_into_pieces(mesh, decomposition);
+  mirrors = mirror_pieces(mesh, decomposition, pieces, symmetry);
+}
+
 }  // namespace spectral_conformal

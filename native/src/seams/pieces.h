@@ -38,4 +38,13 @@ struct PieceMirror {
 std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
                                        const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry);
 
+/// The pieces of a mesh, and what the plane that mirrors most of it does to them.
+struct MirroredPieces {
+  explicit MirroredPieces(const PolygonMesh& mesh);
+
+  std::vector<Piece> pieces;
+  MirrorSymmetry symmetry;
+  std::vector<PieceMirror> mirrors;  ///< per piece
+};
+
 }  // namespace spectral_conformal

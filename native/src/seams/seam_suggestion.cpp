@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "graph/parallel_calls.h"
-#include "mesh/mirror_symmetry.h"
 #include "seams/canonical_mesh.h"
 #include "seams/piece_search.h"
 #include "seams/pieces.h"
@@ -25,6 +24,11 @@ bool has_extent(const Piece& piece) {
   return extent > 0 && std::isfinite(extent);
 }
 
+MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) {
+  report(progress, 0.0, "charts");
+  return MirroredPieces(mesh.view());
+}
+
 /// The whole mesh in canonical order, and the searches of its pieces.
 class SeamFinder {
  public:
@@ -32,19 +36,13 @@ class SeamFinder {
       : options_(options),
         progress_(progress),
         mesh_vertices_(canonical.vertices()),
-        searched_{options, pieces_, mirrors_, symmetry_, mesh_vertices_} {
-    report(progress, 0.0, "charts");
-    const PolygonMesh mesh = canonical.view();
-    const ChartDecomposition decomposition = build_charts(mesh);
-    pieces_ = split_into_pieces(mesh, decomposition);
-    symmetry_ = find_mirror_symmetry(mesh);
-    mirrors_ = mirror_pieces(mesh, decomposition, pieces_, symmetry_);
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        parts_(taken_apart(canonical, progress)),
+        searched_(options, parts_, mesh_vertices_) {
+    for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
       // The first of two mirrored pieces does the work for both.
-      const int image = mirrors_[i].image;
+      const int image = parts_.mirrors[i].image;
       const bool is_image = image >= 0 && image < static_cast<int>(i);
-      const bool is_searched = has_extent(pieces_[i]) && !is_image;
-      if (has_extent(pieces_[i])) searched_.area += pieces_[i].area();
+      const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
       searches_.push_back(is_searched ? std::make_unique<PieceSearch>(searched_, static_cast<int>(i)) : nullptr);
     }
   }
@@ -66,8 +64,9 @@ class SeamFinder {
     for (std::size_t i = 0; i < searches_.size(); ++i) {
       if (searches_[i]) order.push_back(i);
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return pieces_[a].vertices.size() > pieces_[b].vertices.size(); });
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+      return parts_.pieces[a].vertices.size() > parts_.pieces[b].vertices.size();
+    });
     std::size_t n_large = 0;
     while (n_large < order.size() && searches_[order[n_large]]->is_large()) search(order[n_large++], progress_);
     run_in_parallel(
@@ -108,7 +107,7 @@ class SeamFinder {
     };
   }
   int copies(std::size_t piece) const {
-    return mirrors_[piece].image >= 0 && mirrors_[piece].image != static_cast<int>(piece) ? 2 : 1;
+    return parts_.mirrors[piece].image >= 0 && parts_.mirrors[piece].image != static_cast<int>(piece) ? 2 : 1;
   }
   int most_urgent() const {
     int best = -1;
@@ -142,11 +141,11 @@ class SeamFinder {
   }
   void add(std::size_t i, const PieceSearch::Cut& cut, std::set<std::array<int, 2>>& proposed,
            SeamSuggestion& result) const {
-    const std::vector<int>& vertices = pieces_[i].vertices;
+    const std::vector<int>& vertices = parts_.pieces[i].vertices;
     for (int copy = 0; copy < copies(i); ++copy) {
       for (auto [a, b] : cut.edges) {
-        a = mesh_vertices_[copy == 0 ? vertices[a] : symmetry_.vertex[vertices[a]]];
-        b = mesh_vertices_[copy == 0 ? vertices[b] : symmetry_.vertex[vertices[b]]];
+        a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
+        b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
         const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
         // Pieces that meet in an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);
@@ -159,9 +158,7 @@ class SeamFinder {
   const SeamSuggestionOptions& options_;
   const Progress& progress_;
   const std::vector<int>& mesh_vertices_;  ///< of the canonical ones
-  std::vector<Piece> pieces_;
-  MirrorSymmetry symmetry_;
-  std::vector<PieceMirror> mirrors_;
+  MirroredPieces parts_;
   SearchedMesh searched_;
   std::vector<std::unique_ptr<PieceSearch>> searches_;
   std::atomic<int> steps_{0};  ///< by several threads at once

@@ -10,24 +10,18 @@ namespace spectral_conformal::test {
 namespace {
 
 /// A piece and its coarse copy.
-struct TwoLevels {
+struct TwoLevels : MirroredPieces {
   Mesh mesh;
-  MirrorSymmetry symmetry;
-  std::vector<Piece> pieces;
-  PieceMirror mirror;
   CoarsePiece coarse;
 
-  TwoLevels(Mesh given, int fraction) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
-    const ChartDecomposition decomposition = build_charts(mesh.view());
-    pieces = split_into_pieces(mesh.view(), decomposition);
+  TwoLevels(Mesh given, int fraction) : MirroredPieces(given.view()), mesh(std::move(given)) {
     REQUIRE(pieces.size() == 1);
-    mirror = mirror_pieces(mesh.view(), decomposition, pieces, symmetry)[0];
     std::vector<signed char> side;
     for (const int v : pieces[0].vertices) side.push_back(symmetry.side[v]);
     const int n = static_cast<int>(pieces[0].vertices.size()) / fraction;
-    coarse = coarse_piece(pieces[0], 0, mirror, side, {}, n, {});
+    coarse = coarse_piece(pieces[0], 0, mirrors[0], side, {}, n, {});
   }
-  PieceSeams fine_seams() const { return {pieces[0], 0, mirror, symmetry}; }
+  PieceSeams fine_seams() const { return {pieces[0], 0, mirrors[0], symmetry}; }
   PieceSeams coarse_seams() const { return {coarse.piece, 0, coarse.mirror, symmetry}; }
 };
 

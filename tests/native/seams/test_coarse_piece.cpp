@@ -15,18 +15,10 @@ namespace spectral_conformal::test {
 namespace {
 
 /// The one piece of a mesh.
-struct FinePiece {
+struct FinePiece : MirroredPieces {
   Mesh mesh;
-  MirrorSymmetry symmetry;
-  std::vector<Piece> pieces;
-  PieceMirror mirror;
 
-  explicit FinePiece(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
-    const ChartDecomposition decomposition = build_charts(mesh.view());
-    pieces = split_into_pieces(mesh.view(), decomposition);
-    REQUIRE(pieces.size() == 1);
-    mirror = mirror_pieces(mesh.view(), decomposition, pieces, symmetry)[0];
-  }
+  explicit FinePiece(Mesh given) : MirroredPieces(given.view()), mesh(std::move(given)) { REQUIRE(pieces.size() == 1); }
   const Piece& piece() const { return pieces[0]; }
   std::vector<signed char> side() const {
     std::vector<signed char> result;
@@ -34,7 +26,7 @@ struct FinePiece {
     return result;
   }
   CoarsePiece coarse(int n_vertices, const std::vector<double>& preference = {}) const {
-    return coarse_piece(piece(), 0, mirror, side(), preference, n_vertices, {});
+    return coarse_piece(piece(), 0, mirrors[0], side(), preference, n_vertices, {});
   }
 };
 
@@ -123,14 +115,14 @@ TEST_CASE("clusters are connected, and every coarse edge is there between those 
 TEST_CASE("what is its own mirror image remains so") {
   for (const Mesh& mesh : {sphere(14), double_torus(), spiky_grid(4, 6), torus(60, 30)}) {
     const FinePiece fine(mesh);
-    REQUIRE(fine.mirror.image == 0);
+    REQUIRE(fine.mirrors[0].image == 0);
     const CoarsePiece coarse = fine.coarse(static_cast<int>(fine.piece().vertices.size()) / 4);
     CHECK(coarse.piece.vertices.size() < fine.piece().vertices.size() / 2);
     REQUIRE(coarse.mirror.image == 0);
     REQUIRE(coarse.mirror.vertex.size() == coarse.vertex.size());
     REQUIRE(coarse.mirror.face.size() == coarse.piece.faces.size());
     for (std::size_t v = 0; v < coarse.cluster.size(); ++v) {
-      CHECK(coarse.cluster[fine.mirror.vertex[v]] == coarse.mirror.vertex[coarse.cluster[v]]);
+      CHECK(coarse.cluster[fine.mirrors[0].vertex[v]] == coarse.mirror.vertex[coarse.cluster[v]]);
     }
     const auto corners = [&](int face, bool mirrored) {
       std::set<int> result;
@@ -194,7 +186,7 @@ TEST_CASE("vertices are rather not merged across a change of the preference") {
 TEST_CASE("cancelling a coarse piece passes through") {
   const FinePiece fine(sphere(8));
   CHECK_THROWS_AS(
-      coarse_piece(fine.piece(), 0, fine.mirror, fine.side(), {}, 50, [](double, const char*) { return false; }),
+      coarse_piece(fine.piece(), 0, fine.mirrors[0], fine.side(), {}, 50, [](double, const char*) { return false; }),
       Cancelled);
 }
 

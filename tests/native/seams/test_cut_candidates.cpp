@@ -11,20 +11,15 @@ namespace spectral_conformal::test {
 namespace {
 
 /// A mesh of one piece, opened and solved. Keeps what the candidates refer to.
-struct SolvedPiece {
+struct SolvedPiece : MirroredPieces {
   Mesh mesh;
-  MirrorSymmetry symmetry;
-  std::vector<Piece> pieces;
   std::unique_ptr<PieceSeams> seams;
   TrialMaps charts;
   MapQuality quality;
 
-  explicit SolvedPiece(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
-    const ChartDecomposition whole = build_charts(mesh.view());
-    pieces = split_into_pieces(mesh.view(), whole);
+  explicit SolvedPiece(Mesh given) : MirroredPieces(given.view()), mesh(std::move(given)) {
     REQUIRE(pieces.size() == 1);
-    seams =
-        std::make_unique<PieceSeams>(pieces[0], 0, mirror_pieces(mesh.view(), whole, pieces, symmetry)[0], symmetry);
+    seams = std::make_unique<PieceSeams>(pieces[0], 0, mirrors[0], symmetry);
     seams->open();
     for (Chart& chart : charts_with({})) {
       charts.push_back(

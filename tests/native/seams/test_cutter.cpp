@@ -18,10 +18,9 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 PieceSeams opened(const Mesh& mesh, std::vector<Piece>& pieces) {
-  const ChartDecomposition decomposition = build_charts(mesh.view());
-  pieces = split_into_pieces(mesh.view(), decomposition);
-  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
-  PieceSeams seams(pieces[0], 0, mirror_pieces(mesh.view(), decomposition, pieces, symmetry)[0], symmetry);
+  MirroredPieces parts(mesh.view());
+  pieces = std::move(parts.pieces);
+  PieceSeams seams(pieces[0], 0, parts.mirrors[0], parts.symmetry);
   seams.open();
   return seams;
 }

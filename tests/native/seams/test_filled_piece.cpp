@@ -28,16 +28,14 @@ Mesh sieve(int n) {
 }
 
 struct WholePiece {
-  Mesh mesh;
   Piece piece;
   PieceMirror mirror;
 
-  explicit WholePiece(Mesh given) : mesh(std::move(given)) {
-    const ChartDecomposition decomposition = build_charts(mesh.view());
-    const std::vector<Piece> pieces = split_into_pieces(mesh.view(), decomposition);
-    REQUIRE(pieces.size() == 1);
-    piece = pieces.front();
-    mirror = mirror_pieces(mesh.view(), decomposition, pieces, find_mirror_symmetry(mesh.view())).front();
+  explicit WholePiece(const Mesh& mesh) {
+    const MirroredPieces parts(mesh.view());
+    REQUIRE(parts.pieces.size() == 1);
+    piece = parts.pieces.front();
+    mirror = parts.mirrors.front();
   }
 };
 

@@ -12,21 +12,15 @@ namespace spectral_conformal::test {
 namespace {
 
 /// The one piece of a mesh, with its seams. Keeps what PieceSeams refers to.
-struct OnePiece {
+struct OnePiece : MirroredPieces {
   Mesh mesh;
-  MirrorSymmetry symmetry;
-  std::vector<Piece> pieces;
   std::vector<int> one_chart;
 
-  explicit OnePiece(Mesh given) : mesh(std::move(given)), symmetry(find_mirror_symmetry(mesh.view())) {
-    pieces = split_into_pieces(mesh.view(), build_charts(mesh.view()));
+  explicit OnePiece(Mesh given) : MirroredPieces(given.view()), mesh(std::move(given)) {
     REQUIRE(pieces.size() == 1);
     one_chart.assign(static_cast<std::size_t>(mesh.n_faces()), 0);
   }
-  PieceSeams seams() const {
-    return PieceSeams(pieces[0], 0, mirror_pieces(mesh.view(), build_charts(mesh.view()), pieces, symmetry)[0],
-                      symmetry);
-  }
+  PieceSeams seams() const { return PieceSeams(pieces[0], 0, mirrors[0], symmetry); }
   std::vector<Chart> charts(const PieceSeams& seams) const {
     PolygonMesh view = pieces[0].view();
     const auto edges = seams.with({});

@@ -16,17 +16,11 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 struct Searched {
   Mesh mesh;
   SeamSuggestionOptions options;
-  std::vector<Piece> pieces;
-  std::vector<PieceMirror> mirrors;
-  MirrorSymmetry symmetry;
+  MirroredPieces parts;
   std::vector<int> vertices;
-  SearchedMesh view{options, pieces, mirrors, symmetry, vertices};
+  SearchedMesh view{options, parts, vertices};
 
-  explicit Searched(Mesh given) : mesh(std::move(given)) {
-    const ChartDecomposition decomposition = build_charts(mesh.view());
-    pieces = split_into_pieces(mesh.view(), decomposition);
-    symmetry = find_mirror_symmetry(mesh.view());
-    mirrors = mirror_pieces(mesh.view(), decomposition, pieces, symmetry);
+  explicit Searched(Mesh given) : mesh(std::move(given)), parts(mesh.view()) {
     for (int v = 0; v < mesh.view().n_vertices; ++v) vertices.push_back(v);
   }
 };
@@ -48,13 +42,14 @@ TEST_CASE("a search ends with cuts along edges of the piece, first what topology
   const std::vector<PieceSearch::Cut> cuts = search.cuts();
   REQUIRE_FALSE(cuts.empty());
   CHECK(std::isinf(cuts.front().urgency));
-  const SeamGraph graph(searched.pieces.front().view());
+  const SeamGraph graph(searched.parts.pieces.front().view());
   double length = 0;
   for (const PieceSearch::Cut& cut : cuts) {
     CHECK_FALSE(cut.edges.empty());
     for (const auto& [a, b] : cut.edges) {
       CHECK(graph.find_edge(a, b) >= 0);
-      length += (searched.pieces.front().positions.row(a) - searched.pieces.front().positions.row(b)).norm();
+      length +=
+          (searched.parts.pieces.front().positions.row(a) - searched.parts.pieces.front().positions.row(b)).norm();
     }
   }
   CHECK(search.length() == doctest::Approx(length).epsilon(1e-9));
