@@ -286,10 +286,7 @@ const SeparableFaces& CutCandidates::separable(int chart) const {
   std::vector<Eigen::Vector3d> centres;
   centres.reserve(mapped.chart.faces.size());
   for (const int face : mapped.chart.faces) {
-    const int first = piece.face_offsets[face];
-    const int last = piece.face_offsets[face + 1];
-    Positions corners(last - first, 3);
-    for (int c = first; c < last; ++c) corners.row(c - first) = piece.positions.row(piece.corner_vertices[c]);
+    const Positions corners = piece.corners(face);
     centres.emplace_back(corners.colwise().mean());
     if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());
   }

@@ -81,14 +81,20 @@ PolygonMesh Piece::view() const {
   return mesh;
 }
 
+Positions Piece::corners(int face) const {
+  const int first = face_offsets[face];
+  Positions result(face_offsets[face + 1] - first, 3);
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    result.row(i) = positions.row(corner_vertices[first + static_cast<int>(i)]);
+  }
+  return result;
+}
+
 double Piece::area() const {
   double area = 0;
-  for (int f = 0; f < n_faces(); ++f) {
-    const int first = face_offsets[f];
-    const int size = face_offsets[f + 1] - first;
-    Positions corners(size, 3);
-    for (int i = 0; i < size; ++i) corners.row(i) = positions.row(corner_vertices[first + i]);
-    area += 0.5 * polygon_normal(corners, corners.row(0).transpose()).norm();
+  for (int face = 0; face < n_faces(); ++face) {
+    const Positions around = corners(face);
+    area += 0.5 * polygon_normal(around, around.row(0).transpose()).norm();
   }
   return area;
 }

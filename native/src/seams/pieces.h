@@ -21,7 +21,8 @@ struct Piece {
   /// Valid while the piece is neither changed nor destroyed.
   PolygonMesh view() const;
   int n_faces() const { return static_cast<int>(faces.size()); }
-  double area() const;  ///< of its faces, as their vector areas
+  Positions corners(int face) const;  ///< (corners of the face, 3)
+  double area() const;                ///< of its faces, as their vector areas
 };
 
 /// The pieces of a mesh, one per chart, in the charts' order.
