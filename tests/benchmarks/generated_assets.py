@@ -19,15 +19,16 @@ import resource
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import asdict
-from types import MappingProxyType
 
 import numpy as np
 
 Mesh = tuple[np.ndarray, np.ndarray]
 SECONDS, GIGABYTES = 1200, 12
 QC_CAP = 10.0
+# Of the suggested seams, that a run may set.
+LIMITS = ("qc_limit", "qc_gain")
 
 
 def noise(points: np.ndarray, seed: int, octaves: int = 4, frequency: float = 2.0) -> np.ndarray:
@@ -277,7 +278,7 @@ def asset(name: str, faces: int) -> Mesh:
 
 
 def spectral(
-    vertices: np.ndarray, triangles: np.ndarray, limits: Mapping[str, float] = MappingProxyType({})
+    vertices: np.ndarray, triangles: np.ndarray, **limits: float
 ) -> tuple[np.ndarray, np.ndarray, dict[str, float]]:
     """Suggest seams, unwrap, pack: (triangles, (3 F, 2) map, seconds of the phases and failed islands)."""
     import spectral_conformal as sc
@@ -338,7 +339,7 @@ def without_doubles(triangles: np.ndarray) -> np.ndarray:
 METHODS = {"spectral": (spectral, None), "xatlas": (by_xatlas, "xatlas"), "Smart UV": (smart_project, "bpy")}
 
 
-def measured(name: str, faces: int, method: str, limits: Mapping[str, float]) -> dict[str, float]:
+def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, float]:
     """Make one map of one mesh and measure it."""
     import spectral_conformal as sc
 
@@ -346,8 +347,8 @@ def measured(name: str, faces: int, method: str, limits: Mapping[str, float]) ->
 
     vertices, triangles = asset(name, faces)
     start, used = time.perf_counter(), time.process_time()
-    own = (limits,) if method == "spectral" else ()
-    triangles, uv, phases = METHODS[method][0](vertices, triangles, *own)
+    own = limits if method == "spectral" else {}
+    triangles, uv, phases = METHODS[method][0](vertices, triangles, **own)
     seconds, used = time.perf_counter() - start, time.process_time() - used
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     once = without_doubles(triangles)
@@ -359,9 +360,7 @@ def measured(name: str, faces: int, method: str, limits: Mapping[str, float]) ->
     return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}
 
 
-def in_process(
-    name: str, faces: int, method: str, limits: Mapping[str, float] = MappingProxyType({})
-) -> dict[str, float] | str:
+def in_process(name: str, faces: int, method: str, **limits: float) -> dict[str, float] | str:
     """`measured` in a process of its own; what went wrong as text."""
     module = "tests.benchmarks.generated_assets"
     command = [sys.executable, "-m", module, "--faces", str(faces), "--measure", name, method]
@@ -389,21 +388,20 @@ def main() -> None:
     parser.add_argument("--only", nargs="*", choices=[*ASSETS], default=[*ASSETS], metavar="NAME")
     there = [name for name, (_, needs) in METHODS.items() if not needs or importlib.util.find_spec(needs)]
     parser.add_argument("--methods", nargs="*", choices=there, default=there, metavar="NAME")
-    for name in ("qc_limit", "qc_gain"):
+    for name in LIMITS:
         parser.add_argument(f"--{name.replace('_', '-')}", type=float, help="of the suggested seams, see SeamOptions")
     parser.add_argument("--measure", nargs=2, metavar=("NAME", "METHOD"), help="one map, measured, as JSON")
     arguments = parser.parse_args()
-    given = {name: getattr(arguments, name) for name in ("qc_limit", "qc_gain")}
-    limits = {name: value for name, value in given.items() if value is not None}
+    limits = {name: value for name in LIMITS if (value := getattr(arguments, name)) is not None}
     if arguments.measure:
         name, method = arguments.measure
-        print(json.dumps(measured(name, arguments.faces, method, limits)))
+        print(json.dumps(measured(name, arguments.faces, method, **limits)))
         return
     columns = ("islands", "QC", "seams", "flipped", "overlapping", "seconds", "processor s", "GB", "phases")
     print(f"| mesh | faces | method | {' | '.join(columns)} |\n" + "|---" * (3 + len(columns)) + "|", flush=True)
     for name in arguments.only:
         for method in arguments.methods:
-            found = in_process(name, arguments.faces, method, limits)
+            found = in_process(name, arguments.faces, method, **limits)
             if isinstance(found, str):
                 print(f"| {name} | | {method} | {found} |", flush=True)
                 continue

@@ -157,11 +157,11 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   SeamEdges accepted;
   if (!quality_.solved && blind_cuts_ >= max_blind()) {
     accepted = halve_unsolved(longest, progress);
-    if (accepted.empty() && !fallbacks_) allow_fallbacks(progress);
     if (!accepted.empty()) {
       changed_ = true;
       return accepted;
     }
+    if (!fallbacks_) allow_fallbacks(progress);
   }
   const bool wanted = quality_.solved && !exhausted_ && !good_enough() && !is_patience_spent();
   if (wanted && losses_together_ < max_losses_together && (stage_.refined || quality_.within_limit < enough_area)) {
@@ -195,9 +195,10 @@ void Cutter::allow_fallbacks(const Progress& progress) {
   solve(solved, progress);
 }
 
-bool Cutter::good_enough() const {
-  return quality_.within_limit >= enough_area && quality_.mean_qc <= options_.qc_limit &&
-         quality_.energy <= options_.energy_limit;
+bool Cutter::good_enough() const { return good_enough_but_for_qc() && quality_.mean_qc <= options_.qc_limit; }
+
+bool Cutter::good_enough_but_for_qc() const {
+  return quality_.within_limit >= enough_area && quality_.energy <= options_.energy_limit;
 }
 
 /// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
@@ -327,10 +328,7 @@ double Cutter::excess(const MapQuality& quality) const {
 }
 
 /// Whether cuts are priced by options_.qc_gain.
-bool Cutter::only_qc_counts() const {
-  return options_.qc_gain > 0 && quality_.solved && quality_.within_limit >= enough_area &&
-         quality_.energy <= options_.energy_limit;
-}
+bool Cutter::only_qc_counts() const { return options_.qc_gain > 0 && quality_.solved && good_enough_but_for_qc(); }
 
 /// What seams of this length have to lower the mean QC of the piece by; 0 where there is no such price.
 double Cutter::least_qc_gain(const SeamEdges& cut) const {
@@ -465,14 +463,17 @@ SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
   // Where none gains that is the first, of the worst chart: others lose less, but cut off crumbs.
   const auto best =
       std::max_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return gain(a) < gain(b); });
-  if (!(gain(*best) > 0) && !may_gain_later(*best)) return {};
+  if (!(gain(*best) > 0)) {
+    ++losing_splits_;
+    if (!may_gain_later(*best)) return {};
+  }
   return accept(std::move(*best));
 }
 
 /// Whether a cut that gains nothing now is made for those that its parts may have.
-bool Cutter::may_gain_later(const Trial& halved) {
-  if (!only_qc_counts()) return ++losing_splits_ <= max_losing_splits;
-  if (++losing_splits_ > max_losing_splits_in_a_row) return false;
+bool Cutter::may_gain_later(const Trial& halved) const {
+  if (!only_qc_counts()) return losing_splits_ <= max_losing_splits;
+  if (losing_splits_ > max_losing_splits_in_a_row) return false;
   double beyond = 0;
   for (const auto& mapped : charts_) {
     if (!contains(halved.charts, mapped)) beyond += mapped->sums.qc() - options_.qc_limit * mapped->sums.area();

@@ -72,6 +72,7 @@ class Cutter {
   void solve(const TrialMaps& known, const Progress& progress);
   void allow_fallbacks(const Progress& progress);
   bool good_enough() const;
+  bool good_enough_but_for_qc() const;
   bool is_small() const;
   bool hurries() const;  ///< at the finer levels of a large piece
   TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
@@ -89,7 +90,7 @@ class Cutter {
   bool only_qc_counts() const;
   double least_qc_gain(const SeamEdges& cut) const;
   double gain(const Trial& trial) const;
-  bool may_gain_later(const Trial& halved);
+  bool may_gain_later(const Trial& halved) const;
   bool is_tried(const Proposal& proposal) const;
   std::vector<Trial> gaining(std::vector<Proposal> proposals, double longest, const Progress& progress);
   SeamEdges accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress);

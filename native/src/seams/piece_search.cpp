@@ -44,6 +44,7 @@ SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
 SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredPieces& parts,
                            const std::vector<int>& given_vertices)
     : options(options), parts(parts), given_vertices(given_vertices), coarse_options(with_less_energy(options)) {
+  if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
     const double piece_area = piece.area();
     if (std::isfinite(piece_area)) area += piece_area;

@@ -26,7 +26,7 @@ struct SearchedMesh {
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
   SeamSuggestionOptions coarse_options;  ///< of coarse copies
-  double area = 0;                       ///< of the pieces together, but for those that are not finite
+  double area = 0;                       ///< of the finite pieces together; 0 where options.qc_gain is and none asks
 };
 
 /// The search for the seams of one piece, which looks at no other: on coarse copies of a large one first, each of which

@@ -9,15 +9,10 @@
 namespace spectral_conformal::test {
 namespace {
 
-struct Pieces {
+struct Pieces : MirroredPieces {
   ChartDecomposition decomposition;
-  std::vector<Piece> pieces;
-  std::vector<PieceMirror> mirrors;
 
-  explicit Pieces(const Mesh& mesh) : decomposition(build_charts(mesh.view())) {
-    pieces = split_into_pieces(mesh.view(), decomposition);
-    mirrors = mirror_pieces(mesh.view(), decomposition, pieces, find_mirror_symmetry(mesh.view()));
-  }
+  explicit Pieces(const Mesh& mesh) : MirroredPieces(mesh.view()), decomposition(build_charts(mesh.view())) {}
 };
 
 }  // namespace
