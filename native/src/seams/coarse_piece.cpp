@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "graph/parallel_calls.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -30,6 +32,13 @@ constexpr double stalled = 0.01;
 constexpr double relaxed = 0.5;
 constexpr int max_relaxations = 3;
 constexpr std::size_t max_faces_around = 14;
+/// Merges of this number of vertices are looked for in one call, and of this fraction of all in parallel before any is
+/// made: of more, more would be looked for in vain, because merges near them come first.
+constexpr int searched_at_once = 512;
+constexpr int searched_fraction = 64;
+/// Vertices of one call that updates costs.
+constexpr int costs_at_once = 8192;
+constexpr unsigned max_threads = 16;
 
 /// Sum of squared distances from planes, each with a weight, as x^T A x + 2 b^T x + c.
 struct Quadric {
@@ -59,15 +68,27 @@ struct Merge {
   bool operator<(const Merge& other) const { return cost != other.cost ? cost < other.cost : vertex < other.vertex; }
 };
 
-bool has_corner(const std::vector<int>& corners, int v) {
-  return std::find(corners.begin(), corners.end(), v) != corners.end();
-}
+/// Of a polygon, in their order.
+class Corners {
+ public:
+  Corners(const int* first, int n) : first_(first), n_(n) {}
+  explicit Corners(const std::vector<int>& corners) : Corners(corners.data(), static_cast<int>(corners.size())) {}
 
-/// The corners before and after one of a polygon.
-std::array<int, 2> beside(const std::vector<int>& corners, int v) {
-  const auto at = std::find(corners.begin(), corners.end(), v);
-  return {at == corners.begin() ? corners.back() : *(at - 1), at + 1 == corners.end() ? corners.front() : *(at + 1)};
-}
+  const int* begin() const { return first_; }
+  const int* end() const { return first_ + n_; }
+  int size() const { return n_; }
+  int operator[](int c) const { return first_[c]; }
+  bool contains(int v) const { return std::find(begin(), end(), v) != end(); }
+  /// Those before and after one.
+  std::array<int, 2> beside(int v) const {
+    const int* at = std::find(begin(), end(), v);
+    return {at == begin() ? first_[n_ - 1] : *(at - 1), at + 1 == end() ? *first_ : *(at + 1)};
+  }
+
+ private:
+  const int* first_;
+  int n_;
+};
 
 /// The polygons that are left, as lists of corners.
 class ShrinkingMesh {
@@ -82,7 +103,8 @@ class ShrinkingMesh {
   void relax();
   /// Per vertex: itself, or the one that it was merged into.
   const std::vector<int>& into() const { return into_; }
-  const std::vector<std::vector<int>>& faces() const { return faces_; }
+  /// Of a face; none where it has vanished.
+  Corners corners(int face) const { return {corners_.data() + fine_.face_offsets[face], n_corners_[face]}; }
 
  private:
   struct Shape {
@@ -90,19 +112,29 @@ class ShrinkingMesh {
     double length = 0;                                 ///< of the normal
     double corner_height = 0;
   };
-
-  Shape shape(const std::vector<int>& corners) const;
+  /// What surrounds a vertex, and scratch: each thread has its own.
+  struct Fan {
+    std::vector<std::pair<int, int>> neighbours;  ///< a vertex, and in how many edges of faces it occurs
+    std::vector<std::pair<int, int>> others;
+    std::vector<Shape> shapes;  ///< of the faces
+    std::vector<int> after;     ///< the corners of a face once a vertex is merged
+  };
+  Shape shape(const Corners& corners) const;
+  Shape shape(int face) const { return shape(corners(face)); }
   bool is_border(int v) const { return border_[static_cast<std::size_t>(v)] != 0; }
   int mirrored(int v) const { return mirror_.vertex[static_cast<std::size_t>(v)]; }
-  void collect_neighbours(int v);
-  bool is_simple_fan(int v);
+  void collect_neighbours(int v, Fan& fan) const;
+  bool is_simple_fan(int v, Fan& fan) const;
   double cost(int v, int w) const;
-  bool can_merge(int v, int w);
-  bool has_only_common_triangles(int v, int w);
-  void collect_shapes(int v);
-  bool keeps_shapes(int v, int w);
+  bool can_merge(int v, int w, Fan& fan) const;
+  bool has_only_common_triangles(int v, int w, Fan& fan) const;
+  void collect_shapes(int v, Fan& fan) const;
+  bool keeps_shapes(int v, int w, Fan& fan) const;
   double least_cost(int v) const;
-  int best_neighbour(int v);
+  void update_costs();
+  int best_neighbour(int v, Fan& fan) const;
+  bool is_worth_a_search(int v) const;
+  void search(const Merge* merges, std::size_t n, std::vector<int>& into) const;
   void merge(int v, int w);
   void merge_with_image(int v, int w);
   template <class Visit>
@@ -113,7 +145,8 @@ class ShrinkingMesh {
   const PieceMirror& mirror_;
   const std::vector<signed char>& side_;
   const std::vector<double>& preference_;
-  std::vector<std::vector<int>> faces_;
+  std::vector<int> corners_;                ///< those of a face from its offset in the fine piece on
+  std::vector<int> n_corners_;              ///< per face
   std::vector<std::vector<int>> faces_of_;  ///< per vertex
   std::vector<char> border_;                ///< 1 on the boundary, 2 where a vertex has to stay
   std::vector<Quadric> quadrics_;
@@ -125,10 +158,6 @@ class ShrinkingMesh {
   double least_turn_cosine_ = min_turn_cosine;
   double least_corner_height_ = min_corner_height;
   int n_left_;
-  std::vector<std::pair<int, int>> neighbours_;  ///< scratch: a vertex, and in how many edges of faces it occurs
-  std::vector<std::pair<int, int>> others_;
-  std::vector<Shape> shapes_;  ///< scratch: of the faces around a vertex
-  std::vector<int> after_;     ///< scratch: the corners of a face once a vertex is merged
 };
 
 ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirror& mirror,
@@ -138,6 +167,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
       mirror_(mirror),
       side_(side),
       preference_(preference),
+      corners_(fine.corner_vertices),
       faces_of_(fine.vertices.size()),
       border_(fine.vertices.size(), 0),
       quadrics_(fine.vertices.size()),
@@ -149,12 +179,11 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
   for (std::size_t v = 0; v < into_.size(); ++v) into_[v] = static_cast<int>(v);
   std::vector<std::array<int, 3>> sides;  // of faces: the ends, the smaller first, and the face
   for (int f = 0; f < fine.n_faces(); ++f) {
-    faces_.emplace_back(fine.corner_vertices.begin() + fine.face_offsets[f],
-                        fine.corner_vertices.begin() + fine.face_offsets[f + 1]);
-    const std::vector<int>& corners = faces_.back();
-    const Eigen::Vector3d normal = shape(corners).normal;
+    n_corners_.push_back(fine.face_offsets[f + 1] - fine.face_offsets[f]);
+    const Corners corners = this->corners(f);
+    const Eigen::Vector3d normal = shape(f).normal;
     const double area = 0.5 * normal.norm();
-    for (std::size_t c = 0; c < corners.size(); ++c) {
+    for (int c = 0; c < corners.size(); ++c) {
       const int v = corners[c];
       const int next = corners[c + 1 == corners.size() ? 0 : c + 1];
       faces_of_[v].push_back(f);
@@ -171,7 +200,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
     const auto [a, b, f] = sides[i];
     if (end == i + 1) {
       const Eigen::Vector3d edge = fine.positions.row(b) - fine.positions.row(a);
-      const Eigen::Vector3d across = edge.cross(shape(faces_[f]).normal);
+      const Eigen::Vector3d across = edge.cross(shape(f).normal);
       for (const int v : {a, b}) {
         border_[v] = std::max(border_[v], char{1});
         if (across.norm() > 0) {
@@ -188,13 +217,13 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
 
 /// The least of (twice the area of the triangle at a corner) over the mean of the squared edges: 0.87 in an equilateral
 /// triangle, 1 in a square.
-ShrinkingMesh::Shape ShrinkingMesh::shape(const std::vector<int>& corners) const {
+ShrinkingMesh::Shape ShrinkingMesh::shape(const Corners& corners) const {
   Shape result;
-  const std::size_t n = corners.size();
-  const auto point = [&](std::size_t c) -> Eigen::Vector3d { return fine_.positions.row(corners[c % n]); };
+  const int n = corners.size();
+  const auto point = [&](int c) -> Eigen::Vector3d { return fine_.positions.row(corners[c % n]); };
   const Eigen::Vector3d origin = point(0);
   double squares = 0;
-  for (std::size_t c = 0; c < n; ++c) {
+  for (int c = 0; c < n; ++c) {
     result.normal += (point(c) - origin).cross(point(c + 1) - origin);
     squares += (point(c + 1) - point(c)).squaredNorm();
   }
@@ -206,7 +235,7 @@ ShrinkingMesh::Shape ShrinkingMesh::shape(const std::vector<int>& corners) const
     return result;
   }
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < n; ++c) {
+  for (int c = 0; c < n; ++c) {
     const Eigen::Vector3d corner = point(c + 1);
     least = std::min(least, (point(c + 2) - corner).cross(point(c) - corner).dot(result.normal));
   }
@@ -215,29 +244,31 @@ ShrinkingMesh::Shape ShrinkingMesh::shape(const std::vector<int>& corners) const
 }
 
 /// The vertices joined to v by an edge, ascending.
-void ShrinkingMesh::collect_neighbours(int v) {
-  neighbours_.clear();
+void ShrinkingMesh::collect_neighbours(int v, Fan& fan) const {
+  auto& neighbours = fan.neighbours;
+  neighbours.clear();
   for (const int f : faces_of_[v]) {
-    for (const int w : beside(faces_[f], v)) neighbours_.emplace_back(w, 1);
+    for (const int w : corners(f).beside(v)) neighbours.emplace_back(w, 1);
   }
-  std::sort(neighbours_.begin(), neighbours_.end());
+  std::sort(neighbours.begin(), neighbours.end());
   std::size_t n = 0;
-  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    if (n > 0 && neighbours_[n - 1].first == neighbours_[i].first) {
-      ++neighbours_[n - 1].second;
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (n > 0 && neighbours[n - 1].first == neighbours[i].first) {
+      ++neighbours[n - 1].second;
     } else {
-      neighbours_[n++] = neighbours_[i];
+      neighbours[n++] = neighbours[i];
     }
   }
-  neighbours_.resize(n);
+  neighbours.resize(n);
 }
 
 /// Whether the faces around a vertex are one fan, closed inside and open on the boundary. Leaves its neighbours.
-bool ShrinkingMesh::is_simple_fan(int v) {
-  collect_neighbours(v);
-  const auto open = std::count_if(neighbours_.begin(), neighbours_.end(), [](const auto& n) { return n.second == 1; });
+bool ShrinkingMesh::is_simple_fan(int v, Fan& fan) const {
+  collect_neighbours(v, fan);
+  const auto& neighbours = fan.neighbours;
+  const auto open = std::count_if(neighbours.begin(), neighbours.end(), [](const auto& n) { return n.second == 1; });
   return open == (is_border(v) ? 2 : 0) &&
-         std::all_of(neighbours_.begin(), neighbours_.end(), [](const auto& n) { return n.second <= 2; });
+         std::all_of(neighbours.begin(), neighbours.end(), [](const auto& n) { return n.second <= 2; });
 }
 
 double ShrinkingMesh::cost(int v, int w) const {
@@ -250,15 +281,15 @@ double ShrinkingMesh::cost(int v, int w) const {
 
 /// Vertices next to both have to be those of the triangles that vanish, and must have more faces than these. Expects
 /// the neighbours of v.
-bool ShrinkingMesh::has_only_common_triangles(int v, int w) {
-  others_.swap(neighbours_);  // those of v
-  collect_neighbours(w);
-  others_.swap(neighbours_);  // others_: those of w
+bool ShrinkingMesh::has_only_common_triangles(int v, int w, Fan& fan) const {
+  fan.others.swap(fan.neighbours);  // those of v
+  collect_neighbours(w, fan);
+  fan.others.swap(fan.neighbours);  // others: those of w
   std::size_t common = 0;
-  for (std::size_t i = 0, j = 0; i < neighbours_.size() && j < others_.size();) {
-    if (neighbours_[i].first == others_[j].first)
+  for (std::size_t i = 0, j = 0; i < fan.neighbours.size() && j < fan.others.size();) {
+    if (fan.neighbours[i].first == fan.others[j].first)
       ++common, ++i, ++j;
-    else if (neighbours_[i].first < others_[j].first)
+    else if (fan.neighbours[i].first < fan.others[j].first)
       ++i;
     else
       ++j;
@@ -266,9 +297,9 @@ bool ShrinkingMesh::has_only_common_triangles(int v, int w) {
   std::size_t triangles = 0;
   std::size_t shared = 0;
   for (const int f : faces_of_[v]) {
-    const std::vector<int>& corners = faces_[f];
-    if (!has_corner(corners, w)) continue;
-    const auto [previous, next] = beside(corners, w);
+    const Corners corners = this->corners(f);
+    if (!corners.contains(w)) continue;
+    const auto [previous, next] = corners.beside(w);
     if (next != v && previous != v) return false;
     ++shared;
     if (corners.size() > 3) continue;
@@ -280,39 +311,40 @@ bool ShrinkingMesh::has_only_common_triangles(int v, int w) {
 }
 
 /// Expects the shapes of the faces around v.
-bool ShrinkingMesh::keeps_shapes(int v, int w) {
+bool ShrinkingMesh::keeps_shapes(int v, int w, Fan& fan) const {
   for (std::size_t i = 0; i < faces_of_[v].size(); ++i) {
-    const std::vector<int>& corners = faces_[faces_of_[v][i]];
-    const bool shared = has_corner(corners, w);
+    const Corners corners = this->corners(faces_of_[v][i]);
+    const bool shared = corners.contains(w);
     if (shared && corners.size() <= 3) continue;
-    after_.clear();
+    fan.after.clear();
     for (const int c : corners) {
-      if (c != v) after_.push_back(c);
-      if (c == v && !shared) after_.push_back(w);
+      if (c != v) fan.after.push_back(c);
+      if (c == v && !shared) fan.after.push_back(w);
     }
-    const Shape& old = shapes_[i];
-    const Shape made = shape(after_);
+    const Shape& old = fan.shapes[i];
+    const Shape made = shape(Corners(fan.after));
     if (old.normal.dot(made.normal) < least_turn_cosine_ * old.length * made.length) return false;
     if (made.corner_height < std::min(least_corner_height_, old.corner_height)) return false;
   }
   return true;
 }
 
-void ShrinkingMesh::collect_shapes(int v) {
-  shapes_.clear();
-  for (const int f : faces_of_[v]) shapes_.push_back(shape(faces_[f]));
+void ShrinkingMesh::collect_shapes(int v, Fan& fan) const {
+  fan.shapes.clear();
+  for (const int f : faces_of_[v]) fan.shapes.push_back(shape(f));
 }
 
 /// Expects the neighbours of v, and the shapes of the faces around it.
-bool ShrinkingMesh::can_merge(int v, int w) {
+bool ShrinkingMesh::can_merge(int v, int w, Fan& fan) const {
   if (is_border(v) && is_border(w)) {
     // Along the boundary only.
-    const auto to = std::find_if(neighbours_.begin(), neighbours_.end(), [&](const auto& n) { return n.first == w; });
+    const auto to =
+        std::find_if(fan.neighbours.begin(), fan.neighbours.end(), [&](const auto& n) { return n.first == w; });
     if (to->second != 1) return false;
   } else if (is_border(v)) {
     return false;
   }
-  return keeps_shapes(v, w) && has_only_common_triangles(v, w);
+  return keeps_shapes(v, w, fan) && has_only_common_triangles(v, w, fan);
 }
 
 /// Of merging v into a neighbour, whether or not it can be; infinite where v has to stay.
@@ -320,39 +352,40 @@ double ShrinkingMesh::least_cost(int v) const {
   double least = std::numeric_limits<double>::infinity();
   if (border_[v] == 2 || (symmetric_ && side_[v] < 0)) return least;
   for (const int f : faces_of_[v]) {
-    least = std::min(least, cost(v, beside(faces_[f], v)[1]));
+    least = std::min(least, cost(v, corners(f).beside(v)[1]));
   }
   return least;
 }
 
 /// The one that v can be merged into at the least cost, or -1.
-int ShrinkingMesh::best_neighbour(int v) {
-  if (!is_simple_fan(v)) return -1;
+int ShrinkingMesh::best_neighbour(int v, Fan& fan) const {
+  if (!is_simple_fan(v, fan)) return -1;
   std::vector<Merge> merges;
-  for (const auto& [w, count] : neighbours_) {
+  for (const auto& [w, count] : fan.neighbours) {
     const bool crosses = symmetric_ && (side_[w] < 0 || (side_[v] == 0 && side_[w] != 0));
     if (!crosses && (!is_border(v) || count == 1)) merges.push_back({cost(v, w), w});
   }
   std::sort(merges.begin(), merges.end());
-  collect_shapes(v);
+  collect_shapes(v, fan);
   for (const Merge& merge : merges) {
-    if (can_merge(v, merge.vertex)) return merge.vertex;
+    if (can_merge(v, merge.vertex, fan)) return merge.vertex;
   }
   return -1;
 }
 
 void ShrinkingMesh::merge(int v, int w) {
   for (const int f : faces_of_[v]) {
-    std::vector<int>& corners = faces_[f];
-    if (!has_corner(corners, w)) {
-      std::replace(corners.begin(), corners.end(), v, w);
+    const Corners corners = this->corners(f);
+    int* const first = corners_.data() + fine_.face_offsets[f];
+    if (!corners.contains(w)) {
+      std::replace(first, first + corners.size(), v, w);
       faces_of_[w].push_back(f);
       continue;
     }
-    corners.erase(std::find(corners.begin(), corners.end(), v));
-    if (corners.size() > 2) continue;
-    for (const int c : corners) faces_of_[c].erase(std::find(faces_of_[c].begin(), faces_of_[c].end(), f));
-    corners.clear();
+    n_corners_[f] = static_cast<int>(std::remove(first, first + corners.size(), v) - first);
+    if (n_corners_[f] > 2) continue;
+    for (const int c : this->corners(f)) faces_of_[c].erase(std::find(faces_of_[c].begin(), faces_of_[c].end(), f));
+    n_corners_[f] = 0;
   }
   faces_of_[v].clear();
   quadrics_[w].add(quadrics_[v]);
@@ -367,28 +400,32 @@ void ShrinkingMesh::merge_with_image(int v, int w) {
     return;
   }
   std::vector<int> around{v};
-  for (const int f : faces_of_[v]) around.insert(around.end(), faces_[f].begin(), faces_[f].end());
+  for (const int f : faces_of_[v]) around.insert(around.end(), corners(f).begin(), corners(f).end());
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   std::vector<std::vector<int>> faces_of;
   faces_of.reserve(around.size());
   for (const int a : around) faces_of.push_back(faces_of_[a]);
   std::vector<std::pair<int, std::vector<int>>> faces;
-  for (const int f : faces_of_[v]) faces.emplace_back(f, faces_[f]);
+  for (const int f : faces_of_[v]) faces.emplace_back(f, std::vector<int>(corners(f).begin(), corners(f).end()));
   const Quadric quadric = quadrics_[w];
   merge(v, w);
   const int image = mirrored(v);
   const int image_into = mirrored(w);
-  collect_neighbours(image);
-  collect_shapes(image);
-  const bool joined = std::any_of(neighbours_.begin(), neighbours_.end(),
+  Fan fan;
+  collect_neighbours(image, fan);
+  collect_shapes(image, fan);
+  const bool joined = std::any_of(fan.neighbours.begin(), fan.neighbours.end(),
                                   [&](const auto& neighbour) { return neighbour.first == image_into; });
-  if (joined && is_simple_fan(image) && can_merge(image, image_into)) {
+  if (joined && is_simple_fan(image, fan) && can_merge(image, image_into, fan)) {
     merge(image, image_into);
     return;
   }
   for (std::size_t i = 0; i < around.size(); ++i) faces_of_[around[i]] = std::move(faces_of[i]);
-  for (auto& [f, corners] : faces) faces_[f] = std::move(corners);
+  for (const auto& [f, corners] : faces) {
+    std::copy(corners.begin(), corners.end(), corners_.begin() + fine_.face_offsets[f]);
+    n_corners_[f] = static_cast<int>(corners.size());
+  }
   quadrics_[w] = quadric;
   into_[v] = v;
   ++n_left_;
@@ -399,7 +436,7 @@ template <class Visit>
 void ShrinkingMesh::visit_fans(int v, const Visit& visit) const {
   for (const int centre : {v, symmetric_ ? mirrored(v) : v}) {
     for (const int f : faces_of_[centre]) {
-      for (const int c : faces_[f]) visit(c);
+      for (const int c : corners(f)) visit(c);
     }
   }
 }
@@ -410,34 +447,79 @@ void ShrinkingMesh::relax() {
   std::fill(failed_.begin(), failed_.end(), 0);
 }
 
+/// Of the vertices around which the last round changed something.
+void ShrinkingMesh::update_costs() {
+  const int n = static_cast<int>(into_.size());
+  run_in_parallel((n + costs_at_once - 1) / costs_at_once, max_threads,
+                  [&](int part, const Progress&) {
+                    const int end = std::min(n, (part + 1) * costs_at_once);
+                    for (int v = part * costs_at_once; v < end; ++v) {
+                      if (into_[v] == v && changed_[v] == round_ - 1) cost_[v] = least_cost(v);
+                    }
+                  },
+                  {}, "");
+}
+
+/// What failed fails again as long as nothing around it changes, and nothing is merged beside a merge of this round.
+bool ShrinkingMesh::is_worth_a_search(int v) const {
+  int changed = -1;
+  visit_fans(v, [&](int c) { changed = std::max(changed, changed_[c]); });
+  return changed != round_ && changed >= failed_[v];
+}
+
+/// Puts what each of n vertices is merged into, as things stand, in `into`; -1 where it cannot be, -2 where that was
+/// not worth a search.
+void ShrinkingMesh::search(const Merge* merges, std::size_t n, std::vector<int>& into) const {
+  into.assign(n, -2);
+  const auto n_calls = static_cast<int>((n + searched_at_once - 1) / searched_at_once);
+  run_in_parallel(
+      n_calls, max_threads,
+      [&](int call, const Progress&) {
+        Fan fan;
+        const std::size_t end = std::min(n, (static_cast<std::size_t>(call) + 1) * searched_at_once);
+        for (std::size_t i = static_cast<std::size_t>(call) * searched_at_once; i < end; ++i) {
+          const int v = merges[i].vertex;
+          if (is_worth_a_search(v)) into[i] = best_neighbour(v, fan);
+        }
+      },
+      {}, "");
+}
+
 int ShrinkingMesh::merge_round(int most) {
   ++round_;
+  update_costs();
   std::vector<Merge> merges;
   for (std::size_t v = 0; v < into_.size(); ++v) {
-    if (into_[v] != static_cast<int>(v)) continue;
-    if (changed_[v] == round_ - 1) cost_[v] = least_cost(static_cast<int>(v));
-    if (std::isfinite(cost_[v])) merges.push_back({cost_[v], static_cast<int>(v)});
+    if (into_[v] == static_cast<int>(v) && std::isfinite(cost_[v])) merges.push_back({cost_[v], static_cast<int>(v)});
   }
   const auto n_cheap = static_cast<std::ptrdiff_t>(merged_per_round * static_cast<double>(merges.size())) + 1;
   const auto last = merges.begin() + std::min(n_cheap, static_cast<std::ptrdiff_t>(merges.size()));
   std::nth_element(merges.begin(), last, merges.end());
   std::sort(merges.begin(), last);
   const int before = n_left_;
-  for (auto merge = merges.begin(); merge != merges.end() && before - n_left_ < most; ++merge) {
-    // Where none of the cheap ones can be merged, all others are tried.
-    if (merge >= last && before != n_left_) break;
-    if (merge == last) std::sort(last, merges.end());
-    int changed = -1;
-    visit_fans(merge->vertex, [&](int c) { changed = std::max(changed, changed_[c]); });
-    // What failed fails again as long as nothing around it changes.
-    if (changed == round_ || changed < failed_[merge->vertex]) continue;
-    const int into = best_neighbour(merge->vertex);
-    if (into < 0) {
-      failed_[merge->vertex] = round_;
-      continue;
+  const std::ptrdiff_t at_once = std::max(searched_at_once, n_left_ / searched_fraction);
+  std::vector<int> into;
+  const auto merge_cheapest = [&](auto first, auto end, int enough) {
+    while (first != end && before - n_left_ < enough) {
+      search(&*first, static_cast<std::size_t>(std::min(at_once, end - first)), into);
+      for (std::size_t i = 0; i < into.size() && before - n_left_ < enough; ++i, ++first) {
+        const int v = first->vertex;
+        // The merges before this one changed nothing that its search has looked at, or come in its way.
+        if (into[i] == -2 || !is_worth_a_search(v)) continue;
+        if (into[i] < 0) {
+          failed_[v] = round_;
+          continue;
+        }
+        visit_fans(v, [&](int c) { changed_[c] = round_; });
+        merge_with_image(v, into[i]);
+      }
     }
-    visit_fans(merge->vertex, [&](int c) { changed_[c] = round_; });
-    merge_with_image(merge->vertex, into);
+  };
+  merge_cheapest(merges.begin(), last, most);
+  if (before == n_left_) {
+    // Where none of the cheap ones can be merged, all others are tried until one can.
+    std::sort(last, merges.end());
+    merge_cheapest(last, merges.end(), 1);
   }
   return before - n_left_;
 }
@@ -475,10 +557,11 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   }
   std::vector<int> face_number(fine.faces.size(), -1);
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {
-    if (mesh.faces()[f].empty()) continue;
+    const Corners corners = mesh.corners(static_cast<int>(f));
+    if (corners.size() == 0) continue;
     face_number[f] = result.piece.n_faces();
     result.piece.faces.push_back(fine.faces[f]);
-    for (const int v : mesh.faces()[f]) result.piece.corner_vertices.push_back(number[v]);
+    for (const int v : corners) result.piece.corner_vertices.push_back(number[v]);
     result.piece.face_offsets.push_back(static_cast<int>(result.piece.corner_vertices.size()));
   }
   for (const auto& seam : fine.seams) result.piece.seams.push_back({number[seam[0]], number[seam[1]]});
