@@ -1,9 +1,14 @@
 #include "quality/map_degree.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <limits>
 
 #include "geometry/orientation.h"
+#include "graph/disjoint_sets.h"
+#include "graph/parallel_calls.h"
 #include "quality/box_tree.h"
+#include "quality/flips.h"
 
 namespace spectral_conformal {
 namespace {
@@ -31,27 +36,96 @@ bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const Comp
   return on_one_side(first, second) || on_one_side(second, first);
 }
 
-bool are_simple(const std::vector<BoundaryEdge>& edges, const ComplexVector& z) {
-  std::vector<PlaneBox> boxes;
-  boxes.reserve(edges.size());
-  for (const BoundaryEdge& edge : edges) {
-    const Complex a = z[edge.from];
-    const Complex b = z[edge.to];
-    boxes.push_back({{std::min(a.real(), b.real()), std::min(a.imag(), b.imag())},
-                     {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())}});
-  }
-  const BoxTree tree(boxes);
-  bool simple = true;
-  for (int i = 0; simple && i < static_cast<int>(edges.size()); ++i) {
-    tree.for_each_meeting(boxes[static_cast<std::size_t>(i)], [&](int other) {
-      // Each pair once.
-      if (other <= i) return true;
-      simple = are_apart(edges[static_cast<std::size_t>(i)], edges[static_cast<std::size_t>(other)], z);
-      return simple;
-    });
-  }
-  return simple;
+PlaneBox box_of(std::initializer_list<Complex> points) {
+  PlaneBox result{{points.begin()->real(), points.begin()->imag()}, {points.begin()->real(), points.begin()->imag()}};
+  for (const Complex p : points) result.include({{p.real(), p.imag()}, {p.real(), p.imag()}});
+  return result;
 }
+
+/// The images of all boundary edges. The map must outlive this object.
+class Boundary {
+ public:
+  /// Loops of two vertices are the two banks of a slit, which lie on each other, and are left out.
+  Boundary(const std::vector<BoundaryLoop>& loops, const ComplexVector& z)
+      : z_(z), edges_(edges_of(loops)), boxes_(boxes_of(edges_, z)), tree_(boxes_) {}
+
+  /// Whether no edge has a point in common with another but for those that neighbours share.
+  bool is_simple() const {
+    bool simple = true;
+    for (int i = 0; simple && i < static_cast<int>(edges_.size()); ++i) {
+      tree_.for_each_meeting(box(i), [&](int other) {
+        // Each pair once.
+        if (other <= i) return true;
+        simple = are_apart(edge(i), edge(other), z_);
+        return simple;
+      });
+    }
+    return simple;
+  }
+
+  /// Whether the inside of a counter-clockwise triangle is surely free of the boundary.
+  bool is_off(const std::array<int, 3>& triangle) const {
+    bool off = true;
+    tree_.for_each_meeting(box_of({z_[triangle[0]], z_[triangle[1]], z_[triangle[2]]}), [&](int i) {
+      off = is_off(triangle, edge(i));
+      return off;
+    });
+    return off;
+  }
+
+  /// The sum of the winding numbers of all loops about a point that none of them meets.
+  int winding_number(Complex p) const {
+    int result = 0;
+    // Where a ray to the right crosses them.
+    const PlaneBox ray{{p.real(), p.imag()}, {std::numeric_limits<double>::infinity(), p.imag()}};
+    tree_.for_each_meeting(ray, [&](int i) {
+      const Complex from = z_[edge(i).from];
+      const Complex to = z_[edge(i).to];
+      if (from.imag() <= p.imag() && to.imag() > p.imag() && orientation(from, to, p) > 0) ++result;
+      if (from.imag() > p.imag() && to.imag() <= p.imag() && orientation(from, to, p) < 0) --result;
+      return true;
+    });
+    return result;
+  }
+
+ private:
+  static std::vector<BoundaryEdge> edges_of(const std::vector<BoundaryLoop>& loops) {
+    std::vector<BoundaryEdge> result;
+    for (const BoundaryLoop& loop : loops) {
+      if (loop.size() == 2) continue;
+      for (std::size_t i = 0; i < loop.size(); ++i) result.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    }
+    return result;
+  }
+  static std::vector<PlaneBox> boxes_of(const std::vector<BoundaryEdge>& edges, const ComplexVector& z) {
+    std::vector<PlaneBox> result;
+    result.reserve(edges.size());
+    for (const BoundaryEdge& edge : edges) result.push_back(box_of({z[edge.from], z[edge.to]}));
+    return result;
+  }
+  const BoundaryEdge& edge(int i) const { return edges_[static_cast<std::size_t>(i)]; }
+  const PlaneBox& box(int i) const { return boxes_[static_cast<std::size_t>(i)]; }
+
+  /// Of an edge whose box meets that of the triangle.
+  bool is_off(const std::array<int, 3>& triangle, const BoundaryEdge& edge) const {
+    const auto has = [&](int v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); };
+    const bool from = has(edge.from);
+    if (from && has(edge.to)) return true;
+    if (!from && !has(edge.to)) return false;
+    // From a common corner it goes into the triangle or away from it.
+    const auto k = static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), from ? edge.from : edge.to) -
+                                            triangle.begin());
+    const Complex corner = z_[triangle[k]];
+    const Complex end = z_[from ? edge.to : edge.from];
+    return orientation(corner, z_[triangle[(k + 1) % 3]], end) < 0 ||
+           orientation(corner, end, z_[triangle[(k + 2) % 3]]) < 0;
+  }
+
+  const ComplexVector& z_;
+  std::vector<BoundaryEdge> edges_;
+  std::vector<PlaneBox> boxes_;
+  BoxTree tree_;
+};
 
 /// The orientation of a simple loop: that of the corner at its lowest vertex in lexicographic order, which is convex. 0
 /// only for a loop that is not simple.
@@ -64,19 +138,109 @@ int orientation_of_simple(const BoundaryLoop& loop, const ComplexVector& z) {
   return orientation(z[loop[(lowest + n - 1) % n]], z[loop[lowest]], z[loop[(lowest + 1) % n]]);
 }
 
-}  // namespace
-
-bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
+/// Whether exactly one of the loops runs counter-clockwise, if they are simple.
+bool has_one_outer_loop(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
   int counter_clockwise = 0;
-  std::vector<BoundaryEdge> edges;
   for (const BoundaryLoop& loop : loops) {
-    if (loop.size() == 2) continue;  // the two banks of a slit, that lie on each other
+    if (loop.size() == 2) continue;
     const int sense = orientation_of_simple(loop, z);
     if (sense == 0) return false;
     if (sense > 0) ++counter_clockwise;
-    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
   }
-  return counter_clockwise == 1 && are_simple(edges, z);
+  return counter_clockwise == 1;
+}
+
+/// Whether the boundary leaves the degree above 1 possible over each of some triangles, or proves it not to be.
+class DegreeTest {
+ public:
+  DegreeTest(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
+             const Boundary& boundary, const ComplexVector& z)
+      : triangles_(triangles),
+        boundary_(boundary),
+        z_(z),
+        on_boundary_(static_cast<std::size_t>(z.size()), 0),
+        is_off_(triangles.size(), 0) {
+    for (const BoundaryLoop& loop : loops) {
+      for (const int v : loop) on_boundary_[v] = 1;
+    }
+  }
+
+  /// Those over which it may be, ascending.
+  std::vector<int> higher() {
+    find_triangles_off_the_boundary();
+    // The degree is the same over triangles that share an inner vertex. In between there is no boundary: the vertex
+    // would have to lie on it.
+    DisjointSets joined(static_cast<int>(on_boundary_.size()));
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const int first = is_off_[t] != 0 ? inner_vertex(t) : -1;
+      if (first < 0) continue;
+      for (const int v : triangles_[t]) {
+        if (on_boundary_[v] == 0) joined.unite(first, v);
+      }
+    }
+    std::vector<int> degree(on_boundary_.size(), unknown);
+    std::vector<int> result;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (is_off_[t] == 0 || degree_over(t, joined, degree) > 1) result.push_back(static_cast<int>(t));
+    }
+    return result;
+  }
+
+ private:
+  static constexpr int unknown = std::numeric_limits<int>::min();
+  static constexpr std::size_t tested_at_once = 4096;
+  static constexpr unsigned max_threads = 16;
+
+  void find_triangles_off_the_boundary() {
+    const std::size_t n = triangles_.size();
+    run_in_parallel(
+        static_cast<int>((n + tested_at_once - 1) / tested_at_once), max_threads,
+        [&](int part, const Progress&) {
+          const std::size_t first = static_cast<std::size_t>(part) * tested_at_once;
+          for (std::size_t t = first; t < std::min(n, first + tested_at_once); ++t) {
+            is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
+          }
+        },
+        {}, "");
+  }
+  int inner_vertex(std::size_t t) const {
+    const auto found =
+        std::find_if(triangles_[t].begin(), triangles_[t].end(), [&](int v) { return on_boundary_[v] == 0; });
+    return found == triangles_[t].end() ? -1 : *found;
+  }
+  int degree_over(std::size_t t, DisjointSets& joined, std::vector<int>& degree) const {
+    const int inner = inner_vertex(t);
+    if (inner >= 0) {
+      int& known = degree[joined.find(inner)];
+      if (known == unknown) known = boundary_.winding_number(z_[inner]);
+      return known;
+    }
+    const auto& [a, b, c] = triangles_[t];
+    const Complex centre = z_[a] / 3.0 + z_[b] / 3.0 + z_[c] / 3.0;
+    // Rounding puts the centre of a thin triangle anywhere.
+    const bool inside = orientation(z_[a], z_[b], centre) > 0 && orientation(z_[b], z_[c], centre) > 0 &&
+                        orientation(z_[c], z_[a], centre) > 0;
+    return inside ? boundary_.winding_number(centre) : std::numeric_limits<int>::max();
+  }
+
+  const std::vector<std::array<int, 3>>& triangles_;
+  const Boundary& boundary_;
+  const ComplexVector& z_;
+  std::vector<char> on_boundary_;  ///< per vertex
+  std::vector<char> is_off_;       ///< per triangle: counter-clockwise, and free of the boundary
+};
+
+}  // namespace
+
+bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
+  return has_one_outer_loop(loops, z) && Boundary(loops, z).is_simple();
+}
+
+std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,
+                                  const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
+  const Boundary boundary(loops, z);
+  if (has_one_outer_loop(loops, z) && boundary.is_simple()) return non_positive_triangles(triangles, z);
+  return DegreeTest(triangles, loops, boundary, z).higher();
 }
 
 }  // namespace spectral_conformal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "spectral_conformal/types.h"
@@ -18,6 +19,8 @@ namespace spectral_conformal {
 //  - If moreover no triangle is clockwise, N+ <= 1: nothing overlaps, the map is injective.
 //  - Conversely, if the loops are simple and disjoint and the map of a connected chart is injective, its image is a
 //    connected domain whose boundary these loops are, so that exactly one runs counter-clockwise.
+//  - Where the loops cross or touch, the winding numbers tell the degree over every triangle that they stay off. What
+//    overlaps lies where the degree is above 1, or where a clockwise triangle is.
 // A loop of two vertices, one edge there and back, winds round nothing and is left out.
 // Interior vertices with angles of more than 2 pi need no care: they show at the boundary.
 
@@ -25,5 +28,12 @@ namespace spectral_conformal {
 /// exactly one of them counter-clockwise, by exact predicates. False where an edge has collapsed and where the boundary
 /// touches itself. loops: all of the chart's; z (V,), finite. O(n log n) for n boundary edges.
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
+
+/// Triangles, ascending, of which every two that overlap have one between them, or both overlap one: those that are not
+/// counter-clockwise, and, unless has_degree_at_most_one, those that the boundary may pass through or over which the
+/// degree is above 1. The others cover the plane at most once. triangles: those of an orientable chart, one split of
+/// each quad; loops: all of its; z (V,), finite. O(n log b) for n triangles and b boundary edges, where few boxes meet.
+std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,
+                                  const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
 }  // namespace spectral_conformal

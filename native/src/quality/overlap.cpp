@@ -1,18 +1,24 @@
 #include "quality/overlap.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "geometry/quad_splits.h"
+#include "graph/parallel_calls.h"
 #include "quality/box_tree.h"
-#include "quality/flips.h"
 #include "quality/map_degree.h"
 
 namespace spectral_conformal {
 namespace {
+
+/// Triangles that a thread tests at a time.
+constexpr std::size_t tested_at_once = 4096;
+constexpr unsigned max_testing_threads = 16;
 
 /// A triangle in the plane, with what every pair of triangles needs.
 struct PlaneTriangle {
@@ -53,12 +59,17 @@ bool separated_by_side(const PlaneTriangle& a, const PlaneTriangle& b, double to
   return false;
 }
 
-/// The triangles of a map, and which of them were found to overlap others.
+/// Whether `t` tests the pair that it makes with `other`, which does so otherwise. Of many triangles at one place each
+/// has about as many to test, in whatever order they come: one soon finds another that it overlaps.
+bool tests_pair(std::size_t t, std::size_t other) { return (t + other) % 2 == 0 ? t < other : t > other; }
+
+/// The triangles of a map, and which of them were found to overlap others. Threads share the triangles; which pairs are
+/// tested depends on them where triangles overlap several others, what is found does not.
 class OverlapTest {
  public:
   OverlapTest(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map, const std::vector<int>& face,
               double resolution)
-      : triangles_(triangles), face_(face), resolution_(resolution), overlapping_(triangles.size(), false) {
+      : triangles_(triangles), face_(face), resolution_(resolution), overlapping_(triangles.size()) {
     // Products of coordinates must neither overflow nor vanish, whatever the unit.
     double extent = 0;
     for (const auto& triangle : triangles) {
@@ -67,53 +78,91 @@ class OverlapTest {
     if (extent > 0) z_ = map / extent;
   }
 
-  const std::vector<bool>& among_all() {
-    std::vector<int> all(triangles_.size());
-    std::iota(all.begin(), all.end(), 0);
-    find_overlaps(all, true);
-    return overlapping_;
+  /// A triangle that overlaps another tests no more pairs, so that faces which are stacked a thousandfold do not cost a
+  /// million.
+  std::vector<bool> among_all() {
+    if (z_.size() == 0) return result();
+    std::vector<int> numbers(triangles_.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    const Subset all = subset(std::move(numbers));
+    for_each_triangle([&](std::size_t t) {
+      if (!overlaps(t)) find_overlaps(t, all, tests_pair, true);
+    });
+    // What overlaps none of those whose pairs it tested may overlap one that tested no more.
+    std::vector<int> found = all.triangles;
+    found.erase(std::remove_if(found.begin(), found.end(), [&](int t) { return !overlaps(t); }), found.end());
+    test_with(subset(std::move(found)), true);
+    return result();
   }
 
   /// Tests pairs with one of these only.
-  const std::vector<bool>& with(std::vector<int> some) {
-    find_overlaps(some, true);
+  std::vector<bool> with(std::vector<int> some) {
+    if (z_.size() == 0) return result();
+    test_with(subset(some), true);
     // Of these, what overlaps none of them may overlap others, which had found another of them first.
-    some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlapping_[t]; }), some.end());
-    find_overlaps(some, false);
-    return overlapping_;
+    some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlaps(t); }), some.end());
+    test_with(subset(std::move(some)), false);
+    return result();
   }
 
  private:
-  /// Asks every triangle which of `some` it overlaps; with `one_is_enough` only until there is one, so that faces which
-  /// are stacked a thousandfold do not cost a million pairs.
-  void find_overlaps(const std::vector<int>& some, bool one_is_enough) {
-    if (z_.size() == 0) return;
+  struct Subset {
+    std::vector<int> triangles;
+    std::vector<PlaneTriangle> placed;
+    BoxTree tree;
+  };
+
+  Subset subset(std::vector<int> triangles) const {
     std::vector<PlaneTriangle> placed;
     std::vector<PlaneBox> boxes;
-    placed.reserve(some.size());
-    boxes.reserve(some.size());
-    for (const int triangle : some) {
-      placed.push_back(place(static_cast<std::size_t>(triangle)));
-      boxes.push_back(box_of(static_cast<std::size_t>(triangle)));
+    placed.reserve(triangles.size());
+    boxes.reserve(triangles.size());
+    for (const int t : triangles) {
+      placed.push_back(place(t));
+      boxes.push_back(box_of(t));
     }
-    const BoxTree tree(boxes);
-    const bool all = some.size() == triangles_.size();
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (one_is_enough && overlapping_[t]) continue;
-      std::optional<PlaneTriangle> own;
-      tree.for_each_meeting(box_of(t), [&](int k) {
-        const auto other = static_cast<std::size_t>(some[static_cast<std::size_t>(k)]);
-        if (other == t || (!face_.empty() && face_[other] == face_[t])) return true;
-        if (overlapping_[t] && overlapping_[other]) return true;
-        // It has met all triangles, this one among them, and overlapped none.
-        if (all && other < t && !overlapping_[other]) return true;
-        if (!own) own = place(t);
-        if (!overlap(*own, placed[static_cast<std::size_t>(k)])) return true;
-        overlapping_[t] = true;
-        overlapping_[other] = true;
-        return !one_is_enough;
-      });
-    }
+    return {std::move(triangles), std::move(placed), BoxTree(boxes)};
+  }
+
+  bool overlaps(std::size_t t) const { return overlapping_[t].load(std::memory_order_relaxed); }
+  void mark(std::size_t t) { overlapping_[t].store(true, std::memory_order_relaxed); }
+  std::vector<bool> result() const { return {overlapping_.begin(), overlapping_.end()}; }
+
+  template <class Work>
+  void for_each_triangle(const Work& work) const {
+    const std::size_t n = triangles_.size();
+    run_in_parallel(
+        static_cast<int>((n + tested_at_once - 1) / tested_at_once), max_testing_threads,
+        [&](int part, const Progress&) {
+          const std::size_t first = static_cast<std::size_t>(part) * tested_at_once;
+          for (std::size_t t = first; t < std::min(n, first + tested_at_once); ++t) work(t);
+        },
+        {}, "");
+  }
+
+  /// Asks every triangle, or with `one_is_enough` those not found yet, which of `some` it overlaps.
+  void test_with(const Subset& some, bool one_is_enough) {
+    if (some.triangles.empty()) return;
+    const auto any = [](std::size_t, std::size_t) { return true; };
+    for_each_triangle([&](std::size_t t) {
+      if (!one_is_enough || !overlaps(t)) find_overlaps(t, some, any, one_is_enough);
+    });
+  }
+
+  /// Marks a triangle and those of `some` that it overlaps, all or one.
+  template <class Tested>
+  void find_overlaps(std::size_t t, const Subset& some, const Tested& is_tested, bool one_is_enough) {
+    std::optional<PlaneTriangle> own;
+    some.tree.for_each_meeting(box_of(t), [&](int k) {
+      const auto other = static_cast<std::size_t>(some.triangles[static_cast<std::size_t>(k)]);
+      if (other == t || (!face_.empty() && face_[other] == face_[t])) return true;
+      if (!is_tested(t, other) || (overlaps(t) && overlaps(other))) return true;
+      if (!own) own = place(t);
+      if (!overlap(*own, some.placed[static_cast<std::size_t>(k)])) return true;
+      mark(t);
+      mark(other);
+      return !one_is_enough;
+    });
   }
 
   PlaneTriangle place(std::size_t t) const {
@@ -141,7 +190,7 @@ class OverlapTest {
   const std::vector<int>& face_;
   double resolution_;
   ComplexVector z_;  ///< empty where the map has no extent
-  std::vector<bool> overlapping_;
+  std::vector<std::atomic<bool>> overlapping_;
 };
 
 }  // namespace
@@ -160,10 +209,10 @@ std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, d
   }
   std::vector<bool> overlapping;
   // Without a consistent orientation the edges within the chart do not cancel.
-  if (chart.orientable && has_degree_at_most_one(chart.boundary_loops, z)) {
-    std::vector<int> non_positive = non_positive_triangles(triangles, z);
-    if (non_positive.empty()) return {};
-    overlapping = OverlapTest(triangles, z, face, resolution).with(std::move(non_positive));
+  if (chart.orientable) {
+    std::vector<int> suspects = overlap_suspects(triangles, chart.boundary_loops, z);
+    if (suspects.empty()) return {};
+    overlapping = OverlapTest(triangles, z, face, resolution).with(std::move(suspects));
   } else {
     overlapping = OverlapTest(triangles, z, face, resolution).among_all();
   }

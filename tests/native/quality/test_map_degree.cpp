@@ -148,6 +148,43 @@ TEST_CASE("collapsed maps are not injective, tiny ones are") {
   CHECK(certainly_injective(patch, 1e-200 * flat));
 }
 
+TEST_CASE("suspects are those on which the boundary lies, those covered twice, and those that are flipped") {
+  const auto suspects = [](const Patch& patch, const ComplexVector& z) {
+    return overlap_suspects(patch.chart.triangles, patch.chart.boundary_loops, z);
+  };
+  const auto is_among = [](int t, const std::vector<int>& some) {
+    return std::binary_search(some.begin(), some.end(), t);
+  };
+  // A strip that ends on its own beginning: far from the end nothing is suspected, but what overlaps is.
+  for (const int width : {1, 4}) {
+    CAPTURE(width);
+    const Patch strip(flat_grid(40, width));
+    const ComplexVector bent_back = mapped(strip, bent(0.17, 0.5 * width));
+    const std::vector<bool> overlapping = overlapping_triangles(strip.chart.triangles, bent_back);
+    const std::vector<int> found = suspects(strip, bent_back);
+    for (int t = 0; t < static_cast<int>(overlapping.size()); ++t) {
+      if (overlapping[t]) CHECK(is_among(t, found));
+    }
+    CHECK(found.size() < overlapping.size() / 2);
+    CHECK(suspects(strip, mapped(strip, bent(0.14, 0.5 * width))).empty());
+  }
+  // Where a map winds twice, the boundary meets no more than a few triangles.
+  const Patch annulus(perforated_grid(3, 3));
+  ComplexVector squared = flat_map(annulus.positions);
+  for (Complex& p : squared) p = (p - Complex(1.5, 1.5)) * (p - Complex(1.5, 1.5));
+  CHECK(suspects(annulus, squared).size() == annulus.chart.triangles.size());
+  // The outline of two patches that touch in a corner is not simple, but covers nothing twice.
+  Mesh mesh = flat_grid(8, 8);
+  const Patch patch(mesh);
+  ComplexVector touching = flat_map(patch.positions);
+  const BoundaryLoop& loop = patch.outer();
+  const Complex opposite = touching[loop[loop.size() / 2]];
+  touching[loop[0]] = opposite;
+  CHECK_FALSE(has_degree_at_most_one(patch.chart.boundary_loops, touching));
+  CHECK_FALSE(suspects(patch, touching).empty());
+  CHECK(suspects(patch, flat_map(patch.positions).conjugate()).size() == patch.chart.triangles.size());
+}
+
 TEST_CASE("agrees with the test of all triangles on random maps") {
   int injective = 0;
   int unseen_by_flips = 0;

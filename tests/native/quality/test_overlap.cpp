@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "meshes.h"
+#include "quality/box_tree.h"
 #include "quality/overlap.h"
+#include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -152,6 +154,43 @@ TEST_CASE("a quad that folds over covers itself only, unless it reaches its neig
   CHECK(overlapping_faces(patch.chart, z).empty());
   z[0] = Complex(1.4, 0.5);
   CHECK(overlapping_faces(patch.chart, z) == std::vector<int>{0, 1});
+}
+
+TEST_CASE("what many threads find together is what each pair tells") {
+  // Ten thousand triangles on several layers, shifted so that most overlap some of another layer.
+  const Patch patch(flat_grid(40, 32));
+  const auto n = static_cast<int>(patch.positions.rows());
+  Triangles triangles;
+  constexpr int layers = 4;
+  ComplexVector z(layers * n);
+  for (int layer = 0; layer < layers; ++layer) {
+    for (const auto& [a, b, c] : patch.chart.triangles) {
+      triangles.push_back({a + layer * n, b + layer * n, c + layer * n});
+    }
+    z.segment(layer * n, n) = (flat_map(patch.positions).array() + 35.25 * layer).matrix();
+  }
+  REQUIRE(triangles.size() > 8192);
+  const std::vector<bool> found = overlapping_triangles(triangles, z);
+  {
+    const ThreadLimit alone(1);
+    CHECK(overlapping_triangles(triangles, z) == found);
+  }
+  const auto box = [&](const std::array<int, 3>& triangle) {
+    PlaneBox result{{z[triangle[0]].real(), z[triangle[0]].imag()}, {z[triangle[0]].real(), z[triangle[0]].imag()}};
+    for (const int v : triangle) result.include({{z[v].real(), z[v].imag()}, {z[v].real(), z[v].imag()}});
+    return result;
+  };
+  int n_overlapping = 0;
+  for (std::size_t t = 0; t < triangles.size(); t += 41) {
+    bool expected = false;
+    for (std::size_t other = 0; other < triangles.size() && !expected; ++other) {
+      if (other == t || !box(triangles[t]).meets(box(triangles[other]))) continue;
+      expected = overlapping_triangles({triangles[t], triangles[other]}, z)[0];
+    }
+    CHECK(found[t] == expected);
+    n_overlapping += expected ? 1 : 0;
+  }
+  CHECK((n_overlapping > 20 && n_overlapping < 200));
 }
 
 TEST_CASE("no triangles") { CHECK(overlapping_triangles({}, {}).empty()); }
