@@ -23,15 +23,21 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
   Components result;
   result.chart_of_face.assign(static_cast<std::size_t>(mesh.n_faces), -1);
   result.reversed.assign(static_cast<std::size_t>(mesh.n_faces), 0);
-  std::vector<int> queue;
+  std::vector<char> seed_is_reversed;  // per chart: its first face, against the majority
+  std::vector<int> open;               // the last first: what it leads to is near in memory
   for (int seed = 0; seed < mesh.n_faces; ++seed) {
     if (!half_edges.is_used(seed) || result.chart_of_face[seed] >= 0) continue;
     const int chart = static_cast<int>(result.faces.size());
     bool orientable = true;
-    queue.assign(1, seed);
+    std::ptrdiff_t n_faces = 0;
+    std::ptrdiff_t n_reversed = 0;
+    open.assign(1, seed);
     result.chart_of_face[seed] = chart;
-    for (std::size_t head = 0; head < queue.size(); ++head) {
-      const int face = queue[head];
+    while (!open.empty()) {
+      const int face = open.back();
+      open.pop_back();
+      ++n_faces;
+      n_reversed += result.reversed[face];
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
         if (half_edges.twin(c) < 0) continue;
         const int other = half_edges.face(half_edges.twin(c));
@@ -40,22 +46,22 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
         if (result.chart_of_face[other] < 0) {
           result.chart_of_face[other] = chart;
           result.reversed[other] = reversed;
-          queue.push_back(other);
+          open.push_back(other);
         } else if (result.reversed[other] != reversed) {
           orientable = false;
         }
       }
     }
-    const auto against = std::count_if(queue.begin(), queue.end(), [&](int face) { return result.reversed[face]; });
-    if (2 * against > static_cast<std::ptrdiff_t>(queue.size())) {
-      for (const int face : queue) result.reversed[face] = static_cast<char>(1 - result.reversed[face]);
-    }
+    seed_is_reversed.push_back(2 * n_reversed > n_faces ? 1 : 0);
     result.faces.emplace_back();
-    result.faces.back().reserve(queue.size());
+    result.faces.back().reserve(static_cast<std::size_t>(n_faces));
     result.orientable.push_back(orientable ? 1 : 0);
   }
   for (int face = 0; face < mesh.n_faces; ++face) {
-    if (result.chart_of_face[face] >= 0) result.faces[result.chart_of_face[face]].push_back(face);
+    const int chart = result.chart_of_face[face];
+    if (chart < 0) continue;
+    result.faces[chart].push_back(face);
+    if (seed_is_reversed[chart] != 0) result.reversed[face] = static_cast<char>(1 - result.reversed[face]);
   }
   return result;
 }

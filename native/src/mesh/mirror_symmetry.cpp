@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/parallel_calls.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -238,16 +240,18 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
   const VertexFaces faces(mesh);
-  int max_matched = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    MirrorSymmetry candidate{axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
-    match_vertices(mesh, points, used, nearby, faces, candidate);
-    const int matched = match_faces(mesh, faces, candidate);
-    if (matched <= max_matched) continue;
-    max_matched = matched;
-    best = std::move(candidate);
-  }
-  return best;
+  std::array<MirrorSymmetry, 3> candidates;
+  std::array<int, 3> matched{};
+  run_in_parallel(
+      3, 3,
+      [&](int axis, const Progress&) {
+        candidates[axis] = {axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
+        match_vertices(mesh, points, used, nearby, faces, candidates[axis]);
+        matched[axis] = match_faces(mesh, faces, candidates[axis]);
+      },
+      {}, "");
+  const auto most = std::max_element(matched.begin(), matched.end());  // the first axis of equals
+  return *most > 0 ? std::move(candidates[most - matched.begin()]) : best;
 }
 
 }  // namespace spectral_conformal

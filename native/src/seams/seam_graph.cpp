@@ -59,7 +59,8 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
     std::array<int, 2> vertices;
     int face;
     bool operator<(const Side& other) const {
-      return vertices != other.vertices ? vertices < other.vertices : face < other.face;
+      if (vertices[0] != other.vertices[0]) return vertices[0] < other.vertices[0];
+      return vertices[1] != other.vertices[1] ? vertices[1] < other.vertices[1] : face < other.face;
     }
   };
   std::vector<Side> sides;

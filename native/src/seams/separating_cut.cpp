@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "graph/maximum_flow.h"
+#include "graph/parallel_calls.h"
 #include "graph/shortest_paths.h"
 
 namespace spectral_conformal {
@@ -19,6 +20,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leeway = 0.3;
 /// Nor by more faces than this on either side of it: minimum cuts of charts of 500,000 faces took 20 seconds each.
 constexpr std::ptrdiff_t most_faces = 20000;
+/// A thread takes as long to start as the distances of a tenth of so many faces to find.
+constexpr std::size_t few_faces = 10000;
 
 /// The faces in rising order of the level function.
 std::vector<int> in_order(const std::vector<double>& level) {
@@ -121,8 +124,12 @@ std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
                                   const std::vector<int>& sinks, double min_fraction) {
   std::vector<char> side(faces.size(), 0);
-  std::vector<double> level = face_distances(faces, sources);
-  const std::vector<double> from_sinks = face_distances(faces, sinks);
+  std::vector<double> level;
+  std::vector<double> from_sinks;
+  run_in_parallel(
+      2, faces.size() > few_faces ? 2 : 1,
+      [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
+      {}, "");
   double low = -infinite;
   double high = infinite;
   for (std::size_t f = 0; f < level.size(); ++f) {
