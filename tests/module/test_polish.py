@@ -148,10 +148,11 @@ def test_it_can_be_cancelled_and_is_reported():
 
 @pytest.mark.parametrize("seed", [1, 5])
 def test_no_island_covers_itself_that_did_not_before(seed):
-    # Without regard to the border, 7 faces of either mesh cover others.
+    # Without regard to the border, 7 and 10 faces cover others.
     body = meshes.limbs(1200, 6, seed)
     seams = sc.suggest_seams(*body, scale_limit=3, energy_limit=9, qc_limit=1.6)
     plain, polished = (sc.unwrap(*body, seam_edges=seams, polish=polish).charts for polish in (False, True))
     assert sum(chart.overlapping for chart in plain) == 0
     assert sum(chart.overlapping for chart in polished) == 0
-    assert all(chart.polish_steps > 0 for chart in polished)
+    # Two triangles are flat in any map of theirs.
+    assert all(chart.polish_steps > 0 for chart in polished if len(chart.faces) > 2)

@@ -31,6 +31,8 @@ constexpr double qc_weight = 5;
 /// Of several cuts that part a chart's defects those are preferred that remove at least this fraction of them and raise
 /// the distortion by no more than this factor.
 constexpr double min_removed = 0.5;
+/// Where none does, the cuts that remove less are made together if these remove at least this fraction.
+constexpr double min_removed_together = 0.25;
 constexpr double distortion_for_parting = 1.05;
 /// Cuts that may part a chart's defects are tried in fours, the shortest first.
 constexpr std::size_t parted_at_once = 4;
@@ -69,7 +71,7 @@ constexpr std::int64_t sewing_vertices = 80000;
 /// times its vertices were solved for, the map with these seams included; then only those are left that part defects. A
 /// copy has cut as far as that pays; what is left on a rough surface of a million faces took minutes and gained 1 % of
 /// energy. For the same reason only the few worst regions are cut to.
-constexpr std::int64_t refined_patience = 3;
+constexpr std::int64_t refined_patience = 2;
 /// Flaps of a few faces are cut out of its large charts. Where there is more that overlaps, charts with more than
 /// `few_vertices` are halved after so many steps that part defects, after the next those with half as many, and so on:
 /// noise flips faces all over, of which cuts chosen by trials remove a few.
@@ -568,7 +570,12 @@ Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, c
     if (!result.cut.empty() && seams_.length(result.cut) <= longest) return result;
     result.cut.clear();
   }
-  const double before = extent_of(*charts_[static_cast<std::size_t>(chart)], faces, quality_.area);
+  const TrialMap& parted = *charts_[static_cast<std::size_t>(chart)];
+  const double before = extent_of(parted, faces, quality_.area);
+  const double highest = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
+  std::vector<int> defects;
+  defects.reserve(faces.size());
+  for (const int face : faces) defects.push_back(parted.chart.faces[static_cast<std::size_t>(face)]);
   for (const bool at_any_price : {false, true}) {
     std::vector<SeamEdges> cuts =
         at_any_price ? candidates.cuts_apart(chart, faces) : candidates.cuts_between(chart, faces);
@@ -579,22 +586,19 @@ Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, c
     // The shortest first: what is left cannot win once its price is higher than the best score allows.
     std::stable_sort(proposals.begin(), proposals.end(),
                      [&](const Proposal& a, const Proposal& b) { return seams_.length(a.cut) < seams_.length(b.cut); });
-    const double highest = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
     Trial best;
     double best_score = 0;
+    std::vector<PartCut> some;
     for (std::size_t first = 0; first < proposals.size(); first += parted_at_once) {
       if (best_score * price(proposals[first].cut) >= 1) break;
       std::vector<Trial> trials(std::min(parted_at_once, proposals.size() - first));
-      std::vector<double> left(trials.size(), 0);
+      std::vector<Defects> left(trials.size());
       try_in_parallel(
           trials.size(),
           [&](int i, const Progress& going_on) {
             const auto k = static_cast<std::size_t>(i);
             trials[k] = attempt(proposals[first + k].cut, {}, going_on);
-            for (const auto& mapped : trials[k].charts) {
-              if (contains(charts_, mapped)) continue;
-              left[k] += mapped->solved ? extent_of(*mapped, defective_faces(*mapped), quality_.area) : before;
-            }
+            left[k] = defects_left(trials[k], before);
           },
           progress);
       for (const Trial& trial : trials) {
@@ -605,9 +609,16 @@ Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, c
         }
       }
       for (std::size_t k = 0; k < trials.size(); ++k) {
-        const double removed = (before - left[k]) / before;
+        const double removed = (before - left[k].extent) / before;
         const bool is_fine = removed >= min_removed && trials[k].quality.distortion() <= highest;
-        if (!at_any_price && !is_fine) continue;
+        if (!at_any_price && !is_fine) {
+          if (removed > 0 && trials[k].quality.distortion() <= highest) {
+            some.push_back({trials[k].cut, {}});
+            std::set_difference(defects.begin(), defects.end(), left[k].faces.begin(), left[k].faces.end(),
+                                std::back_inserter(some.back().removed));
+          }
+          continue;
+        }
         // What parts the chart always counts: a single face is neither flipped nor covers itself.
         const double score =
             (is_fine ? 1 : 1e-3) * std::max(removed, makes_islands(trials[k]) ? 1e-3 : 0.0) / price(trials[k].cut);
@@ -616,12 +627,61 @@ Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, c
         best = std::move(trials[k]);
       }
     }
+    if (best.cut.empty() && some.size() > 1) {
+      SeamEdges cut = cut_together(some, parted);
+      if (seams_.length(cut) <= longest) {
+        Trial together = attempt(std::move(cut), {}, progress);
+        const double removed = (before - defects_left(together, before).extent) / before;
+        if (removed >= min_removed_together && together.quality.distortion() <= highest) best = std::move(together);
+      }
+    }
     if (best.cut.empty()) continue;
     result.cut = std::move(best.cut);
     result.charts = std::move(best.charts);
     break;
   }
   return result;
+}
+
+/// In the charts that a trial changes; one without a map counts as much as `unsolved`.
+Cutter::Defects Cutter::defects_left(const Trial& trial, double unsolved) const {
+  Defects result;
+  for (const auto& mapped : trial.charts) {
+    if (contains(charts_, mapped)) continue;
+    const std::vector<int> faces = defective_faces(*mapped);
+    result.extent += mapped->solved ? extent_of(*mapped, faces, quality_.area) : unsolved;
+    for (const int face : faces) result.faces.push_back(mapped->chart.faces[static_cast<std::size_t>(face)]);
+  }
+  std::sort(result.faces.begin(), result.faces.end());
+  return result;
+}
+
+/// Each part of a chart's defects has a cut of its own: those that remove most for their price, until none removes
+/// more.
+SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts, const TrialMap& parted) const {
+  SeamEdges all;
+  std::set<int> removed;
+  const auto extent = [&](int face) {
+    const auto at = std::lower_bound(parted.chart.faces.begin(), parted.chart.faces.end(), face);
+    return parted.area[static_cast<std::size_t>(at - parted.chart.faces.begin())] + 1e-9 * quality_.area;
+  };
+  while (true) {
+    const PartCut* best = nullptr;
+    double best_score = 0;
+    for (const PartCut& cut : cuts) {
+      double more = 0;
+      for (const int face : cut.removed) {
+        if (removed.count(face) == 0) more += extent(face);
+      }
+      const double score = more / price(cut.cut);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = &cut;
+    }
+    if (best == nullptr) return all;
+    removed.insert(best->removed.begin(), best->removed.end());
+    add_new(best->cut, all);
+  }
 }
 
 /// Where there is no map to tell what to cut. What cannot be unwrapped at all is cut whatever the length.

@@ -66,6 +66,16 @@ class Cutter {
     TrialMaps charts;  ///< the maps that it leads to
     TrialMaps tried;   ///< those of its trials, as far as they are few
   };
+  /// Faces of the piece that cover others or are flipped, ascending, and their area.
+  struct Defects {
+    std::vector<int> faces;
+    double extent = 0;
+  };
+  /// A cut that removes some of a chart's defects, and the faces that are in none any more, ascending.
+  struct PartCut {
+    SeamEdges cut;
+    std::vector<int> removed;
+  };
   /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
@@ -102,6 +112,8 @@ class Cutter {
   SeamEdges part_defects(double longest, const Progress& progress);
   Parting part_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces, double longest,
                      std::int64_t remembered, const Progress& progress) const;
+  Defects defects_left(const Trial& trial, double unsolved) const;
+  SeamEdges cut_together(const std::vector<PartCut>& cuts, const TrialMap& parted) const;
   SeamEdges blind_cut(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   int max_blind() const;

@@ -32,6 +32,40 @@ Mesh long_arms() {
   });
 }
 
+/// Ramps of one and a half turns, flat but for a slight rise, side by side on a strip: each covers itself and the
+/// strip.
+Mesh ramps(int n) {
+  Mesh mesh;
+  constexpr int per_turn = 32;
+  const int columns = 14 * n;
+  const auto on_strip = [&](int i, int j) { return j * (columns + 1) + i; };
+  for (int j = 0; j <= 2; ++j) {
+    for (int i = 0; i <= columns; ++i) mesh.points.emplace_back(0.5 * i, 0.5 * j - 1, 0);
+  }
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      mesh.add({on_strip(i, j), on_strip(i + 1, j), on_strip(i + 1, j + 1), on_strip(i, j + 1)});
+    }
+  }
+  for (int ramp = 0; ramp < n; ++ramp) {
+    const double centre = 7 * ramp + 3;
+    std::array<int, 3> before{};
+    for (int r = 0; r < 3; ++r) before[r] = on_strip(2 * (7 * ramp + 4) + r, 2);
+    for (int step = 1; step <= 3 * per_turn / 2; ++step) {
+      const double angle = 2 * pi * step / per_turn;
+      std::array<int, 3> after{};
+      for (int r = 0; r < 3; ++r) {
+        after[r] = static_cast<int>(mesh.points.size());
+        mesh.points.emplace_back(centre + (1 + 0.5 * r) * std::cos(angle), (1 + 0.5 * r) * std::sin(angle),
+                                 0.01 * step);
+      }
+      for (int r = 0; r < 2; ++r) mesh.add({before[r], before[r + 1], after[r + 1], after[r]});
+      before = after;
+    }
+  }
+  return mesh;
+}
+
 TrialMaps maps_of(const Piece& piece, const std::vector<std::array<int, 2>>& seams) {
   PolygonMesh view = piece.view();
   view.seam_edges = seams.data();
@@ -119,6 +153,23 @@ TEST_CASE("of a large piece whose copy was cut already, less is solved for, and 
     }
     CHECK(solved[1] < solved[0]);
   }
+}
+
+TEST_CASE("many places where a chart covers itself are cut in one step, though each cut removes one") {
+  const Mesh mesh = ramps(5);
+  std::vector<Piece> pieces;
+  SeamSuggestionOptions options;
+  options.qc_limit = options.energy_limit = options.scale_limit = 1e6;  // the map is as good as can be
+  Cutter cutter(opened(mesh, pieces), options);
+  cutter.solve({});
+  REQUIRE(cutter.quality().solved);
+  REQUIRE_FALSE(is_sound(maps_of(pieces[0], cutter.seams().with({}))));
+  CHECK_FALSE(cutter.step(unlimited, {}).empty());
+  CHECK(maps_of(pieces[0], cutter.seams().with({})).size() == 6);
+  int steps = 1;
+  while (!cutter.step(unlimited, {}).empty()) ++steps;
+  CHECK(steps <= 3);
+  CHECK(is_sound(maps_of(pieces[0], cutter.seams().with({}))));
 }
 
 TEST_CASE("in the end no chart covers itself or has a flipped face, and no seam is left that can be sewn up") {
