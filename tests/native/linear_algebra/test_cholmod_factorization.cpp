@@ -59,11 +59,13 @@ TEST_CASE("large matrices are dissected where their rows lie in space, unless it
     for (const Positions* const positions : given) {
       const auto factorization = make_cholmod_factorization();
       factorization->analyze(matrix, positions);
+      nonzeros.push_back(factorization->factor_nonzeros());
+      // The other two orders are that of smaller matrices, and take minutes under the sanitizers.
+      if (positions != &patch.positions) continue;
       REQUIRE(factorization->factorize(matrix));
       ComplexVector x;
       factorization->solve(b, x);
       CHECK(difference(x, expected) < 1e-12);
-      nonzeros.push_back(factorization->factor_nonzeros());
     }
     // With quads, whose order AMD may find by luck, it saves multiplications, not memory.
     CHECK(nonzeros[1] < (mesh.offsets[1] == 3 ? 0.98 : 1.1) * nonzeros[0]);
