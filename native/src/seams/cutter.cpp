@@ -79,11 +79,12 @@ constexpr int max_chosen_partings = 1;
 constexpr int min_halved = 300;
 /// The least cost of sewing, as a fraction of the distortion that is allowed: what costs less is free.
 constexpr double least_loss = 0.02;
-/// A piece that no map serves after this number of blind cuts has its charts halved until all have a map: sooner where
-/// a coarse copy was solved already. Only what cannot be halved gets the map that fallbacks make, which took half a
-/// minute on isosurfaces of 3,000 faces with handles, for charts that were cut up all the same.
+/// A piece that no map serves after this number of blind cuts has its charts halved until all have a map: at once where
+/// a coarse copy was solved already, with all the cuts that topology needs. Only what cannot be halved gets the map
+/// that fallbacks make, which took half a minute on isosurfaces of 3,000 faces with handles, for charts that were cut
+/// up all the same.
 constexpr int max_blind_cuts = 30;
-constexpr int max_blind_cuts_refined = 2;
+constexpr int max_blind_cuts_refined = 0;
 
 /// The area of some faces, each of which counts with a little of the whole, so that slivers count.
 double extent_of(const TrialMap& mapped, const std::vector<int>& faces, double whole) {
