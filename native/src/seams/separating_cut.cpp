@@ -21,7 +21,7 @@ constexpr double leeway = 0.3;
 /// Nor by more faces than this on either side of it: minimum cuts of charts of 500,000 faces took 20 seconds each.
 constexpr std::ptrdiff_t most_faces = 20000;
 /// A thread takes as long to start as the distances of a tenth of so many faces to find.
-constexpr std::size_t few_faces = 10000;
+constexpr std::size_t faces_worth_a_thread = 10000;
 
 /// The faces in rising order of the level function.
 std::vector<int> in_order(const std::vector<double>& level) {
@@ -127,7 +127,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   std::vector<double> level;
   std::vector<double> from_sinks;
   run_in_parallel(
-      2, faces.size() > few_faces ? 2 : 1,
+      2, faces.size() > faces_worth_a_thread ? 2 : 1,
       [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
       {}, "");
   double low = -infinite;
