@@ -20,17 +20,9 @@ void for_each_index(std::size_t n, const Work& work) {
   // Threads are not worth their start for fewer.
   constexpr std::size_t at_once = 20000;
   constexpr unsigned max_threads = 16;
-  const auto work_on_part = [&](std::size_t part) {
-    const std::size_t end = std::min(n, (part + 1) * at_once);
-    for (std::size_t i = part * at_once; i < end; ++i) work(i);
-  };
-  if (n <= at_once) {
-    work_on_part(0);
-    return;
-  }
-  run_in_parallel(
-      static_cast<int>((n + at_once - 1) / at_once), max_threads,
-      [&](int part, const Progress&) { work_on_part(static_cast<std::size_t>(part)); }, {}, "");
+  run_blocks_in_parallel(n, at_once, max_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i);
+  });
 }
 
 }  // namespace

@@ -20,11 +20,6 @@ constexpr double relative_reach = 0.25;
 /// at random, 1 left mean QCs of up to 45 where this leaves 1.003.
 constexpr double weight_of_all = 1e-4;
 
-PlaneBox box_of(Complex a, Complex b) {
-  return {{std::min(a.real(), b.real()), std::min(a.imag(), b.imag())},
-          {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())}};
-}
-
 PlaneBox grown(PlaneBox box, double by) {
   for (int k = 0; k < 2; ++k) {
     box.low[k] -= by;
@@ -90,15 +85,13 @@ std::vector<BoundaryBarrier::Pair> BoundaryBarrier::pairs_near(const ComplexVect
   std::vector<PlaneBox> ways;
   ways.reserve(edges_.size());
   for (const auto& [from, to, length] : edges_) {
-    PlaneBox way = box_of(z[from], z[to]);
-    way.include(box_of(z[from] + step[from], z[to] + step[to]));
-    ways.push_back(way);
+    ways.push_back(PlaneBox::of({z[from], z[to], z[from] + step[from], z[to] + step[to]}));
   }
   const BoxTree tree(ways);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const int vertex = edges_[i].from;
-    tree.for_each_meeting(grown(box_of(z[vertex], z[vertex] + step[vertex]), reach_[i]), [&](int k) {
+    tree.for_each_meeting(grown(PlaneBox::of({z[vertex], z[vertex] + step[vertex]}), reach_[i]), [&](int k) {
       const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
       if (from != vertex && to != vertex) {
         pairs.push_back({vertex, from, to, std::min(reach_[i], relative_reach * length)});

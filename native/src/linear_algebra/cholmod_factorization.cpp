@@ -120,13 +120,10 @@ class LeafOrdering {
     for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
     constexpr int leaves_at_once = 32;
     const int n_leaves = static_cast<int>(dissection.leaves.size());
-    run_in_parallel((n_leaves + leaves_at_once - 1) / leaves_at_once, max_ordering_threads,
-                    [&](int i, const Progress&) {
-                      Workspace workspace;
-                      const int end = std::min(n_leaves, (i + 1) * leaves_at_once);
-                      for (int k = i * leaves_at_once; k < end; ++k) order(dissection_.leaves[k], workspace);
-                    },
-                    {}, "");
+    run_blocks_in_parallel(n_leaves, leaves_at_once, max_ordering_threads, [&](int begin, int end) {
+      Workspace workspace;
+      for (int k = begin; k < end; ++k) order(dissection_.leaves[k], workspace);
+    });
   }
 
  private:

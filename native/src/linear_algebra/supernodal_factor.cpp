@@ -227,12 +227,9 @@ void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& g
   std::vector<double> cost(n_super);
   const auto for_each_supernode = [&](const auto& visit) {
     constexpr int supernodes_at_once = 2000;
-    run_in_parallel((n_super + supernodes_at_once - 1) / supernodes_at_once, n_threads(n(), min_columns_to_share),
-                    [&](int block, const Progress&) {
-                      const int end = std::min(n_super, (block + 1) * supernodes_at_once);
-                      for (int k = block * supernodes_at_once; k < end; ++k) visit(k);
-                    },
-                    {}, "");
+    run_blocks_in_parallel(n_super, supernodes_at_once, n_threads(n(), min_columns_to_share), [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) visit(k);
+    });
   };
   for_each_supernode([&](int k) {
     const double width = columns(k);

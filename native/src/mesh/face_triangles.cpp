@@ -72,19 +72,16 @@ FaceTriangles triangulate_faces(const PolygonMesh& mesh) {
   FaceTriangles result;
   result.corners.resize(static_cast<std::size_t>(first_triangle.back()));
   result.face.resize(result.corners.size());
-  run_in_parallel((mesh.n_faces + faces_at_once - 1) / faces_at_once, max_triangulating_threads,
-                  [&](int block, const Progress&) {
-                    FaceSplitter splitter(mesh);
-                    const int end = std::min(mesh.n_faces, (block + 1) * faces_at_once);
-                    for (int face = block * faces_at_once; face < end; ++face) {
-                      const int first = first_triangle[face];
-                      const int last = first_triangle[face + 1];
-                      if (first == last) continue;
-                      splitter.split(face, result.corners.data() + first);
-                      std::fill(result.face.begin() + first, result.face.begin() + last, face);
-                    }
-                  },
-                  {}, "triangles");
+  run_blocks_in_parallel(mesh.n_faces, faces_at_once, max_triangulating_threads, [&](int begin, int end) {
+    FaceSplitter splitter(mesh);
+    for (int face = begin; face < end; ++face) {
+      const int first = first_triangle[face];
+      const int last = first_triangle[face + 1];
+      if (first == last) continue;
+      splitter.split(face, result.corners.data() + first);
+      std::fill(result.face.begin() + first, result.face.begin() + last, face);
+    }
+  });
   return result;
 }
 

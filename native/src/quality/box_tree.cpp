@@ -17,6 +17,13 @@ void PlaneBox::include(const PlaneBox& other) {
   }
 }
 
+PlaneBox PlaneBox::of(std::initializer_list<Complex> points) {
+  const Complex first = *points.begin();
+  PlaneBox result{{first.real(), first.imag()}, {first.real(), first.imag()}};
+  for (const Complex p : points) result.include({{p.real(), p.imag()}, {p.real(), p.imag()}});
+  return result;
+}
+
 BoxTree::BoxTree(const std::vector<PlaneBox>& boxes) {
   leaves_.reserve(boxes.size());
   for (const PlaneBox& box : boxes) leaves_.push_back({box, static_cast<int>(leaves_.size())});

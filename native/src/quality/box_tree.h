@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <vector>
+
+#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
@@ -14,6 +17,8 @@ struct PlaneBox {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];
   }
   void include(const PlaneBox& other);
+  /// The smallest one that holds some points of the plane, one at least.
+  static PlaneBox of(std::initializer_list<Complex> points);
 };
 
 /// A balanced binary tree of boxes, built in O(n log n), that finds those which meet a given one.

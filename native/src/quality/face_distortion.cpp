@@ -201,13 +201,10 @@ FaceDistortion measured(const PolygonMesh& mesh, const Real* corner_uv) {
   FaceDistortion result;
   result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  run_in_parallel((mesh.n_faces + block_size - 1) / block_size, max_measuring_threads,
-                  [&](int block, const Progress&) {
-                    FaceMeasure<Real> measure(mesh, corner_uv);
-                    const int end = std::min(mesh.n_faces, (block + 1) * block_size);
-                    for (int face = block * block_size; face < end; ++face) measure.measure(face, result);
-                  },
-                  {}, "distortion");
+  run_blocks_in_parallel(mesh.n_faces, block_size, max_measuring_threads, [&](int begin, int end) {
+    FaceMeasure<Real> measure(mesh, corner_uv);
+    for (int face = begin; face < end; ++face) measure.measure(face, result);
+  });
   return result;
 }
 

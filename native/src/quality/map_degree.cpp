@@ -1,7 +1,6 @@
 #include "quality/map_degree.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <limits>
 
 #include "geometry/orientation.h"
@@ -36,12 +35,6 @@ bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const Comp
   return on_one_side(first, second) || on_one_side(second, first);
 }
 
-PlaneBox box_of(std::initializer_list<Complex> points) {
-  PlaneBox result{{points.begin()->real(), points.begin()->imag()}, {points.begin()->real(), points.begin()->imag()}};
-  for (const Complex p : points) result.include({{p.real(), p.imag()}, {p.real(), p.imag()}});
-  return result;
-}
-
 /// The images of all boundary edges. The map must outlive this object.
 class Boundary {
  public:
@@ -66,7 +59,7 @@ class Boundary {
   /// Whether the inside of a counter-clockwise triangle is surely free of the boundary.
   bool is_off(const std::array<int, 3>& triangle) const {
     bool off = true;
-    tree_.for_each_meeting(box_of({z_[triangle[0]], z_[triangle[1]], z_[triangle[2]]}), [&](int i) {
+    tree_.for_each_meeting(PlaneBox::of({z_[triangle[0]], z_[triangle[1]], z_[triangle[2]]}), [&](int i) {
       off = is_off(triangle, edge(i));
       return off;
     });
@@ -100,7 +93,7 @@ class Boundary {
   static std::vector<PlaneBox> boxes_of(const std::vector<BoundaryEdge>& edges, const ComplexVector& z) {
     std::vector<PlaneBox> result;
     result.reserve(edges.size());
-    for (const BoundaryEdge& edge : edges) result.push_back(box_of({z[edge.from], z[edge.to]}));
+    for (const BoundaryEdge& edge : edges) result.push_back(PlaneBox::of({z[edge.from], z[edge.to]}));
     return result;
   }
   const BoundaryEdge& edge(int i) const { return edges_[static_cast<std::size_t>(i)]; }
@@ -192,16 +185,11 @@ class DegreeTest {
   static constexpr unsigned max_threads = 16;
 
   void find_triangles_off_the_boundary() {
-    const std::size_t n = triangles_.size();
-    run_in_parallel(
-        static_cast<int>((n + tested_at_once - 1) / tested_at_once), max_threads,
-        [&](int part, const Progress&) {
-          const std::size_t first = static_cast<std::size_t>(part) * tested_at_once;
-          for (std::size_t t = first; t < std::min(n, first + tested_at_once); ++t) {
-            is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
-          }
-        },
-        {}, "");
+    run_blocks_in_parallel(triangles_.size(), tested_at_once, max_threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
+      }
+    });
   }
   int inner_vertex(std::size_t t) const {
     const auto found =

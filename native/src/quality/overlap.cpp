@@ -130,14 +130,10 @@ class OverlapTest {
 
   template <class Work>
   void for_each_triangle(const Work& work) const {
-    const std::size_t n = triangles_.size();
-    run_in_parallel(
-        static_cast<int>((n + tested_at_once - 1) / tested_at_once), max_testing_threads,
-        [&](int part, const Progress&) {
-          const std::size_t first = static_cast<std::size_t>(part) * tested_at_once;
-          for (std::size_t t = first; t < std::min(n, first + tested_at_once); ++t) work(t);
-        },
-        {}, "");
+    run_blocks_in_parallel(triangles_.size(), tested_at_once, max_testing_threads,
+                           [&](std::size_t begin, std::size_t end) {
+                             for (std::size_t t = begin; t < end; ++t) work(t);
+                           });
   }
 
   /// Asks every triangle, or with `one_is_enough` those not found yet, which of `some` it overlaps.
@@ -171,11 +167,8 @@ class OverlapTest {
   }
 
   PlaneBox box_of(std::size_t t) const {
-    const Complex a = z_[triangles_[t][0]];
-    const Complex b = z_[triangles_[t][1]];
-    const Complex c = z_[triangles_[t][2]];
-    return {{std::min({a.real(), b.real(), c.real()}), std::min({a.imag(), b.imag(), c.imag()})},
-            {std::max({a.real(), b.real(), c.real()}), std::max({a.imag(), b.imag(), c.imag()})}};
+    const auto& [a, b, c] = triangles_[t];
+    return PlaneBox::of({z_[a], z_[b], z_[c]});
   }
 
   bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {

@@ -34,7 +34,7 @@ constexpr int max_relaxations = 3;
 constexpr std::size_t max_faces_around = 14;
 /// Merges of this number of vertices are looked for in one call, and of this fraction of all in parallel before any is
 /// made: of more, more would be looked for in vain, because merges near them come first.
-constexpr int searched_at_once = 512;
+constexpr std::ptrdiff_t searched_at_once = 512;
 constexpr int searched_fraction = 64;
 /// Vertices of one call that updates costs.
 constexpr int costs_at_once = 8192;
@@ -66,6 +66,12 @@ struct Merge {
   double cost;
   int vertex;
   bool operator<(const Merge& other) const { return cost != other.cost ? cost < other.cost : vertex < other.vertex; }
+};
+
+/// What a vertex can be merged into.
+struct Target {
+  bool was_searched = false;
+  int vertex = -1;  ///< -1 for none
 };
 
 /// Of a polygon, in their order.
@@ -134,7 +140,7 @@ class ShrinkingMesh {
   void update_costs();
   int best_neighbour(int v, Fan& fan) const;
   bool is_worth_a_search(int v) const;
-  void search(const Merge* merges, std::size_t n, std::vector<int>& into) const;
+  std::vector<Target> search(const Merge* merges, std::ptrdiff_t n) const;
   void merge(int v, int w);
   void merge_with_image(int v, int w);
   template <class Visit>
@@ -450,14 +456,11 @@ void ShrinkingMesh::relax() {
 /// Of the vertices around which the last round changed something.
 void ShrinkingMesh::update_costs() {
   const int n = static_cast<int>(into_.size());
-  run_in_parallel((n + costs_at_once - 1) / costs_at_once, max_threads,
-                  [&](int part, const Progress&) {
-                    const int end = std::min(n, (part + 1) * costs_at_once);
-                    for (int v = part * costs_at_once; v < end; ++v) {
-                      if (into_[v] == v && changed_[v] == round_ - 1) cost_[v] = least_cost(v);
-                    }
-                  },
-                  {}, "");
+  run_blocks_in_parallel(n, costs_at_once, max_threads, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      if (into_[v] == v && changed_[v] == round_ - 1) cost_[v] = least_cost(v);
+    }
+  });
 }
 
 /// What failed fails again as long as nothing around it changes, and nothing is merged beside a merge of this round.
@@ -467,22 +470,17 @@ bool ShrinkingMesh::is_worth_a_search(int v) const {
   return changed != round_ && changed >= failed_[v];
 }
 
-/// Puts what each of n vertices is merged into, as things stand, in `into`; -1 where it cannot be, -2 where that was
-/// not worth a search.
-void ShrinkingMesh::search(const Merge* merges, std::size_t n, std::vector<int>& into) const {
-  into.assign(n, -2);
-  const auto n_calls = static_cast<int>((n + searched_at_once - 1) / searched_at_once);
-  run_in_parallel(
-      n_calls, max_threads,
-      [&](int call, const Progress&) {
-        Fan fan;
-        const std::size_t end = std::min(n, (static_cast<std::size_t>(call) + 1) * searched_at_once);
-        for (std::size_t i = static_cast<std::size_t>(call) * searched_at_once; i < end; ++i) {
-          const int v = merges[i].vertex;
-          if (is_worth_a_search(v)) into[i] = best_neighbour(v, fan);
-        }
-      },
-      {}, "");
+/// For each of n merges, as things stand; only those worth a search are searched for.
+std::vector<Target> ShrinkingMesh::search(const Merge* merges, std::ptrdiff_t n) const {
+  std::vector<Target> targets(static_cast<std::size_t>(n));
+  run_blocks_in_parallel(n, searched_at_once, max_threads, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    Fan fan;
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const int v = merges[i].vertex;
+      if (is_worth_a_search(v)) targets[static_cast<std::size_t>(i)] = {true, best_neighbour(v, fan)};
+    }
+  });
+  return targets;
 }
 
 int ShrinkingMesh::merge_round(int most) {
@@ -497,21 +495,21 @@ int ShrinkingMesh::merge_round(int most) {
   std::nth_element(merges.begin(), last, merges.end());
   std::sort(merges.begin(), last);
   const int before = n_left_;
-  const std::ptrdiff_t at_once = std::max(searched_at_once, n_left_ / searched_fraction);
-  std::vector<int> into;
+  const std::ptrdiff_t at_once = std::max<std::ptrdiff_t>(searched_at_once, n_left_ / searched_fraction);
   const auto merge_cheapest = [&](auto first, auto end, int enough) {
     while (first != end && before - n_left_ < enough) {
-      search(&*first, static_cast<std::size_t>(std::min(at_once, end - first)), into);
-      for (std::size_t i = 0; i < into.size() && before - n_left_ < enough; ++i, ++first) {
+      for (const Target target : search(&*first, std::min(at_once, end - first))) {
+        if (before - n_left_ >= enough) break;
         const int v = first->vertex;
+        ++first;
         // The merges before this one changed nothing that its search has looked at, or come in its way.
-        if (into[i] == -2 || !is_worth_a_search(v)) continue;
-        if (into[i] < 0) {
+        if (!target.was_searched || !is_worth_a_search(v)) continue;
+        if (target.vertex < 0) {
           failed_[v] = round_;
           continue;
         }
         visit_fans(v, [&](int c) { changed_[c] = round_; });
-        merge_with_image(v, into[i]);
+        merge_with_image(v, target.vertex);
       }
     }
   };

@@ -564,84 +564,111 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
 Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces,
                                    double longest, std::int64_t remembered, const Progress& progress) const {
   Parting result;
-  const int n_vertices = charts_[static_cast<std::size_t>(chart)]->chart.n_vertices();
-  if (stage_.refined && n_vertices > std::min(small_piece, max_chosen_vertices())) {
-    result.cut = candidates.cut_out(chart, faces);
-    if (result.cut.empty() && n_vertices > max_chosen_vertices()) result.cut = candidates.halve(chart);
-    if (!result.cut.empty() && seams_.length(result.cut) <= longest) return result;
-    result.cut.clear();
-  }
-  const TrialMap& parted = *charts_[static_cast<std::size_t>(chart)];
-  const double before = extent_of(parted, faces, quality_.area);
-  const double highest = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
-  std::vector<int> defects;
-  defects.reserve(faces.size());
-  for (const int face : faces) defects.push_back(parted.chart.faces[static_cast<std::size_t>(face)]);
+  result.room = remembered;
+  result.cut = part_large_chart(candidates, chart, faces, longest);
+  if (!result.cut.empty()) return result;
+  const DefectiveChart defective = defective_chart(chart, faces, longest);
   for (const bool at_any_price : {false, true}) {
-    std::vector<SeamEdges> cuts =
-        at_any_price ? candidates.cuts_apart(chart, faces) : candidates.cuts_between(chart, faces);
-    std::vector<Proposal> proposals;
-    for (SeamEdges& cut : cuts) {
-      if (!cut.empty() && seams_.length(cut) <= longest) proposals.push_back({std::move(cut), true, chart});
-    }
-    // The shortest first: what is left cannot win once its price is higher than the best score allows.
-    std::stable_sort(proposals.begin(), proposals.end(),
-                     [&](const Proposal& a, const Proposal& b) { return seams_.length(a.cut) < seams_.length(b.cut); });
-    Trial best;
-    double best_score = 0;
     std::vector<PartCut> some;
-    for (std::size_t first = 0; first < proposals.size(); first += parted_at_once) {
-      if (best_score * price(proposals[first].cut) >= 1) break;
-      std::vector<Trial> trials(std::min(parted_at_once, proposals.size() - first));
-      std::vector<Defects> left(trials.size());
-      try_in_parallel(
-          trials.size(),
-          [&](int i, const Progress& going_on) {
-            const auto k = static_cast<std::size_t>(i);
-            trials[k] = attempt(proposals[first + k].cut, {}, going_on);
-            left[k] = defects_left(trials[k], before);
-          },
-          progress);
-      for (const Trial& trial : trials) {
-        for (const auto& mapped : trial.charts) {
-          if (remembered < 0 || contains(charts_, mapped)) continue;
-          result.tried.push_back(mapped);
-          remembered -= mapped->chart.n_vertices();
-        }
-      }
-      for (std::size_t k = 0; k < trials.size(); ++k) {
-        const double removed = (before - left[k].extent) / before;
-        const bool is_fine = removed >= min_removed && trials[k].quality.distortion() <= highest;
-        if (!at_any_price && !is_fine) {
-          if (removed > 0 && trials[k].quality.distortion() <= highest) {
-            some.push_back({trials[k].cut, {}});
-            std::set_difference(defects.begin(), defects.end(), left[k].faces.begin(), left[k].faces.end(),
-                                std::back_inserter(some.back().removed));
-          }
-          continue;
-        }
-        // What parts the chart always counts: a single face is neither flipped nor covers itself.
-        const double score =
-            (is_fine ? 1 : 1e-3) * std::max(removed, makes_islands(trials[k]) ? 1e-3 : 0.0) / price(trials[k].cut);
-        if (score <= best_score) continue;
-        best_score = score;
-        best = std::move(trials[k]);
-      }
-    }
-    if (best.cut.empty() && some.size() > 1) {
-      SeamEdges cut = cut_together(some, parted);
-      if (seams_.length(cut) <= longest) {
-        Trial together = attempt(std::move(cut), {}, progress);
-        const double removed = (before - defects_left(together, before).extent) / before;
-        if (removed >= min_removed_together && together.quality.distortion() <= highest) best = std::move(together);
-      }
-    }
+    Trial best = best_parting(
+        defective, at_any_price ? candidates.cuts_apart(chart, faces) : candidates.cuts_between(chart, faces),
+        at_any_price, some, result, progress);
+    if (best.cut.empty() && some.size() > 1) best = part_together(defective, some, progress);
     if (best.cut.empty()) continue;
     result.cut = std::move(best.cut);
     result.charts = std::move(best.charts);
     break;
   }
   return result;
+}
+
+/// Without trials, whose maps would take too long; nothing where these are to choose.
+SeamEdges Cutter::part_large_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces,
+                                   double longest) const {
+  const int n_vertices = charts_[static_cast<std::size_t>(chart)]->chart.n_vertices();
+  if (!stage_.refined || n_vertices <= std::min(small_piece, max_chosen_vertices())) return {};
+  SeamEdges cut = candidates.cut_out(chart, faces);
+  if (cut.empty() && n_vertices > max_chosen_vertices()) cut = candidates.halve(chart);
+  return seams_.length(cut) <= longest ? cut : SeamEdges{};
+}
+
+Cutter::DefectiveChart Cutter::defective_chart(int chart, const std::vector<int>& faces, double longest) const {
+  const TrialMap& map = *charts_[static_cast<std::size_t>(chart)];
+  const double max_distortion = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
+  DefectiveChart result{{}, extent_of(map, faces, quality_.area), max_distortion, longest};
+  for (const int face : faces) {
+    result.faces.push_back({map.chart.faces[static_cast<std::size_t>(face)], extent_of(map, {face}, quality_.area)});
+  }
+  return result;
+}
+
+/// The trial of the cut that parts most of a chart's defects for its price. Those that are not good enough but remove
+/// some are added to `some`, and the maps of all to the parting's, as far as there is room.
+Cutter::Trial Cutter::best_parting(const DefectiveChart& chart, std::vector<SeamEdges>&& cuts, bool at_any_price,
+                                   std::vector<PartCut>& some, Parting& parting, const Progress& progress) const {
+  cuts.erase(std::remove_if(cuts.begin(), cuts.end(),
+                            [&](const SeamEdges& cut) { return cut.empty() || seams_.length(cut) > chart.longest; }),
+             cuts.end());
+  // The shortest first: what is left cannot win once its price is higher than the best score allows.
+  std::stable_sort(cuts.begin(), cuts.end(),
+                   [&](const SeamEdges& a, const SeamEdges& b) { return seams_.length(a) < seams_.length(b); });
+  Trial best;
+  double best_score = 0;
+  for (std::size_t first = 0; first < cuts.size(); first += parted_at_once) {
+    if (best_score * price(cuts[first]) >= 1) break;
+    std::vector<Trial> trials(std::min(parted_at_once, cuts.size() - first));
+    std::vector<Defects> left(trials.size());
+    try_in_parallel(
+        trials.size(),
+        [&](int i, const Progress& going_on) {
+          const auto k = static_cast<std::size_t>(i);
+          trials[k] = attempt(cuts[first + k], {}, going_on);
+          left[k] = defects_left(trials[k], chart.extent);
+        },
+        progress);
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      Trial& trial = trials[k];
+      for (const auto& mapped : trial.charts) {
+        if (parting.room < 0 || contains(charts_, mapped)) continue;
+        parting.tried.push_back(mapped);
+        parting.room -= mapped->chart.n_vertices();
+      }
+      const double removed = (chart.extent - left[k].extent) / chart.extent;
+      const bool is_distorted = !(trial.quality.distortion() <= chart.max_distortion);
+      const bool is_fine = removed >= min_removed && !is_distorted;
+      if (!at_any_price && !is_fine) {
+        if (removed > 0 && !is_distorted) some.push_back(part_cut(chart, trial.cut, left[k]));
+        continue;
+      }
+      // What parts the chart always counts: a single face is neither flipped nor covers itself.
+      const double score =
+          (is_fine ? 1 : 1e-3) * std::max(removed, makes_islands(trial) ? 1e-3 : 0.0) / price(trial.cut);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = std::move(trial);
+    }
+  }
+  return best;
+}
+
+Cutter::PartCut Cutter::part_cut(const DefectiveChart& chart, const SeamEdges& cut, const Defects& left) {
+  PartCut result{cut, {}};
+  std::copy_if(chart.faces.begin(), chart.faces.end(), std::back_inserter(result.removed),
+               [&](const DefectiveFace& defect) {
+                 return !std::binary_search(left.faces.begin(), left.faces.end(), defect.face);
+               });
+  return result;
+}
+
+/// The trial of several cuts at once, without a cut where they are no better.
+Cutter::Trial Cutter::part_together(const DefectiveChart& chart, const std::vector<PartCut>& some,
+                                    const Progress& progress) const {
+  SeamEdges cut = cut_together(some);
+  if (seams_.length(cut) > chart.longest) return {};
+  Trial together = attempt(std::move(cut), {}, progress);
+  const double removed = (chart.extent - defects_left(together, chart.extent).extent) / chart.extent;
+  if (removed >= min_removed_together && together.quality.distortion() <= chart.max_distortion) return together;
+  return {};
 }
 
 /// In the charts that a trial changes; one without a map counts as much as `unsolved`.
@@ -659,20 +686,16 @@ Cutter::Defects Cutter::defects_left(const Trial& trial, double unsolved) const 
 
 /// Each part of a chart's defects has a cut of its own: those that remove most for their price, until none removes
 /// more.
-SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts, const TrialMap& parted) const {
+SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts) const {
   SeamEdges all;
   std::set<int> removed;
-  const auto extent = [&](int face) {
-    const auto at = std::lower_bound(parted.chart.faces.begin(), parted.chart.faces.end(), face);
-    return parted.area[static_cast<std::size_t>(at - parted.chart.faces.begin())] + 1e-9 * quality_.area;
-  };
   while (true) {
     const PartCut* best = nullptr;
     double best_score = 0;
     for (const PartCut& cut : cuts) {
       double more = 0;
-      for (const int face : cut.removed) {
-        if (removed.count(face) == 0) more += extent(face);
+      for (const DefectiveFace& defect : cut.removed) {
+        if (removed.count(defect.face) == 0) more += defect.extent;
       }
       const double score = more / price(cut.cut);
       if (score <= best_score) continue;
@@ -680,7 +703,7 @@ SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts, const TrialMap&
       best = &cut;
     }
     if (best == nullptr) return all;
-    removed.insert(best->removed.begin(), best->removed.end());
+    for (const DefectiveFace& defect : best->removed) removed.insert(defect.face);
     add_new(best->cut, all);
   }
 }

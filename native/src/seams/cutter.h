@@ -62,19 +62,32 @@ class Cutter {
   };
   /// What parts the defects of one chart.
   struct Parting {
-    SeamEdges cut;     ///< empty where it would be too long
-    TrialMaps charts;  ///< the maps that it leads to
-    TrialMaps tried;   ///< those of its trials, as far as they are few
+    SeamEdges cut;          ///< empty where it would be too long
+    TrialMaps charts;       ///< the maps that it leads to
+    TrialMaps tried;        ///< those of its trials, as far as they are few
+    std::int64_t room = 0;  ///< vertices of maps that these still take
   };
   /// Faces of the piece that cover others or are flipped, ascending, and their area.
   struct Defects {
     std::vector<int> faces;
     double extent = 0;
   };
-  /// A cut that removes some of a chart's defects, and the faces that are in none any more, ascending.
+  /// A face of the piece that covers others or is flipped.
+  struct DefectiveFace {
+    int face;
+    double extent;
+  };
+  /// A chart with defects, and what a cut that parts them may be.
+  struct DefectiveChart {
+    std::vector<DefectiveFace> faces;
+    double extent;          ///< of these
+    double max_distortion;  ///< of the maps
+    double longest;
+  };
+  /// A cut that removes some of a chart's defects, and these.
   struct PartCut {
     SeamEdges cut;
-    std::vector<int> removed;
+    std::vector<DefectiveFace> removed;
   };
   /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
@@ -112,8 +125,15 @@ class Cutter {
   SeamEdges part_defects(double longest, const Progress& progress);
   Parting part_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces, double longest,
                      std::int64_t remembered, const Progress& progress) const;
+  SeamEdges part_large_chart(const CutCandidates& candidates, int chart, const std::vector<int>& faces,
+                             double longest) const;
+  DefectiveChart defective_chart(int chart, const std::vector<int>& faces, double longest) const;
+  Trial best_parting(const DefectiveChart& chart, std::vector<SeamEdges>&& cuts, bool at_any_price,
+                     std::vector<PartCut>& some, Parting& parting, const Progress& progress) const;
+  static PartCut part_cut(const DefectiveChart& chart, const SeamEdges& cut, const Defects& left);
+  Trial part_together(const DefectiveChart& chart, const std::vector<PartCut>& some, const Progress& progress) const;
   Defects defects_left(const Trial& trial, double unsolved) const;
-  SeamEdges cut_together(const std::vector<PartCut>& cuts, const TrialMap& parted) const;
+  SeamEdges cut_together(const std::vector<PartCut>& cuts) const;
   SeamEdges blind_cut(double longest, const Progress& progress);
   SeamEdges halve_unsolved(double longest, const Progress& progress);
   int max_blind() const;

@@ -22,6 +22,26 @@ TEST_CASE("every call is made once") {
   }
 }
 
+TEST_CASE("blocks hold every number once, and as many as they are to but for the last") {
+  constexpr std::size_t block_size = 4;
+  for (const std::size_t n : {0, 1, 3, 4, 5, 8, 30}) {
+    std::vector<int> calls(n, 0);
+    run_blocks_in_parallel(n, block_size, 3, [&](std::size_t begin, std::size_t end) {
+      CHECK(begin % block_size == 0);
+      CHECK(end == std::min(n, begin + block_size));
+      for (std::size_t i = begin; i < end; ++i) ++calls[i];
+    });
+    CHECK(calls == std::vector<int>(n, 1));
+  }
+}
+
+TEST_CASE("what a block throws is thrown") {
+  for (const int n : {4, 40}) {
+    const auto work = [](int begin, int) { throw std::runtime_error(std::to_string(begin)); };
+    CHECK_THROWS_WITH_AS(run_blocks_in_parallel(n, 4, 1, work), "0", std::runtime_error);
+  }
+}
+
 TEST_CASE("the progress function is called in the caller's thread, and stops all") {
   const std::thread::id own = std::this_thread::get_id();
   int asked = 0;
