@@ -6,6 +6,7 @@ blender --factory-startup --python drive_long_solve.py -- <folder for the screen
 
 import importlib
 import threading
+import time
 
 import bpy
 import numpy as np
@@ -13,11 +14,30 @@ import numpy as np
 from tests.interface import driving as drive
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
-SIZE = 1000  # faces along a side: 1002001 vertices
+SIZE = 200  # faces along a side
+# No solve ends before: how long a large one takes, and how long Blender takes to draw its mesh without a graphics
+# card, depends on the machine.
+let_end = threading.Event()
+
+
+def make_solves_long():
+    """Let the native solve wait where it asks whether to go on, as often as it is not told to stop."""
+    steps_of_unwrap = importlib.import_module("spectral_unwrap.unwrapping.steps")
+    solve = steps_of_unwrap.solve
+
+    def solve_long(edit_meshes, settings, progress):
+        def wait(fraction, phase):
+            while progress(fraction, phase) and not let_end.is_set():
+                time.sleep(0.01)
+            return progress(fraction, phase)
+
+        return solve(edit_meshes, settings, wait)
+
+    steps_of_unwrap.solve = solve_long
 
 
 def open_landscape():
-    """Put a grid with hills into edit mode; its solve takes seconds."""
+    """Put a grid with hills into edit mode."""
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=SIZE, y_subdivisions=SIZE)
         mesh = bpy.context.object.data
@@ -58,6 +78,7 @@ def steps():
     history = bpy.context.window_manager.operators
     yield from drive.open_uv_editing()
     yield from open_landscape()
+    make_solves_long()
     before, done = uv(), list(history)
 
     yield from unwrap_by_mouse()
@@ -80,6 +101,7 @@ def steps():
     assert list(history) == done
 
     yield from unwrap_by_mouse()
+    let_end.set()
     yield from drive.until(lambda: operator._running is None)
     yield
     after = uv()
