@@ -6,8 +6,9 @@
 Noise-displaced marching cubes, merged primitives, decimated and torn scans: without seams, many of them not manifold,
 self-intersecting or of hundreds of components. Needs scikit-image (pip install scikit-image); xatlas and Smart UV
 Project (bpy) are left out where they are not installed. Each map is made in a process of its own with a limit of
-seconds and of memory, whose peak is that of this whole process, what it imports and the mesh included. Mean QC counts a
-face of more than 10 as 10. Faces are about as many as asked for; of those on the same vertices one is measured.
+seconds and of memory, whose peak is that of this whole process while it maps, what it imports and the mesh included.
+Mean QC counts a face of more than 10 as 10. Faces are about as many as asked for; of those on the same vertices one is
+measured.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import json
+import math
 import resource
 import subprocess
 import sys
@@ -343,20 +345,22 @@ def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, f
     """Make one map of one mesh and measure it."""
     import spectral_conformal as sc
 
+    from addon.batch import memory
     from tests.benchmarks.map_measures import measure
 
     vertices, triangles = asset(name, faces)
+    memory.reset_peak()
     start, used = time.perf_counter(), time.process_time()
     own = limits if method == "spectral" else {}
     triangles, uv, phases = METHODS[method][0](vertices, triangles, **own)
     seconds, used = time.perf_counter() - start, time.process_time() - used
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+    gigabytes = (memory.peak() or math.nan) / 2**30
     once = without_doubles(triangles)
     triangles, uv = triangles[once], uv.reshape(-1, 3, 2)[once].reshape(-1, 2)
     offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
     faced = sc.face_distortion(vertices, offsets, corners, uv)
     qc = float(np.average(np.minimum(faced.qc, QC_CAP), weights=np.maximum(faced.area, 1e-300)))
-    common = {"faces": len(triangles), "seconds": seconds, "processor": used, "gigabytes": peak, "qc": qc}
+    common = {"faces": len(triangles), "seconds": seconds, "processor": used, "gigabytes": gigabytes, "qc": qc}
     return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}
 
 
