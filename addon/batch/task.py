@@ -230,7 +230,7 @@ def _mark_suggested(target: seams.Target, settings: BatchSettings, report: dict[
     vertices_of = [_vertex_of(polygons, settings) for polygons in target.polygons]
     meshes = list(map(welding.welded, target.polygons, vertices_of))
     found = seam_suggestion.suggest(meshes, settings.seam_options())
-    seams.mark(target, _unwelded(found.cuts, target, vertices_of))
+    seams.mark(target, welding.unwelded(found, target.polygons, vertices_of))
     refused = texts.without_suggestion(found.errors, target.names)
     report["warnings"] += [refused] if refused else []
 
@@ -242,22 +242,11 @@ def _mark_sharp(target: seams.Target, settings: BatchSettings) -> None:
     """
     vertices_of = [_vertex_of(polygons, settings) for polygons in target.polygons]
     angle = math.radians(settings.sharp_angle)
-    cuts = [
+    cuts = tuple(
         seam_suggestion.Cut(index, welding.sharp_edges(welding.welded(polygons, vertex_of), angle), 0.0)
         for index, (polygons, vertex_of) in enumerate(zip(target.polygons, vertices_of))
-    ]
-    seams.mark(target, _unwelded(cuts, target, vertices_of))
-
-
-def _unwelded(
-    cuts: Sequence[seam_suggestion.Cut], target: seams.Target, vertices_of: Sequence[np.ndarray]
-) -> seam_suggestion.Suggestion:
-    """Return the cuts of welded meshes as those of the target's own edges."""
-    own = [
-        replace(cut, edges=welding.unwelded_edges(target.polygons[cut.mesh], vertices_of[cut.mesh], cut.edges))
-        for cut in cuts
-    ]
-    return seam_suggestion.Suggestion(tuple(own), ())
+    )
+    seams.mark(target, welding.unwelded(seam_suggestion.Suggestion(cuts, ()), target.polygons, vertices_of))
 
 
 def _vertex_of(mesh: PolygonMesh | MapArrays, settings: BatchSettings) -> np.ndarray:

@@ -66,7 +66,11 @@ class Suggestion:
 
     def edges(self, mesh: int) -> np.ndarray:
         """Return the edges, (n, 2) int32, of the cuts that are in a mesh."""
-        return np.concatenate([np.empty((0, 2), np.int32), *(cut.edges for cut in self.cuts if cut.mesh == mesh)])
+        return np.concatenate([np.empty((0, 2), np.int32), *(cut.edges for cut in self.cuts_of(mesh))])
+
+    def cuts_of(self, mesh: int) -> list[Cut]:
+        """Return the cuts that are in a mesh."""
+        return [cut for cut in self.cuts if cut.mesh == mesh]
 
     def part(self, start: int, end: int) -> "Suggestion":
         """Return the cuts `start` to `end` - 1 alone."""

@@ -5,12 +5,14 @@ Files often hold a vertex once for every normal or UV that it has, or for every 
 faces, so that what is solved on the welded mesh holds for the mesh as it is, which does not change.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
 from .mesh import PolygonMesh, next_corner
+from .seam_suggestion import Cut, Suggestion
 
 # Of the size of the mesh: below, rounding of single precision decides; above, it is no longer cleaning.
 DISTANCES = (1e-6, 1e-2)
@@ -54,7 +56,13 @@ def _border_vertices(n_vertices: int, face_offsets: np.ndarray, corner_vertices:
 
 def face_edges(face_offsets: np.ndarray, corner_vertices: np.ndarray) -> np.ndarray:
     """Return the edge from every corner to the next of its face, (C, 2), the lower vertex first."""
-    return np.sort(np.column_stack([corner_vertices, corner_vertices[next_corner(face_offsets)]]), axis=1)
+    return _lower_first(np.column_stack([corner_vertices, corner_vertices[next_corner(face_offsets)]]))
+
+
+def _lower_first(pairs: np.ndarray) -> np.ndarray:
+    # A sort along the axis takes eight times as long.
+    first, second = pairs.T
+    return np.column_stack([np.minimum(first, second), np.maximum(first, second)])
 
 
 def _keys(pairs: np.ndarray, n_vertices: int) -> np.ndarray:
@@ -108,14 +116,24 @@ def welded(mesh: PolygonMesh, vertex_of: np.ndarray) -> PolygonMesh:
 def unwelded_edges(mesh: PolygonMesh, vertex_of: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Return the edges of the mesh, (n, 2) int32, that are these of the welded one, (m, 2)."""
     own = face_edges(mesh.face_offsets, mesh.corner_vertices)
-    wanted = _keys(np.sort(vertex_of[edges], axis=1), len(vertex_of))
-    pairs = own[np.isin(_keys(np.sort(vertex_of[own], axis=1), len(vertex_of)), wanted)]
+    wanted = _keys(_lower_first(vertex_of[edges]), len(vertex_of))
+    pairs = own[np.isin(_keys(_lower_first(vertex_of[own]), len(vertex_of)), wanted)]
     return np.unique(pairs, axis=0).astype(np.int32)
+
+
+def unwelded(found: Suggestion, meshes: Sequence[PolygonMesh], vertices_of: Sequence[np.ndarray]) -> Suggestion:
+    """Return what was found on welded meshes as one cut of each mesh, of its own edges."""
+    # Not cut by cut: a large mesh has thousands of them, and each search goes through all of its edges.
+    cuts = (
+        Cut(index, unwelded_edges(mesh, vertex_of, found.edges(index)), sum(c.length for c in found.cuts_of(index)))
+        for index, (mesh, vertex_of) in enumerate(zip(meshes, vertices_of))
+    )
+    return Suggestion(tuple(cuts), found.errors)
 
 
 def edges_length(vertices: np.ndarray, vertex_of: np.ndarray, edges: np.ndarray) -> float:
     """Return the length of edges, (n, 2), of which those that are one in the welded mesh count once."""
-    pairs = np.sort(vertex_of[edges], axis=1)
+    pairs = _lower_first(vertex_of[edges])
     _, first = np.unique(_keys(pairs, len(vertex_of)), return_index=True)
     ends = vertices[edges[first]].astype(np.float64)
     return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum())

@@ -71,6 +71,11 @@ def test_search_solves_as_the_operator_does():
     assert (options.weights, options.qc_limit) == ("inverse_area", 1.5)
 
 
+def test_the_limits_of_suggest_seams_in_blender_can_be_set():
+    assert BatchSettings().suggestion != seam_suggestion.Options()
+    assert from_values({"qc_limit": 1.1, "qc_gain": 0.0}).suggestion == seam_suggestion.Options()
+
+
 def test_an_option_goes_before_the_settings_file(arguments, tmp_path):
     file = tmp_path / "batch.toml"
     file.write_text('seams = "keep"\narea_blend = 0.25\nfold_free = true\nfront = [0, 0, 1]\n')

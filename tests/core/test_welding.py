@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from spectral_unwrap.core import welding
 from spectral_unwrap.core.mesh import PolygonMesh
+from spectral_unwrap.core.seam_suggestion import Cut, Suggestion
 
 
 def polygon_mesh(points, faces, **rest):
@@ -116,6 +117,24 @@ def test_edges_of_the_welded_mesh_are_those_of_all_faces_at_them():
     assert np.array_equal(ends[0], ends[1])
     assert welding.edges_length(soup.vertices, stands, found) == pytest.approx(2.0)
     assert welding.edges_length(soup.vertices, np.arange(24), found) == pytest.approx(4.0)
+
+
+def test_cuts_of_welded_meshes_come_back_as_one_of_each_mesh(monkeypatch):
+    soups = [taken_apart(cube()), cube()]
+    stands = [vertex_of(soup) for soup in soups]
+    edges = [welding.face_edges(each.face_offsets, own[each.corner_vertices]) for each, own in zip(soups, stands)]
+    cuts = tuple(Cut(k, edges[k][i : i + 1], 2.0) for i in range(3) for k in (0, 1))
+    searched = []
+    search = welding.unwelded_edges
+    monkeypatch.setattr(welding, "unwelded_edges", lambda mesh, *rest: searched.append(mesh) or search(mesh, *rest))
+    found = welding.unwelded(Suggestion(cuts, ("", "refused")), soups, stands)
+    # A large mesh has thousands of cuts, and each search goes through the whole mesh.
+    assert len(searched) == 2
+    assert [(cut.mesh, cut.length) for cut in found.cuts] == [(0, 6.0), (1, 6.0)]
+    assert found.errors == ("", "refused")
+    for k in (0, 1):
+        parts = [search(soups[k], stands[k], cut.edges) for cut in cuts if cut.mesh == k]
+        assert np.array_equal(found.edges(k), np.unique(np.concatenate(parts), axis=0))
 
 
 @pytest.mark.parametrize("degrees", [1e-3, 29.0, 31.0, 120.0, 179.0])
