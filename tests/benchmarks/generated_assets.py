@@ -2,13 +2,14 @@
 """Meshes as generators make them: seams suggested, unwrapped and packed, beside xatlas and Smart UV Project.
 
     build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] [--methods NAME ...]
+    build/venv/bin/python -m tests.benchmarks.generated_assets [--faces N] [--only NAME ...] --write FOLDER
 
 Noise-displaced marching cubes, merged primitives, decimated and torn scans: without seams, many of them not manifold,
 self-intersecting or of hundreds of components. Needs scikit-image (pip install scikit-image); xatlas and Smart UV
 Project (bpy) are left out where they are not installed. Each map is made in a process of its own with a limit of
 seconds and of memory, whose peak is that of this whole process while it maps, what it imports and the mesh included.
 Mean QC counts a face of more than 10 as 10. Faces are about as many as asked for; of those on the same vertices one is
-measured.
+measured. The second command writes the meshes as OBJ files, for the batch.
 """
 
 from __future__ import annotations
@@ -23,8 +24,11 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import asdict
+from pathlib import Path
 
 import numpy as np
+
+from tests.benchmarks.generated import write_obj
 
 Mesh = tuple[np.ndarray, np.ndarray]
 SECONDS, GIGABYTES = 1200, 12
@@ -386,7 +390,7 @@ def in_process(name: str, faces: int, method: str, **limits: float) -> dict[str,
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table, or write the meshes."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--faces", type=int, default=20_000)
     parser.add_argument("--only", nargs="*", choices=[*ASSETS], default=[*ASSETS], metavar="NAME")
@@ -394,12 +398,20 @@ def main() -> None:
     parser.add_argument("--methods", nargs="*", choices=there, default=there, metavar="NAME")
     for name in LIMITS:
         parser.add_argument(f"--{name.replace('_', '-')}", type=float, help="of the suggested seams, see SeamOptions")
+    parser.add_argument("--write", type=Path, metavar="FOLDER", help="write the meshes there instead")
     parser.add_argument("--measure", nargs=2, metavar=("NAME", "METHOD"), help="one map, measured, as JSON")
     arguments = parser.parse_args()
     limits = {name: value for name in LIMITS if (value := getattr(arguments, name)) is not None}
     if arguments.measure:
         name, method = arguments.measure
         print(json.dumps(measured(name, arguments.faces, method, **limits)))
+        return
+    if arguments.write:
+        arguments.write.mkdir(parents=True, exist_ok=True)
+        for name in arguments.only:
+            write_obj(
+                arguments.write / f"{name.replace(', ', ' ').replace(' ', '_')}.obj", *asset(name, arguments.faces)
+            )
         return
     columns = ("islands", "QC", "seams", "flipped", "overlapping", "seconds", "processor s", "GB", "phases")
     print(f"| mesh | faces | method | {' | '.join(columns)} |\n" + "|---" * (3 + len(columns)) + "|", flush=True)
