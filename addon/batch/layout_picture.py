@@ -16,6 +16,8 @@ _TILE = (44, 44, 50)
 _INK = (225, 225, 225)
 # Rows or pixels of triangles at once: bounds the memory.
 _BLOCK = 1 << 21
+# Files a tenth larger than at zlib's own level, in half the time.
+_COMPRESSION = 4
 
 # Glyphs of 5 x 7 pixels, a row per number, the highest bit to the left.
 _GLYPHS = {
@@ -49,8 +51,10 @@ def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int)
         high: the value of the last colour, and of all above.
         size: side of the square in pixels.
     """
-    finite = np.isfinite(uv).all(axis=(1, 2))
-    uv, values = uv[finite], values[finite]
+    finite = np.isfinite(uv)
+    if not finite.all():
+        kept = finite.all(axis=(1, 2))
+        uv, values = uv[kept], values[kept]
     corner, extent = np.zeros(2), 1.0
     if len(uv) and (uv.min() < 0.0 or uv.max() > 1.0):
         corner = np.minimum(uv.min(axis=(0, 1)), 0.0)
@@ -77,7 +81,9 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
     size = len(picture)
     # Of equal places the last value that is assigned stays.
     owner = np.full(size * size, -1)
-    low, high = points.min(axis=1), points.max(axis=1)
+    # Corner by corner: along so short an axis NumPy takes ten times as long.
+    a, b, c = points.transpose(1, 0, 2)
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     first, end = _centres(low[:, 1], high[:, 1], size)
     for triangles in _parts(end - first):
         row, chosen = _ranges(first[triangles], end[triangles])
@@ -161,7 +167,7 @@ def png(picture: np.ndarray) -> bytes:
     height, width, _ = picture.shape
     rows = np.concatenate([np.zeros((height, 1), dtype=np.uint8), picture.reshape(height, -1)], axis=1)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    parts = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), 6)), (b"IEND", b""))
+    parts = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes(), _COMPRESSION)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in parts)
 
 
@@ -173,8 +179,11 @@ def thumbnail(picture: np.ndarray, size: int) -> np.ndarray:
     """Return the picture with sides of at most `size`, by the means of whole blocks of pixels."""
     step = -(-max(picture.shape[:2]) // size)
     height, width = (length // step * step for length in picture.shape[:2])
-    blocks = picture[:height, :width].reshape(height // step, step, width // step, step, 3)
-    return np.rint(blocks.mean(axis=(1, 3))).astype(np.uint8)
+    total = np.zeros((height // step, width // step, 3))
+    for row in range(step):
+        for column in range(step):
+            total += picture[row:height:step, column:width:step]
+    return np.rint(total / step**2).astype(np.uint8)
 
 
 def triangles_of(maps: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]) -> tuple[np.ndarray, ...]:
