@@ -86,11 +86,9 @@ constexpr double least_loss = 0.02;
 constexpr int max_blind_cuts = 30;
 constexpr int max_blind_cuts_refined = 0;
 
-/// The area of some faces, each of which counts with a little of the whole, so that slivers count.
-double extent_of(const TrialMap& mapped, const std::vector<int>& faces, double whole) {
-  double extent = 0;
-  for (const int face : faces) extent += mapped.area[static_cast<std::size_t>(face)] + 1e-9 * whole;
-  return extent;
+/// The area of a face, with a little of the whole, so that slivers count.
+double extent_of(const TrialMap& mapped, int face, double whole) {
+  return mapped.area[static_cast<std::size_t>(face)] + 1e-9 * whole;
 }
 
 /// Some faces of a mesh, on its vertices and with its seams: their charts are built without a look at the others.
@@ -595,9 +593,11 @@ SeamEdges Cutter::part_large_chart(const CutCandidates& candidates, int chart, c
 Cutter::DefectiveChart Cutter::defective_chart(int chart, const std::vector<int>& faces, double longest) const {
   const TrialMap& map = *charts_[static_cast<std::size_t>(chart)];
   const double max_distortion = std::max(distortion_for_parting * quality_.distortion(), options_.energy_limit - 4);
-  DefectiveChart result{{}, extent_of(map, faces, quality_.area), max_distortion, longest};
+  DefectiveChart result{{}, 0, max_distortion, longest};
   for (const int face : faces) {
-    result.faces.push_back({map.chart.faces[static_cast<std::size_t>(face)], extent_of(map, {face}, quality_.area)});
+    const double extent = extent_of(map, face, quality_.area);
+    result.faces.push_back({map.chart.faces[static_cast<std::size_t>(face)], extent});
+    result.extent += extent;
   }
   return result;
 }
@@ -676,9 +676,12 @@ Cutter::Defects Cutter::defects_left(const Trial& trial, double unsolved) const 
   Defects result;
   for (const auto& mapped : trial.charts) {
     if (contains(charts_, mapped)) continue;
-    const std::vector<int> faces = defective_faces(*mapped);
-    result.extent += mapped->solved ? extent_of(*mapped, faces, quality_.area) : unsolved;
-    for (const int face : faces) result.faces.push_back(mapped->chart.faces[static_cast<std::size_t>(face)]);
+    double extent = 0;
+    for (const int face : defective_faces(*mapped)) {
+      extent += extent_of(*mapped, face, quality_.area);
+      result.faces.push_back(mapped->chart.faces[static_cast<std::size_t>(face)]);
+    }
+    result.extent += mapped->solved ? extent : unsolved;
   }
   std::sort(result.faces.begin(), result.faces.end());
   return result;
