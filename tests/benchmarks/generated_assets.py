@@ -33,6 +33,8 @@ from tests.benchmarks.generated import write_obj
 Mesh = tuple[np.ndarray, np.ndarray]
 SECONDS, GIGABYTES = 1200, 12
 QC_CAP = 10.0
+# What a grid for marching cubes may hold at once: twice that, in 4 bytes, and what it is copied into, fit beside the mesh.
+GRID_VALUES = 1_300_000_000
 # Of the suggested seams, that a run may set.
 LIMITS = ("qc_limit", "qc_gain")
 
@@ -56,14 +58,31 @@ def isosurface(field: Callable[[np.ndarray], np.ndarray]) -> Callable[[int], Mes
         from skimage.measure import marching_cubes
 
         axis = np.linspace(-1, 1, resolution, dtype=np.float32)
-        slabs = np.array_split(axis, max(1, resolution // 16))
-        values = np.concatenate(
-            [field(np.stack(np.meshgrid(slab, axis, axis, indexing="ij"), axis=-1)) for slab in slabs]
-        )
-        vertices, triangles, _, _ = marching_cubes(values, 0.0)
-        return vertices.astype(float) * 2 / (resolution - 1) - 1, triangles.astype(np.int64)
+        pieces, layers, first = [], [], 0
+        for slab in np.array_split(axis, max(1, resolution // 16)):
+            layers += [field(np.stack(np.meshgrid(slab, axis, axis, indexing="ij"), axis=-1))]
+            if slab[-1] < 1 and sum(map(np.size, layers)) < GRID_VALUES:
+                continue
+            values = np.concatenate(layers)
+            if values.min() < 0 < values.max():
+                vertices, triangles, _, _ = marching_cubes(values, 0.0)
+                pieces.append((vertices.astype(float) + [first, 0, 0], triangles.astype(np.int64)))
+            # The next part shares a layer with this one, where both have the same vertices.
+            first, layers = first + len(values) - 1, [values[-1:].copy()]
+        vertices, triangles = welded(pieces)
+        return vertices * 2 / (resolution - 1) - 1, triangles
 
     return make
+
+
+def welded(pieces: list[Mesh]) -> Mesh:
+    """Join meshes at the vertices that are at the same place; one alone stays as it is."""
+    if len(pieces) == 1:
+        return pieces[0]
+    offsets = np.cumsum([0] + [len(vertices) for vertices, _ in pieces])
+    triangles = np.concatenate([faces + offset for offset, (_, faces) in zip(offsets, pieces)])
+    vertices, number = np.unique(np.concatenate([vertices for vertices, _ in pieces]), axis=0, return_inverse=True)
+    return vertices, number.ravel()[triangles]
 
 
 def radius(points: np.ndarray) -> np.ndarray:
@@ -368,7 +387,7 @@ def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, f
     return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}
 
 
-def in_process(name: str, faces: int, method: str, **limits: float) -> dict[str, float] | str:
+def in_process(name: str, faces: int, method: str, seconds: int, **limits: float) -> dict[str, float] | str:
     """`measured` in a process of its own; what went wrong as text."""
     module = "tests.benchmarks.generated_assets"
     command = [sys.executable, "-m", module, "--faces", str(faces), "--measure", name, method]
@@ -378,9 +397,9 @@ def in_process(name: str, faces: int, method: str, **limits: float) -> dict[str,
         resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES << 30, GIGABYTES << 30))
 
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, preexec_fn=limit)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, preexec_fn=limit)
     except subprocess.TimeoutExpired:
-        return f"no end after {SECONDS} s"
+        return f"no end after {seconds} s"
     if done.returncode:
         last = done.stderr.strip().splitlines()[-1:] or [""]
         return f"exit code {done.returncode}: {last[0]}"
@@ -398,6 +417,7 @@ def main() -> None:
     parser.add_argument("--methods", nargs="*", choices=there, default=there, metavar="NAME")
     for name in LIMITS:
         parser.add_argument(f"--{name.replace('_', '-')}", type=float, help="of the suggested seams, see SeamOptions")
+    parser.add_argument("--seconds", type=int, default=SECONDS, help="limit of each map (default: %(default)s)")
     parser.add_argument("--write", type=Path, metavar="FOLDER", help="write the meshes there instead")
     parser.add_argument("--measure", nargs=2, metavar=("NAME", "METHOD"), help="one map, measured, as JSON")
     arguments = parser.parse_args()
@@ -417,7 +437,7 @@ def main() -> None:
     print(f"| mesh | faces | method | {' | '.join(columns)} |\n" + "|---" * (3 + len(columns)) + "|", flush=True)
     for name in arguments.only:
         for method in arguments.methods:
-            found = in_process(name, arguments.faces, method, **limits)
+            found = in_process(name, arguments.faces, method, arguments.seconds, **limits)
             if isinstance(found, str):
                 print(f"| {name} | | {method} | {found} |", flush=True)
                 continue
