@@ -165,15 +165,13 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
     if (!fallbacks_) allow_fallbacks(progress);
   }
   const bool wanted = quality_.solved && !exhausted_ && !good_enough() && !is_patience_spent();
-  if (wanted && losses_together_ < max_losses_together && (stage_.refined || quality_.within_limit < enough_area)) {
-    accepted = cut_to_all(longest, progress);
-    losses_together_ = accepted.empty() ? losses_together_ + 1 : 0;
-  }
-  const bool is_priced = only_qc_counts();
-  if (wanted && accepted.empty()) accepted = best_cut(longest, progress);
-  if (is_priced && !accepted.empty()) losing_splits_ = 0;
+  if (wanted) accepted = cut_distortion(longest, progress);
   if (accepted.empty() && quality_.hopeless()) accepted = blind_cut(longest, progress);
   if (wanted && accepted.empty()) accepted = split_in_half(longest, progress);
+  if (wanted && accepted.empty() && price_by_qc()) {
+    accepted = cut_distortion(longest, progress);
+    if (accepted.empty()) accepted = split_in_half(longest, progress);
+  }
   if (wanted) exhausted_ = accepted.empty();
   if (accepted.empty()) {
     accepted = part_defects(longest, progress);
@@ -183,6 +181,31 @@ SeamEdges Cutter::step(double longest, const Progress& progress) {
   changed_ = changed_ || !accepted.empty();
   finished_ = accepted.empty();
   return accepted;
+}
+
+/// The cut that lowers the distortion most for its price.
+SeamEdges Cutter::cut_distortion(double longest, const Progress& progress) {
+  const bool is_priced = only_qc_counts();
+  SeamEdges accepted;
+  if (losses_together_ < max_losses_together && (stage_.refined || quality_.within_limit < enough_area)) {
+    accepted = cut_to_all(longest, progress);
+    losses_together_ = accepted.empty() ? losses_together_ + 1 : 0;
+  }
+  if (accepted.empty()) accepted = best_cut(longest, progress);
+  if (is_priced && !accepted.empty()) losing_splits_ = 0;
+  return accepted;
+}
+
+/// Where no cut is left that lowers the energy, which noise keeps beyond its limit, those are left that lower the mean
+/// QC by their price. Returns whether that is new.
+bool Cutter::price_by_qc() {
+  if (!(options_.qc_gain > 0) || !quality_.solved || only_qc_counts() || quality_.mean_qc <= options_.qc_limit) {
+    return false;
+  }
+  is_energy_given_up_ = true;
+  futile_.clear();  // as long as the energy counted
+  losing_splits_ = 0;
+  return true;
 }
 
 /// Charts that no cut makes easy to map get the map that `unwrap` would give them, which tells where to cut.
@@ -329,7 +352,9 @@ double Cutter::excess(const MapQuality& quality) const {
 }
 
 /// Whether cuts are priced by options_.qc_gain.
-bool Cutter::only_qc_counts() const { return options_.qc_gain > 0 && quality_.solved && good_enough_but_for_qc(); }
+bool Cutter::only_qc_counts() const {
+  return options_.qc_gain > 0 && quality_.solved && (is_energy_given_up_ || good_enough_but_for_qc());
+}
 
 /// What seams of this length have to lower the mean QC of the piece by; 0 where there is no such price.
 double Cutter::least_qc_gain(const SeamEdges& cut) const {

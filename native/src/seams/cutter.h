@@ -119,6 +119,8 @@ class Cutter {
   SeamEdges accept_best(std::vector<Trial>&& trials, double longest, const Progress& progress);
   SeamEdges accept(Trial&& trial);
 
+  SeamEdges cut_distortion(double longest, const Progress& progress);
+  bool price_by_qc();
   SeamEdges cut_to_all(double longest, const Progress& progress);
   SeamEdges best_cut(double longest, const Progress& progress);
   SeamEdges split_in_half(double longest, const Progress& progress);
@@ -160,6 +162,7 @@ class Cutter {
   int losses_together_ = 0;
   int blind_cuts_ = 0;
   bool fallbacks_ = false;  ///< are allowed to trial maps
+  bool is_energy_given_up_ = false;
   int losing_splits_ = 0;
   int partings_ = 0;                                      ///< steps that part defects
   mutable std::atomic<std::int64_t> solved_vertices_{0};  ///< by several threads at once
