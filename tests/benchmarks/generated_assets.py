@@ -33,7 +33,7 @@ from tests.benchmarks.generated import write_obj
 Mesh = tuple[np.ndarray, np.ndarray]
 SECONDS, GIGABYTES = 1200, 12
 QC_CAP = 10.0
-# What a grid for marching cubes may hold at once: twice that, in 4 bytes, and what it is copied into, fit beside the mesh.
+# Of a grid for marching cubes at once: in 4 bytes each, and copied once more, they fit beside the mesh.
 GRID_VALUES = 1_300_000_000
 # Of the suggested seams, that a run may set.
 LIMITS = ("qc_limit", "qc_gain")
