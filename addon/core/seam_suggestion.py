@@ -4,6 +4,7 @@
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import zip_longest
 
 import numpy as np
@@ -70,7 +71,15 @@ class Suggestion:
 
     def cuts_of(self, mesh: int) -> list[Cut]:
         """Return the cuts that are in a mesh."""
-        return [cut for cut in self.cuts if cut.mesh == mesh]
+        return self._cuts_by_mesh.get(mesh, [])
+
+    @cached_property
+    def _cuts_by_mesh(self) -> dict[int, list[Cut]]:
+        # All at once: who goes through the meshes would go through all cuts for each of them.
+        groups: dict[int, list[Cut]] = {}
+        for cut in self.cuts:
+            groups.setdefault(cut.mesh, []).append(cut)
+        return groups
 
     def part(self, start: int, end: int) -> "Suggestion":
         """Return the cuts `start` to `end` - 1 alone."""
