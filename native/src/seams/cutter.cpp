@@ -219,7 +219,9 @@ void Cutter::allow_fallbacks(const Progress& progress) {
   solve(solved, progress);
 }
 
-bool Cutter::good_enough() const { return good_enough_but_for_qc() && quality_.mean_qc <= options_.qc_limit; }
+bool Cutter::good_enough() const {
+  return (is_energy_given_up_ || good_enough_but_for_qc()) && quality_.mean_qc <= options_.qc_limit;
+}
 
 bool Cutter::good_enough_but_for_qc() const {
   return quality_.within_limit >= enough_area && quality_.energy <= options_.energy_limit;
