@@ -15,8 +15,8 @@ struct SeamSuggestionOptions {
       std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
   double scale_limit = 2;  ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
   double qc_limit = 1.1;   ///< enough when the mean QC, weighted by area, is not above it; at least 1
-  /// Where nothing but the mean QC is beyond its limit: what a cut has to lower that of the whole mesh by for each
-  /// length of the root of the mesh's area, or it is not made; at least 0.
+  /// Where nothing but the mean QC is beyond its limit, or no cut lowers the energy any more: what a cut has to lower
+  /// the mean QC of the whole mesh by for each length of the root of the mesh's area, or it is not made; at least 0.
   double qc_gain = 0;
   /// Enough when the symmetric Dirichlet energy of the maps (mean weighted by area, 4 for an isometry, see MapQuality)
   /// is not above it; at least 4.

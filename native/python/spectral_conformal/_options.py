@@ -129,9 +129,10 @@ class SeamOptions:
             s^2 + t^2 + 1 / s^2 + 1 / t^2, s and t being the singular values of the map of a face at the median scale.
             4 means nothing is stretched. Large ones count as the square of their logarithm. None takes what goes with
             the other limits, 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2): 4.32 at their defaults.
-        qc_gain: at least 0: where nothing but the mean quasi-conformal distortion is beyond its limit, a cut has to
-            lower that of the whole mesh by so much for each length of the root of the mesh's area, or it is not made;
-            with a `qc_limit` of 1 this alone says how far cuts go, and at 0 the limit alone does.
+        qc_gain: at least 0: where nothing but the mean quasi-conformal distortion is beyond its limit, or no cut lowers
+            the energy any more, a cut has to lower that mean of the whole mesh by so much for each length of the root
+            of the mesh's area, or it is not made; with a `qc_limit` of 1 this alone says how far cuts go, and at 0 the
+            limit alone does.
         front: (3,) the direction from the mesh to its viewer, or None. Its length says how much seams keep out of the
             viewer's sight: an edge whose faces look at the viewer counts as 1 + length times as long.
         weights: of the maps, see `Options`.
