@@ -387,7 +387,7 @@ def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, f
     return {**common, **asdict(measure(vertices, offsets, corners, uv)), **phases}
 
 
-def in_process(name: str, faces: int, method: str, seconds: int, **limits: float) -> dict[str, float] | str:
+def in_process(name: str, faces: int, method: str, seconds: int = SECONDS, **limits: float) -> dict[str, float] | str:
     """`measured` in a process of its own; what went wrong as text."""
     module = "tests.benchmarks.generated_assets"
     command = [sys.executable, "-m", module, "--faces", str(faces), "--measure", name, method]

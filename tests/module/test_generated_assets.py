@@ -33,6 +33,19 @@ def test_the_same_each_time():
         np.testing.assert_array_equal(one, other)
 
 
+def test_a_grid_in_parts_has_the_same_surface(monkeypatch):
+    """Parts meet without a gap: a vertex more or an edge less would change one of the counts."""
+
+    def counts(mesh):
+        vertices, triangles = mesh
+        sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+        return len(vertices), len(np.unique(sides, axis=0)), len(triangles)
+
+    whole = counts(generated_assets.isosurface(generated_assets.statue)(50))
+    monkeypatch.setattr(generated_assets, "GRID_VALUES", 15 * 50 * 50)
+    assert counts(generated_assets.isosurface(generated_assets.statue)(50)) == whole
+
+
 # Of all kinds, and two of many handles that no map serves until their halves are apart: fallbacks serve neither.
 @pytest.mark.parametrize(
     ("name", "faces"),
@@ -69,6 +82,7 @@ def test_one_map_is_measured_in_a_process_of_its_own():
 
 def test_what_goes_wrong_is_said():
     assert in_short(generated_assets.in_process("no such asset", 1000, "spectral")) == "exit code 1"
+    assert generated_assets.in_process("blocks, 300", 1000, "spectral", seconds=0) == "no end after 0 s"
 
 
 def in_short(found):
