@@ -219,12 +219,10 @@ void Cutter::allow_fallbacks(const Progress& progress) {
   solve(solved, progress);
 }
 
-bool Cutter::good_enough() const {
-  return (is_energy_given_up_ || good_enough_but_for_qc()) && quality_.mean_qc <= options_.qc_limit;
-}
+bool Cutter::good_enough() const { return good_enough_but_for_qc() && quality_.mean_qc <= options_.qc_limit; }
 
 bool Cutter::good_enough_but_for_qc() const {
-  return quality_.within_limit >= enough_area && quality_.energy <= options_.energy_limit;
+  return is_energy_given_up_ || (quality_.within_limit >= enough_area && quality_.energy <= options_.energy_limit);
 }
 
 /// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
@@ -354,9 +352,7 @@ double Cutter::excess(const MapQuality& quality) const {
 }
 
 /// Whether cuts are priced by options_.qc_gain.
-bool Cutter::only_qc_counts() const {
-  return options_.qc_gain > 0 && quality_.solved && (is_energy_given_up_ || good_enough_but_for_qc());
-}
+bool Cutter::only_qc_counts() const { return options_.qc_gain > 0 && quality_.solved && good_enough_but_for_qc(); }
 
 /// What seams of this length have to lower the mean QC of the piece by; 0 where there is no such price.
 double Cutter::least_qc_gain(const SeamEdges& cut) const {
