@@ -91,6 +91,7 @@ std::optional<FallbackMap> solve_fallback(const SpectralSolver& failed, const Sp
     candidate.map = other.solve(options, attractors, progress, timings);
     attempts += candidate.map.attempts;
     if (candidate.map.rejection != Rejection::none) continue;
+    other.place(candidate.map.z);
     const ComplexVector z = candidate.map.z;
     consider(std::move(candidate), z);
   }

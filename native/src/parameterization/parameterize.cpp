@@ -138,7 +138,7 @@ std::optional<SolveFailure> Solver::State::solve_pinned(const SolveOptions& sett
   return std::nullopt;
 }
 
-/// The map of a factored patch, polished where that was asked for, and what it is the map of.
+/// The placed map of a factored patch, polished where that was asked for, and what it is the map of.
 SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, const Pins& attractors,
                                               const Progress& progress, Parameterization& result) {
   const bool is_free = settings.method == Method::spectral && !settings.has_extenders() && attractors.empty();
@@ -176,6 +176,9 @@ SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, cons
     }
     if (result.polish_steps > 0) result.eigenvalue_of = EigenvalueOf::map;
   }
+  Stopwatch watch(result.timings);
+  spectral.place(map.z);
+  watch.lap("placement");
   return map;
 }
 

@@ -82,7 +82,7 @@ SpectralMap solve_pinned(const SpectralSolver& solver, const Pins& pins, const P
     for (Complex& point : map.z) point = scaled_pins.origin + scaled_pins.unit * point;
     for (const auto& [vertex, position] : pins) map.z[vertex] = position;
   } else {
-    place(map.z, energy, patch.outer, patch.surface(), energy.area() * patch.scale * patch.scale);
+    solver.place(map.z);
   }
   watch.lap("placement");
   return map;

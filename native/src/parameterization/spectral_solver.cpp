@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "conformal/correction.h"
@@ -143,12 +144,10 @@ SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& att
   if (map.rejection == Rejection::winding) map.whole = std::move(v.z);
   if (map.rejection != Rejection::none) return map;
 
-  // Place it: centred, with the area in 3D, turned to lie along the axes.
   map.z = v.z.head(patch_->n_vertices);
-  place(map.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale);
   if (kept) previous_ = v.z;
   map.whole = std::move(v.z);
-  watch.lap("placement");
+  watch.lap("eigenproblem");
   return map;
 }
 
@@ -253,6 +252,11 @@ SpectralMap SpectralSolver::factorize(const Progress& progress) {
   return outcome;
 }
 
+bool SpectralSolver::place(ComplexVector& z) const {
+  return spectral_conformal::place(z, *energy_, patch_->outer, patch_->surface(),
+                                   energy_->area() * patch_->scale * patch_->scale);
+}
+
 int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& timings) {
   if (!is_factored() || previous_.size() == 0) return 0;
   Stopwatch watch(timings);
@@ -261,9 +265,11 @@ int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& 
   watch.lap("polish");
   if (steps == 0 || !polished.allFinite()) return 0;
   // Looked at where it comes to that: as a rule the border proves that neither covers itself.
+  std::optional<int> covering_before;
   const auto covers_more = [&](const ComplexVector& z) {
     const int covering = n_covering_triangles(*patch_, z);
-    return covering > 0 && covering > n_covering_triangles(*patch_, map.z);
+    if (covering > 0 && !covering_before) covering_before = n_covering_triangles(*patch_, map.z);
+    return covering > covering_before.value_or(0);
   };
   const auto mean_qc = [this](const ComplexVector& z) {
     return mean_quasi_conformal_distortion(energy_->shapes(), patch_->triangles, patch_->triangle_weights,
@@ -277,10 +283,8 @@ int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& 
     moved.whole = map.whole + fraction * (polished - map.whole);
     const Numbers after = numbers(moved.whole);
     moved.z = moved.whole.head(patch_->n_vertices);
-    is_sound =
-        after.turning_number == map.turning_number &&
-        place(moved.z, *energy_, patch_->outer, patch_->surface(), energy_->area() * patch_->scale * patch_->scale) &&
-        !covers_more(moved.z) && mean_qc(moved.z) < mean_qc_before;
+    is_sound = after.turning_number == map.turning_number && signed_area(*energy_, moved.z) > 0 &&
+               !covers_more(moved.z) && mean_qc(moved.z) < mean_qc_before;
     if (!is_sound) continue;
     map.z = std::move(moved.z);
     map.whole = std::move(moved.whole);
@@ -288,7 +292,7 @@ int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& 
     map.residual = after.residual;
     break;
   }
-  watch.lap("placement");
+  watch.lap("polish");
   return is_sound ? steps : 0;
 }
 

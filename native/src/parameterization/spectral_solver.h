@@ -18,9 +18,8 @@ namespace spectral_conformal {
 /// A map found by SpectralSolver, or why there is none.
 struct SpectralMap {
   Rejection rejection = Rejection::none;
-  ComplexVector z;  ///< (V,) placed; where it was accepted
-  ComplexVector
-      whole;  ///< the same with virtual vertices, at no particular place and scale; for Rejection::winding, too
+  ComplexVector z;        ///< (V,) where it was accepted; SpectralSolver::place places it
+  ComplexVector whole;    ///< with virtual vertices, at no particular place and scale; for Rejection::winding, too
   double eigenvalue = 0;  ///< in the units of the input
   double residual = 0;    ///< see SolveRecord
   double shift = 0;       ///< s of the last attempt
@@ -33,7 +32,8 @@ struct SpectralMap {
 ///   Eq. 2, 3  L = L_D - A, the conformal energy
 ///   Eq. 5     L z = lambda B z, B the form of the boundary, smallest nonzero lambda
 ///   Eq. 7     B^ z = mu (L + s M) z, largest mu; B^ is B without the constants
-/// then the checks, and the similarity that the energy leaves free. Keeps the factor of L + s M between solves.
+/// then the checks, the polish, and the similarity that the energy leaves free. Keeps the factor of L + s M between
+/// solves.
 class SpectralSolver {
  public:
   /// The patch must outlive this object. Throws InvalidMesh where the outer loop has no length.
@@ -52,14 +52,19 @@ class SpectralSolver {
   SpectralMap factorize(const Progress& progress);
   bool is_factored() const { return factor_.factorization != nullptr; }
 
-  /// The map of Method::spectral, fiedler or area; `attractors` are soft pins. Tried again, with a larger shift and
-  /// another start, where it fails its checks. Solves with soft constraints start from the maps of earlier solves.
+  /// The map of Method::spectral, fiedler or area, not yet placed; `attractors` are soft pins. Tried again, with a
+  /// larger shift and another start, where it fails its checks. Solves with soft constraints start from the maps of
+  /// earlier solves.
   SpectralMap solve(const SolveOptions& options, const Pins& attractors, const Progress& progress, Timings& timings);
 
   /// Lowers the mean QC of a map of this solver (polish.h) and returns the number of steps; not the whole way, or none
   /// of it, where more of it would lie on itself than before. 0, and the map stays, where no step lowers it, or
   /// the factor was not kept: the map took a second attempt.
   int polish(SpectralMap& map, const Progress& progress, Timings& timings);
+
+  /// Fixes what the energy leaves free (placement.h): centred, with the area in 3D, upright. z (V,). False, and z
+  /// stays, where its signed area is not positive.
+  bool place(ComplexVector& z) const;
 
   /// The numbers of any map: its quotient of Eq. 5 and how far it is from an eigenvector. whole: with virtual vertices.
   struct Numbers {

@@ -29,7 +29,7 @@ UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const Complex
                    map.covered_itself != map.covers_itself;
   result.mean_qc = result.mean_qc_before;
   if (!result.changed) return result;
-  if (held.empty() && !place(map.z, energy, patch.outer, patch.surface(), energy.area() * patch.scale * patch.scale)) {
+  if (held.empty() && !solver.place(map.z)) {
     throw SolveFailure("The map has no positive area", "add seams that make the island flatter.");
   }
   const SpectralSolver::Numbers after = solver.numbers(with_virtual_vertices(patch, map.z));

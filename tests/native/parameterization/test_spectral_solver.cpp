@@ -12,14 +12,16 @@ namespace spectral_conformal::test {
 
 TEST_SUITE_BEGIN("spectral_solver");
 
-TEST_CASE("the map is the eigenvector of Eq. 5, placed") {
+TEST_CASE("the map is the eigenvector of Eq. 5, and can be placed") {
   const Patch patch(bumpy_grid(9, 7));
   const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
   for (const auto backend : backends()) {
     SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, backend);
     Timings timings;
-    const SpectralMap map = solver.solve({}, {}, {}, timings);
+    SpectralMap map = solver.solve({}, {}, {}, timings);
     REQUIRE(map.rejection == Rejection::none);
+    CHECK(map.z == map.whole.head(normalized.n_vertices));
+    CHECK(solver.place(map.z));
     CHECK(solver.is_factored());
     CHECK((map.attempts == 1 && map.turning_number == 1 && map.residual < 1e-10));
     CHECK(difference_up_to_similarity(map.whole, map.z) < 1e-12);
@@ -31,6 +33,18 @@ TEST_CASE("the map is the eigenvector of Eq. 5, placed") {
     const ComplexVector other = random_map(map.z.size());
     CHECK(map.eigenvalue * normalized.scale < solver.energy().value(other) / solver.form().value(other));
   }
+}
+
+TEST_CASE("a map without positive area is not placed") {
+  const Patch patch(flat_grid(4, 3));
+  const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
+  const SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
+  Timings timings;
+  SpectralMap map = SpectralSolver(solver, Weights::uniform, BoundaryMeasure::length).solve({}, {}, {}, timings);
+  const ComplexVector mirrored = map.z.conjugate();
+  map.z = mirrored;
+  CHECK_FALSE(solver.place(map.z));
+  CHECK(map.z == mirrored);
 }
 
 TEST_CASE("another metric or clamped triangles take the factor away") {
