@@ -22,7 +22,7 @@ import resource
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 
@@ -57,22 +57,31 @@ def isosurface(field: Callable[[np.ndarray], np.ndarray]) -> Callable[[int], Mes
     def make(resolution: int) -> Mesh:
         from skimage.measure import marching_cubes
 
-        axis = np.linspace(-1, 1, resolution, dtype=np.float32)
-        pieces, layers, first = [], [], 0
-        for slab in np.array_split(axis, max(1, resolution // 16)):
-            layers += [field(np.stack(np.meshgrid(slab, axis, axis, indexing="ij"), axis=-1))]
-            if slab[-1] < 1 and sum(map(np.size, layers)) < GRID_VALUES:
-                continue
-            values = np.concatenate(layers)
+        pieces = []
+        for first, values in grid_parts(field, resolution):
             if values.min() < 0 < values.max():
                 vertices, triangles, _, _ = marching_cubes(values, 0.0)
                 pieces.append((vertices.astype(float) + [first, 0, 0], triangles.astype(np.int64)))
-            # The next part shares a layer with this one, where both have the same vertices.
-            first, layers = first + len(values) - 1, [values[-1:].copy()]
         vertices, triangles = welded(pieces)
         return vertices * 2 / (resolution - 1) - 1, triangles
 
     return make
+
+
+def grid_parts(field: Callable[[np.ndarray], np.ndarray], resolution: int) -> Iterator[tuple[int, np.ndarray]]:
+    """Yield the values on a grid of [-1, 1]^3 part by part, each with the number of its first layer.
+
+    A part shares one layer with the next, where surfaces of both have the same vertices.
+    """
+    axis = np.linspace(-1, 1, resolution, dtype=np.float32)
+    layers, first = [], 0
+    for slab in np.array_split(axis, max(1, resolution // 16)):
+        layers += [field(np.stack(np.meshgrid(slab, axis, axis, indexing="ij"), axis=-1))]
+        if slab[-1] < 1 and sum(map(np.size, layers)) < GRID_VALUES:
+            continue
+        values = np.concatenate(layers)
+        yield first, values
+        first, layers = first + len(values) - 1, [values[-1:].copy()]
 
 
 def welded(pieces: list[Mesh]) -> Mesh:

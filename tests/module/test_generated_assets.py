@@ -15,6 +15,11 @@ def without_area(vertices, triangles):
     return not np.linalg.norm(np.cross(b - a, c - a), axis=1).any()
 
 
+def triangles_of_edges(triangles):
+    sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0, return_counts=True)[1]
+
+
 def test_there_are_enough_of_all_kinds():
     assert len(generated_assets.ASSETS) >= 20
     kinds = {"open": 0, "closed": 0, "not manifold": 0}
@@ -22,8 +27,7 @@ def test_there_are_enough_of_all_kinds():
         vertices, triangles = generated_assets.asset(name, 1000)
         assert np.isfinite(vertices).all()
         assert set(np.unique(triangles)) == set(range(len(vertices)))
-        sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-        count = np.unique(sides, axis=0, return_counts=True)[1]
+        count = triangles_of_edges(triangles)
         kinds["not manifold" if count.max() > 2 else "open" if count.min() < 2 else "closed"] += 1
     assert min(kinds.values()) >= 4, kinds
 
@@ -38,8 +42,7 @@ def test_a_grid_in_parts_has_the_same_surface(monkeypatch):
 
     def counts(mesh):
         vertices, triangles = mesh
-        sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-        return len(vertices), len(np.unique(sides, axis=0)), len(triangles)
+        return len(vertices), len(triangles_of_edges(triangles)), len(triangles)
 
     whole = counts(generated_assets.isosurface(generated_assets.statue)(50))
     monkeypatch.setattr(generated_assets, "GRID_VALUES", 15 * 50 * 50)
