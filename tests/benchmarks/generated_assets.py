@@ -33,7 +33,7 @@ from tests.benchmarks.generated import write_obj
 Mesh = tuple[np.ndarray, np.ndarray]
 SECONDS, GIGABYTES = 1200, 12
 QC_CAP = 10.0
-# Of a grid for marching cubes at once: in 4 bytes each, they fit beside the mesh.
+# Of a part of a grid for marching cubes: two of them, in 4 bytes a value, fit beside the mesh.
 GRID_VALUES = 1_300_000_000
 # Of the suggested seams, that a run may set.
 LIMITS = ("qc_limit", "qc_gain")
