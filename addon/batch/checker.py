@@ -11,17 +11,21 @@ from mathutils import Vector
 _CHECKS = 40.0
 _SAMPLES = 16
 _LENS_DISTANCE = 2.4
+# The brightness of a face that is seen edge-on, beside one that is seen face-on.
+_EDGE_ON = 0.4
 
 
 def render(path: Path, size: int) -> None:
     """Render the scene from obliquely above to a PNG of `size` pixels, by Cycles, which needs no graphics card.
 
+    Faces are shaded by how they face the camera, on both sides alike: nothing lies in the shadow of something else.
     What is added to the scene is removed again.
     """
     low, high = _bounds()
     centre, radius = (low + high) / 2.0, max((high - low).length / 2.0, 1e-6)
+    direction = Vector((1.0, -1.5, 0.9)).normalized()
     scene = bpy.data.scenes.new("checker")
-    material = _material()
+    material = _material(direction)
     added: list[bpy.types.ID] = [material]
     try:
         for item in [item for item in bpy.context.view_layer.objects if item.type == "MESH" and item.visible_get()]:
@@ -32,7 +36,6 @@ def render(path: Path, size: int) -> None:
             shown.matrix_world = item.matrix_world
             scene.collection.objects.link(shown)
             added += [mesh]
-        direction = Vector((1.0, -1.5, 0.9)).normalized()
         camera = bpy.data.cameras.new("checker")
         camera.clip_start, camera.clip_end = radius * 1e-3, radius * 20.0
         holder = bpy.data.objects.new("checker", camera)
@@ -62,19 +65,28 @@ def _bounds() -> tuple[Vector, Vector]:
     return low, high
 
 
-def _material() -> bpy.types.Material:
+def _material(towards_camera: Vector) -> bpy.types.Material:
     material = bpy.data.materials.new("checker")
     material.use_nodes = True
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
-    output, light = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeBsdfDiffuse")
+    output, light = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeEmission")
+    facing, both_sides = nodes.new("ShaderNodeVectorMath"), nodes.new("ShaderNodeMath")
+    shade, geometry = nodes.new("ShaderNodeMath"), nodes.new("ShaderNodeNewGeometry")
     checks, coordinates = nodes.new("ShaderNodeTexChecker"), nodes.new("ShaderNodeTexCoord")
     checks.inputs["Scale"].default_value = _CHECKS
     checks.inputs["Color1"].default_value = (0.8, 0.8, 0.8, 1.0)
     checks.inputs["Color2"].default_value = (0.1, 0.2, 0.5, 1.0)
+    facing.operation, both_sides.operation, shade.operation = "DOT_PRODUCT", "ABSOLUTE", "MULTIPLY_ADD"
+    facing.inputs[1].default_value = towards_camera
+    shade.inputs[1].default_value, shade.inputs[2].default_value = 1.0 - _EDGE_ON, _EDGE_ON
+    links.new(geometry.outputs["Normal"], facing.inputs[0])
+    links.new(facing.outputs["Value"], both_sides.inputs[0])
+    links.new(both_sides.outputs["Value"], shade.inputs[0])
     links.new(coordinates.outputs["UV"], checks.inputs["Vector"])
     links.new(checks.outputs["Color"], light.inputs["Color"])
-    links.new(light.outputs["BSDF"], output.inputs["Surface"])
+    links.new(shade.outputs["Value"], light.inputs["Strength"])
+    links.new(light.outputs["Emission"], output.inputs["Surface"])
     return material
 
 

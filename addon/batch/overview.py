@@ -42,8 +42,10 @@ COLUMNS: tuple[tuple[str, tuple[str, ...]], ...] = (
 _STYLE = """
 body{font:14px system-ui,sans-serif;margin:1.5em;background:#fff;color:#222}
 table{border-collapse:collapse}th,td{padding:.25em .6em;border-bottom:1px solid #ddd;text-align:right}
-th{position:sticky;top:0;background:#eee;cursor:pointer}td.text,th.text{text-align:left}
+th{position:sticky;top:0;background:#eee;cursor:pointer}th[data-sorted=up]::after{content:" \\25B2"}
+th[data-sorted=down]::after{content:" \\25BC"}td.text,th.text{text-align:left}
 tr.failed td{background:#fdd}tr.incomplete td{background:#ffd}img{width:80px;height:80px;display:block}
+.links{font-size:smaller}
 """
 # Numbers by size, texts by the alphabet; what is empty last.
 _SCRIPT = """
@@ -104,10 +106,10 @@ def write(out: Path, reports: Sequence[dict[str, Any]], is_interrupted: bool = F
 
 
 def _page(out: Path, rows: Sequence[dict[str, Any]], counts: Counter[str]) -> str:
-    heads = "".join(f'<th class="{_kind(name)}">{name.replace("_", " ")}</th>' for name in ("layout", *rows[0]))
+    heads = "".join(f'<th class="{_kind(name)}">{_title(name)}</th>' for name in ("layout", *rows[0]))
     body = "\n".join(
         f'<tr class="{html.escape(found["status"])}"><td>{_picture(out, found)}</td>'
-        + "".join(_cell(name, value) for name, value in found.items())
+        + "".join(_cell(name, value, _links(out, found) if name == "name" else "") for name, value in found.items())
         + "</tr>"
         for found in rows
     )
@@ -124,14 +126,26 @@ def _kind(name: str) -> str:
     return "text" if name in ("name", "status", "failure", "message") else "number"
 
 
-def _cell(name: str, value: Any) -> str:  # noqa: ANN401 - any of JSON's
+def _title(name: str) -> str:
+    return name.replace("_", " ").replace("qc", "QC")
+
+
+def _cell(name: str, value: Any, links: str) -> str:  # noqa: ANN401 - any of JSON's
     if value is None:
         shown = exact = ""
     elif name == "peak_memory":
         shown, exact = f"{value / 2**20:.0f} MiB", value
     else:
         shown, exact = f"{value:.4g}" if isinstance(value, float) else str(value), value
-    return f'<td class="{_kind(name)}" data-value="{html.escape(str(exact))}">{html.escape(shown)}</td>'
+    return f'<td class="{_kind(name)}" data-value="{html.escape(str(exact))}">{html.escape(shown)}{links}</td>'
+
+
+def _links(out: Path, found: dict[str, Any]) -> str:
+    """Return links to what there is of an asset beside the layout."""
+    folder = out / found["name"]
+    there = {"report": folder / assets.REPORT, "checker": folder / assets.CHECKER}
+    links = [f'<a href="{_relative(path, out)}">{name}</a>' for name, path in there.items() if path.exists()]
+    return f'<div class="links">{" ".join(links)}</div>'
 
 
 def _picture(out: Path, found: dict[str, Any]) -> str:
@@ -141,5 +155,9 @@ def _picture(out: Path, found: dict[str, Any]) -> str:
         data = base64.b64encode((folder / assets.THUMBNAIL).read_bytes()).decode()
     except OSError:
         return ""
-    link = quote(Path(os.path.relpath(folder / assets.LAYOUT, out)).as_posix())
+    link = _relative(folder / assets.LAYOUT, out)
     return f'<a href="{link}"><img alt="" loading="lazy" src="data:image/png;base64,{data}"></a>'
+
+
+def _relative(path: Path, out: Path) -> str:
+    return quote(Path(os.path.relpath(path, out)).as_posix())
