@@ -84,8 +84,17 @@ def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Ite
         return
     window_manager = context.window_manager
     window_manager.progress_begin(0, 100)
+    shown = 0
+
+    def progress(fraction: float, _phase: str) -> None:
+        # Many small islands report often, and each update changes the mouse cursor.
+        nonlocal shown
+        if (percent := _percent(fraction)) > shown:
+            shown = percent
+            window_manager.progress_update(percent)
+
     try:
-        yield lambda fraction, _phase: window_manager.progress_update(_percent(fraction))
+        yield progress
     finally:
         window_manager.progress_end()
 
@@ -96,8 +105,11 @@ def _printer(label: str) -> Progress:
 
     def progress(fraction: float, phase: str) -> None:
         nonlocal printed_at, printed
-        now, percent = time.monotonic(), _percent(fraction)
-        if now - printed_at >= _PRINT_SECONDS and percent > printed:
+        now = time.monotonic()
+        if now - printed_at < _PRINT_SECONDS:
+            return
+        percent = _percent(fraction)
+        if percent > printed:
             print(texts.printed_progress(label, percent, phase), flush=True)
             printed_at, printed = now, percent
 

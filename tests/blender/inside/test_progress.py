@@ -4,6 +4,7 @@
 import importlib
 import re
 import time
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -42,6 +43,16 @@ def test_lines_are_a_second_apart(capfd):
             report((time.monotonic() - start) / 2.5, "phase")
             time.sleep(0.001)
     assert len(printed(capfd)) == 2
+
+
+def test_a_window_is_told_every_percent_once(monkeypatch):
+    monkeypatch.setattr(progress, "bpy", SimpleNamespace(app=SimpleNamespace(background=False)))
+    told = []
+    manager = SimpleNamespace(progress_begin=lambda *_: None, progress_update=told.append, progress_end=lambda: None)
+    with progress.blocking(SimpleNamespace(window_manager=manager)) as report:
+        for step in range(1001):
+            report(step / 1000, "phase")
+    assert told == list(range(1, 101))
 
 
 def test_small_mesh_prints_nothing(capfd):
