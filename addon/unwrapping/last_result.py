@@ -33,7 +33,7 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
         name = edit_mesh.mesh.name_full
         failed = solution.failed_islands.copy()
         before = _results.get(name)
-        if before is not None and before.topology == polygons.topology:
+        if before is not None and before.topology == polygons.topology and before.failed_islands.max(initial=-1) >= 0:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
         _results[name] = _Result(failed, polygons.topology)
