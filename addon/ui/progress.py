@@ -84,19 +84,23 @@ def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Ite
         return
     window_manager = context.window_manager
     window_manager.progress_begin(0, 100)
+    try:
+        yield _at_cursor(window_manager)
+    finally:
+        window_manager.progress_end()
+
+
+def _at_cursor(window_manager: bpy.types.WindowManager) -> Progress:
+    """Return a progress function that changes the mouse cursor at every percent, however often islands report."""
     shown = 0
 
     def progress(fraction: float, _phase: str) -> None:
-        # Many small islands report often, and each update changes the mouse cursor.
         nonlocal shown
         if (percent := _percent(fraction)) > shown:
             shown = percent
             window_manager.progress_update(percent)
 
-    try:
-        yield progress
-    finally:
-        window_manager.progress_end()
+    return progress
 
 
 def _printer(label: str) -> Progress:
@@ -106,10 +110,7 @@ def _printer(label: str) -> Progress:
     def progress(fraction: float, phase: str) -> None:
         nonlocal printed_at, printed
         now = time.monotonic()
-        if now - printed_at < _PRINT_SECONDS:
-            return
-        percent = _percent(fraction)
-        if percent > printed:
+        if now - printed_at >= _PRINT_SECONDS and (percent := _percent(fraction)) > printed:
             print(texts.printed_progress(label, percent, phase), flush=True)
             printed_at, printed = now, percent
 
