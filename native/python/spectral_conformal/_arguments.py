@@ -1,4 +1,9 @@
-"""Checks and conversions of arrays and numbers: what is wrong is named in a ValueError."""
+"""Checks and conversions of arrays and numbers: what is wrong is named in a ValueError.
+
+Arrays are copied, once, and the copies are checked. The native module counts, and later fills, without the GIL, and
+reads some arrays again in later solves: what other threads and progress functions do to the caller's arrays meanwhile
+must not reach it.
+"""
 
 from __future__ import annotations
 
@@ -38,18 +43,22 @@ def checked_polygon_mesh(
     offsets = checked_index_vector(face_offsets, "face_offsets")
     if len(offsets) == 1:
         raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
-    offsets = checked_face_offsets(offsets, len(corners))
+    _check_rising(offsets, len(corners))
     seams = None if seam_edges is None else checked_indices(seam_edges, "seam_edges", 2, len(vertices))
     return vertices, offsets, corners, seams, checked_face_selection(selected_faces, len(offsets) - 1)
 
 
 def checked_face_offsets(face_offsets: npt.ArrayLike, n_corners: int) -> npt.NDArray[np.int32]:
     offsets = checked_index_vector(face_offsets, "face_offsets")
+    _check_rising(offsets, n_corners)
+    return offsets
+
+
+def _check_rising(offsets: npt.NDArray[np.int32], n_corners: int) -> None:
     if len(offsets) == 0:
         raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
     if offsets[0] != 0 or offsets[-1] != n_corners or (np.diff(offsets) < 0).any():
         raise ValueError(f"face_offsets must rise from 0 to the number of corners, {n_corners}, without decreasing.")
-    return offsets
 
 
 def checked_face_selection(selected_faces: npt.ArrayLike | None, n_faces: int) -> npt.NDArray[np.bool_] | None:
@@ -60,7 +69,8 @@ def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.ND
     array = checked_array(values, name)
     if array.dtype != np.bool_ or array.shape != (n,):
         raise ValueError(f"{name} must be {n} booleans, one per {item}, not {array.dtype} of shape {array.shape}.")
-    return np.ascontiguousarray(array)
+    # A flag is any byte but 0 to NumPy, and 0 or 1 to a compiler.
+    return array.view(np.uint8) != 0
 
 
 def checked_between(value: float, low: float, high: float, name: str) -> float:
@@ -85,7 +95,7 @@ def checked_count(value: int, name: str) -> int:
 
 
 def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, float]:
-    array = checked_array(value, name)
+    array = np.array(checked_array(value, name))
     if array.shape != (3,) or array.dtype.kind not in "iuf" or not np.isfinite(array).all():
         raise ValueError(f"{name} must be three finite numbers, not {value!r}.")
     x, y, z = array.tolist()
@@ -96,9 +106,11 @@ def checked_preference(values: npt.ArrayLike | None, n_vertices: int) -> npt.NDA
     if values is None:
         return None
     array = checked_array(values, "vertex_preference")
-    if array.shape != (n_vertices,) or array.dtype.kind not in "iuf" or not (np.abs(array) <= 1).all():
+    is_usable = array.shape == (n_vertices,) and array.dtype.kind in "iuf"
+    preference = np.array(array, dtype=np.float64) if is_usable else None
+    if preference is None or not (np.abs(preference) <= 1).all():
         raise ValueError(f"vertex_preference must be {n_vertices} numbers from -1 to 1, one per vertex.")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return preference
 
 
 def checked_progress(progress: Progress | None) -> Progress | None:
@@ -121,14 +133,14 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     return array
 
 
-def contiguous_floats(array: np.ndarray, name: str, keep_single: bool = False) -> npt.NDArray[np.floating]:
-    """Return the array as float64, or as float32 where it is that already and `keep_single` is set."""
+def copied_floats(array: np.ndarray, name: str, keep_single: bool = False) -> npt.NDArray[np.floating]:
+    """Return a copy of the array as float64, or as float32 where it is that already and `keep_single` is set."""
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
     # Wider floats that a double does not hold become infinite, and are named as such.
     with np.errstate(over="ignore"):
         kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
-        return np.require(array, kind, ["C_CONTIGUOUS", "ALIGNED"])
+        return np.array(array, kind, order="C")
 
 
 def checked_floats(
@@ -137,7 +149,7 @@ def checked_floats(
     array = checked_array(values, name)
     if array.ndim != 2 or array.shape[1] != columns:
         raise ValueError(f"{name} must have the shape (n, {columns}), not {array.shape}.")
-    return contiguous_floats(array, name, keep_single)
+    return copied_floats(array, name, keep_single)
 
 
 def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -152,12 +164,12 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
         raise ValueError(f"{name} must hold integers, not {array.dtype}.")
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
-    if array.size and (array.min() < 0 or array.max() > _INDEX_LIMIT):
+    indices = np.array(array, order="C")
+    if indices.size and (indices.min() < 0 or indices.max() > _INDEX_LIMIT):
         raise ValueError(
-            f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {array.min()} to {array.max()}."
+            f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {indices.min()} to {indices.max()}."
         )
-    # A copy: the native module must not read past an array because the caller changes an index later.
-    return np.array(array, dtype=np.int32)
+    return indices.astype(np.int32, copy=False)
 
 
 def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
@@ -190,7 +202,7 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
         raise ValueError(
             f"extenders must be (vertex, vertex, strength) triples, not a {type(extenders).__name__}."
         ) from error
-    for k, extender in enumerate(triples):
+    for k, extender in enumerate(tuple(triples)):
         try:
             first, second, strength = extender
             i, j, strength = operator.index(first), operator.index(second), float(strength)
@@ -231,7 +243,7 @@ def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]
         raise ValueError(
             f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
         )
-    tensors = contiguous_floats(array, "metric")
+    tensors = copied_floats(array, "metric")
     if not np.isfinite(tensors).all():
         raise ValueError("metric has values that are not finite.")
     size_of = np.abs(tensors).max(axis=(1, 2), initial=0.0)
@@ -250,7 +262,7 @@ def checked_broadcast(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) 
         array = np.broadcast_to(array, shape)
     except ValueError as error:
         raise ValueError(f"{name} must have the shape {shape}, not {array.shape}.") from error
-    return contiguous_floats(array, name)
+    return copied_floats(array, name)
 
 
 def checked_corner_pins(
@@ -279,7 +291,7 @@ def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, f
     if not isinstance(pins, Mapping):
         raise ValueError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
     result = []
-    for vertex, position in pins.items():
+    for vertex, position in dict(pins).items():
         try:
             index = operator.index(vertex)
             u, v = (float(x) for x in position)

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every public function of the module, called with arguments that change meanwhile."""
+
+import itertools
+import sys
+import threading
+from dataclasses import dataclass, field
+
+import numpy as np
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+N = 12
+EXTENDERS = ((0, 20, 0.01), (7, 100, -0.01))
+
+
+@dataclass
+class Arguments:
+    """What all functions take together, of the types that need no conversion, which are those that could be shared."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    face_offsets: np.ndarray
+    corner_vertices: np.ndarray
+    seam_edges: np.ndarray
+    selected_faces: np.ndarray
+    pinned_corners: np.ndarray
+    corner_uv: np.ndarray
+    uv: np.ndarray
+    vertex_preference: np.ndarray
+    metric: np.ndarray
+    triangle_metric: np.ndarray
+    directions: np.ndarray
+    ratios: np.ndarray
+    sizes: np.ndarray
+    front: np.ndarray
+    pins: dict = field(default_factory=dict)
+    extenders: list = field(default_factory=list)
+
+    def arrays(self):
+        return [value for value in vars(self).values() if isinstance(value, np.ndarray)]
+
+    def change(self):
+        """Make every argument another one in place, all of them such that a call that got them would be no error."""
+        for array in self.arrays():
+            if array.dtype == np.bool_:
+                np.logical_not(array, out=array)
+            elif array.dtype == np.int32:
+                array[...] = array[::-1].copy() if array is not self.face_offsets else array.max()
+            else:
+                array[...] = array[::-1].copy() * 1.5
+        # Of another size each time, as an iteration would notice.
+        self.pins.update({len(self.pins) % 20: (0.5, len(self.pins))})
+        self.extenders[:] = [(1, 30, 0.01)] * (1 + len(self.extenders) % 7)
+
+
+def some_arguments() -> Arguments:
+    vertices, quads = meshes.saddle_quads(N)
+    vertices = np.ascontiguousarray(vertices)
+    offsets, corners = (np.ascontiguousarray(array, np.int32) for array in meshes.polygons(quads))
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+    random = np.random.default_rng(0)
+    selected = np.arange(len(quads)) % (N - 1) < N - 3
+    pinned = np.zeros(len(corners), bool)
+    pinned[[0, 2 * len(corners) // 3]] = True
+    g = np.eye(3) + 0.1 * random.random((len(quads), 1, 1)) * np.ones((3, 3))
+    h = np.eye(2) + 0.1 * random.random((len(triangles), 1, 1)) * np.ones((2, 2))
+    return Arguments(
+        vertices=vertices,
+        triangles=triangles,
+        face_offsets=offsets,
+        corner_vertices=corners,
+        seam_edges=np.array([[k, k + 1] for k in range(5 * N, 6 * N - 4)], np.int32),
+        selected_faces=selected,
+        pinned_corners=pinned,
+        corner_uv=np.ascontiguousarray(vertices[corners][:, :2]),
+        uv=np.ascontiguousarray(vertices[:, :2] * [1, 2]),
+        vertex_preference=random.random(len(vertices)) * 0.5,
+        metric=g,
+        triangle_metric=h,
+        directions=np.ascontiguousarray(random.normal(size=(len(triangles), 3))),
+        ratios=1 + random.random(len(triangles)),
+        sizes=random.random((30, 2)),
+        front=np.array([0.0, -1.0, 0.0]),
+        pins={0: (0.0, 0.0), 5: (1.0, 0.5)},
+        extenders=list(EXTENDERS),
+    )
+
+
+def mesh(a):
+    return a.vertices, a.face_offsets, a.corner_vertices
+
+
+def cut(a):
+    return {"seam_edges": a.seam_edges, "selected_faces": a.selected_faces}
+
+
+def with_pins(a):
+    return {"pins": a.pins, "pinned_corners": a.pinned_corners, "corner_uv": a.corner_uv, "soft_pins": 1.0}
+
+
+# Every public function that takes arrays. What an object is made of is changed before its first solve, too.
+CALLS = {
+    "parameterize": lambda a, p: sc.parameterize(
+        a.vertices, a.triangles, extenders=a.extenders, metric=a.triangle_metric, progress=p
+    ),
+    "parameterize with pins": lambda a, p: sc.parameterize(a.vertices, a.triangles, pins=a.pins, progress=p),
+    "Solver": lambda a, p: sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric, progress=p).solve(),
+    "Solver.solve": lambda a, p: changed_after(
+        sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric), a, p
+    ).solve(extenders=EXTENDERS, progress=p),
+    "unwrap": lambda a, p: sc.unwrap(*mesh(a), **cut(a), extenders=a.extenders, metric=a.metric, progress=p),
+    "unwrap with pins": lambda a, p: sc.unwrap(*mesh(a), **cut(a), **with_pins(a), progress=p),
+    "Unwrapper.solve": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), metric=a.metric), a, p).solve(
+        extenders=EXTENDERS, progress=p
+    ),
+    "Unwrapper with pins": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), **with_pins(a)), a, p).solve(
+        progress=p
+    ),
+    "suggest_seams": lambda a, p: sc.suggest_seams(
+        *mesh(a), **cut(a), vertex_preference=a.vertex_preference, front=a.front, progress=p
+    ),
+    "suggest_cuts": lambda a, p: sc.suggest_cuts(
+        *mesh(a), **cut(a), vertex_preference=a.vertex_preference, max_length=20.0, progress=p
+    ),
+    "chart_of_face": lambda a, _: sc.chart_of_face(*mesh(a), **cut(a)),
+    "distortion": lambda a, _: sc.distortion(a.vertices, a.triangles, a.uv),
+    "face_distortion": lambda a, _: sc.face_distortion(*mesh(a), a.corner_uv, selected_faces=a.selected_faces),
+    "face_distortion of single precision": lambda a, _: sc.face_distortion(
+        *mesh(a), a.corner_uv.astype(np.float32), selected_faces=a.selected_faces
+    ),
+    "face_triangles": lambda a, _: sc.face_triangles(*mesh(a), selected_faces=a.selected_faces),
+    "map_defects": lambda a, _: sc.map_defects(
+        a.face_offsets, a.corner_vertices, a.corner_uv, selected_faces=a.selected_faces, between_islands=True
+    ),
+    "metric_from_uv": lambda a, _: sc.metric_from_uv(a.vertices, a.triangles, a.uv),
+    "metric_from_direction": lambda a, _: sc.metric_from_direction(a.vertices, a.triangles, a.directions, a.ratios),
+    "blend_metric": lambda a, _: sc.blend_metric(a.triangle_metric, 0.5),
+    "pack_boxes": lambda a, _: sc.pack_boxes(a.sizes),
+}
+WITH_PROGRESS = [name for name, call in CALLS.items() if "p" in call.__code__.co_varnames]
+# What takes no arrays.
+WITHOUT_ARRAYS = {"build_info", "limit_threads"}
+
+
+def changed_after(made, arguments, progress):
+    """Return an object after its arguments were changed, where a progress function is there to do that."""
+    if progress is not None:
+        progress(0.0, "")
+    return made
+
+
+def values(result):
+    """Return the arrays and numbers of a result, but for seconds, as a flat list."""
+    if isinstance(result, np.ndarray):
+        return [result]
+    if isinstance(result, (list, tuple)):
+        return list(itertools.chain.from_iterable(values(part) for part in result))
+    if hasattr(result, "__dict__"):
+        fields = {name: value for name, value in vars(result).items() if name != "timings"}
+        if "charts" in fields:
+            fields["charts"] = list(fields["charts"])
+        return values(list(fields.values()))
+    return [np.asarray(result)]
+
+
+def assert_equal(found, expected):
+    found, expected = values(found), values(expected)
+    assert len(found) == len(expected)
+    for mine, theirs in zip(found, expected):
+        np.testing.assert_array_equal(mine, theirs)
+
+
+def change_from_another_thread(name, calls):
+    """Call a function while a thread changes all its arguments: it may refuse the mixture that it copied."""
+    arguments = some_arguments()
+    stop = threading.Event()
+
+    def disturb():
+        while not stop.is_set():
+            arguments.change()
+
+    thread = threading.Thread(target=disturb)
+    thread.start()
+    try:
+        for _ in range(calls):
+            try:
+                CALLS[name](arguments, None)
+            except (ValueError, sc.SolveError):
+                continue
+    finally:
+        stop.set()
+        thread.join()
+
+
+def main():
+    """Call the functions that are named, or all of them, each so many times: python -m tests.module.changing 20."""
+    calls, *names = sys.argv[1:]
+    for name in names or CALLS:
+        change_from_another_thread(name, int(calls))
+        print(name, flush=True)
+
+
+if __name__ == "__main__":
+    main()
