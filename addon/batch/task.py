@@ -24,7 +24,7 @@ from ..core import kept_maps, native, seam_suggestion, texts, welding
 from ..core.errors import ReadableError
 from ..core.map_view import MapArrays, MapView, automatic_range, weighted_percentiles
 from ..core.mesh import PolygonMesh
-from ..core.solve import Solution
+from ..core.solve import Solution, are_solved, column_of_all
 from ..core.summary import summarize
 from ..edit_mesh import packing, read_map
 from ..edit_mesh.read import EditMesh
@@ -290,8 +290,8 @@ def _unwrap(settings: BatchSettings, phases: _Phases, report: dict[str, Any]) ->
 
 def _note_solutions(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution], report: dict[str, Any]) -> None:
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
-    charts = [chart for solution in solutions for chart in solution.charts if chart.status == "solved"]
-    report["fallbacks"] = dict(Counter(chart.fallback for chart in charts if chart.fallback))
+    solved = are_solved(solutions)
+    report["fallbacks"] = dict(Counter(filter(None, column_of_all(solutions, "fallback")[solved].tolist())))
     report["repairs"] = dict(summary.repairs)
     report["failed_islands"] = dict(summary.failures)
 

@@ -78,15 +78,15 @@ class ExtenderAdjustment:
             result = self._unwrapper.solve(**constraints, **({} if is_final else {"tolerance": _TOLERANCE}))
         except ValueError as error:
             raise AdjustmentError(str(error)) from error
-        failed = [chart.message for chart in result.charts if chart.status != "solved"]
-        if failed:
-            raise AdjustmentError(failed[0])
+        failed = np.flatnonzero(result.charts.column("status") != "solved")
+        if len(failed):
+            raise AdjustmentError(result.charts[failed[0]].message)
         self.unused = int(np.count_nonzero(result.unused_extenders[len(self._others) :]))
         if self.unused == len(self._pairs):
             raise AdjustmentError(translate(texts.HELD_BY_PINS))
         if self._shown is None:
             self._chart = result.chart_of_face[self._mesh.face_of_corner()]
-            self._shown, self._scale = self._start(result.uv, self._chart, np.array([c.area for c in result.charts]))
+            self._shown, self._scale = self._start(result.uv, self._chart, result.charts.column("area"))
         self._shown = placement.turned_onto(result.uv, self._shown, self._chart, self._scale)
         return self._mesh.from_isotropic_uv(self._shown[self.corners])
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .chart_records import PartOfCharts
 from .mesh import PolygonMesh
 
 
@@ -73,30 +74,29 @@ def parts(
     corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
     faces = _starts(len(mesh.selected_faces) for mesh in meshes)
     # Charts are numbered by their first face. The last may be of all faces that can be in no chart, of any mesh.
-    *charts, last = result.charts or [None]
-    owners = np.searchsorted(faces, [chart.faces[0] for chart in charts], side="right") - 1
+    n_others = max(0, len(result.charts) - 1)
+    last = result.charts[-1] if len(result.charts) else None
+    # Faces in no chart, -1, come first.
+    numbers, first_of_chart = np.unique(np.append(result.chart_of_face, -1), return_index=True)
+    owners = np.searchsorted(faces, first_of_chart[1 : 1 + n_others], side="right") - 1
     first_charts = np.searchsorted(owners, np.arange(len(meshes) + 1))
     owners_of_last = np.searchsorted(faces, [] if last is None else last.faces, side="right") - 1
     with_last = set(owners_of_last.tolist())
     # A mesh's faces in the last chart count that as the last of its own.
     number = result.chart_of_face
     own_number = np.where(number < 0, -1, number - np.repeat(first_charts[:-1], np.diff(faces)))
-    is_last = number == len(charts)
+    is_last = number == n_others
     own_number[is_last] = np.repeat(np.diff(first_charts), np.diff(faces))[is_last]
     own_failed = np.where(failed_islands < 0, -1, own_number)
     own_of_corner = np.where(chart_of_corner < 0, -1, chart_of_corner - np.repeat(first_charts[:-1], np.diff(corners)))
     counts = np.diff(np.searchsorted(np.sort(too_small), faces)).tolist()
     starts = list(zip(*(array.tolist() for array in (faces, corners, first_charts))))
     for k, ((face, corner, first), (face_end, corner_end, end)) in enumerate(zip(starts, starts[1:])):
-        own = charts[first:end]
-        if k in with_last:
-            own.append(replace(last, faces=last.faces[owners_of_last == k]))
-        for chart in own:
-            chart.faces[:] -= face
+        own_last = replace(last, faces=last.faces[owners_of_last == k]) if k in with_last else None
         yield Part(
             result.uv[corner:corner_end],
             own_of_corner[corner:corner_end],
-            own,
+            PartOfCharts(result.charts[first:end], face, own_last),
             own_failed[face:face_end],
             counts[k],
         )

@@ -259,9 +259,9 @@ def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.nda
 
     Without such charts it is the solution's own array.
     """
-    if not any(chart.n_pins == 1 for chart in solution.charts):
+    single = np.append(solution.column("n_pins") == 1, False)
+    if not single.any():
         return solution.uv
-    single = np.array([chart.n_pins == 1 for chart in solution.charts] + [False])
     chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
     if (chart < 0).all():
         return solution.uv
@@ -302,7 +302,7 @@ def place(
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
     chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
-    if any(chart.n_pins for solution in solutions for chart in solution.charts):
+    if any(solution.column("n_pins").any() for solution in solutions):
         chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
     without_bounds = 0
     if keep_in_place:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .mesh import PolygonMesh
-from .solve import Solution
+from .solve import Solution, are_solved, column_of_all
 
 
 @dataclass(frozen=True)
@@ -28,9 +28,10 @@ def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor
     """Measure the maps that `solve` returned for the selected faces of the meshes."""
     parts = [_areas(mesh, solution) for mesh, solution in zip(meshes, solutions)]
     area, image = (np.concatenate(arrays) for arrays in zip(*parts))
-    charts = [chart for solution in solutions for chart in solution.charts if chart.status == "solved"]
-    weights = [chart.area for chart in charts]
-    mean_qc = np.average([chart.mean_qc for chart in charts], weights=weights) if sum(weights) > 0.0 else np.nan
+    solved = are_solved(solutions)
+    weights = column_of_all(solutions, "area")[solved]
+    qc = column_of_all(solutions, "mean_qc")[solved]
+    mean_qc = np.average(qc, weights=weights) if weights.sum() > 0.0 else np.nan
     return MapQuality(_even(area, image, factor), float(mean_qc))
 
 

@@ -9,7 +9,7 @@ from itertools import zip_longest
 
 import numpy as np
 
-from . import native
+from . import native, texts
 from .mesh import PolygonMesh
 from .progress import Progress, parts
 
@@ -54,7 +54,7 @@ class Suggestion:
 
     Attributes:
         cuts: the first cuts of all meshes, then the second ones, and so on.
-        errors: why a mesh was refused, one text per mesh, empty if it was not.
+        errors: why a mesh, or a part of it, was refused, one text per mesh, empty if it was not.
     """
 
     cuts: tuple[Cut, ...]
@@ -103,10 +103,13 @@ def suggest(
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
         spectral_conformal.Cancelled: `progress` returned False.
+        MemoryError: there is too little memory for any mesh.
     """
     wanted = preferences or [None] * len(meshes)
     each = parts([[mesh] for mesh in meshes], progress)
     found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, each, wanted)]
+    if found and all(error == texts.TOO_LITTLE_MEMORY_FOR_MESH for _, error in found):
+        raise MemoryError
     cuts = [
         [Cut(index, edges, _length(meshes[index], edges)) for edges in cuts] for index, (cuts, _) in enumerate(found)
     ]
@@ -117,7 +120,7 @@ def suggest(
 def _suggest(
     mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None
 ) -> tuple[list[np.ndarray], str]:
-    """Return the cuts of one mesh, and why it was refused."""
+    """Return the cuts of one mesh, and why it, or a part of it, was refused."""
     try:
         cuts = native.spectral_conformal().suggest_cuts(
             mesh.vertices,
@@ -137,7 +140,9 @@ def _suggest(
         )
     except ValueError as error:
         return [], str(error)
-    return cuts, ""
+    except MemoryError:
+        return [], texts.TOO_LITTLE_MEMORY_FOR_MESH
+    return cuts, cuts.message
 
 
 def _length(mesh: PolygonMesh, edges: np.ndarray) -> float:

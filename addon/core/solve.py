@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from . import native
+from . import native, texts
+from .chart_records import column
 from .joined import joined
 from .joined import parts as joined_parts
 from .mesh import PolygonMesh
@@ -26,7 +27,8 @@ class Solution:
     Attributes:
         uv: (C, 2) float64, meaningful where `chart_of_corner` is not -1.
         chart_of_corner: (C,) intp, index into `charts` of the solved chart; -1 where the map must not change.
-        charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them.
+        charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them: made when they are
+            asked for, so that `column` is what to ask for all of them.
         failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart where all are refused.
         error: why the whole mesh was refused; empty if it was not.
         unused_extenders: number of the mesh's extenders that no solved chart could use.
@@ -44,7 +46,7 @@ class Solution:
     @functools.cached_property
     def has_failures(self) -> bool:
         """Whether a chart failed, or the whole mesh was refused."""
-        return bool(self.error) or any(chart.status != "solved" for chart in self.charts)
+        return bool(self.error) or bool((self.column("status") != "solved").any())
 
     @functools.cached_property
     def failed_faces(self) -> np.ndarray:
@@ -59,10 +61,25 @@ class Solution:
     @functools.cached_property
     def pinned_corners(self) -> np.ndarray:
         """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
-        pinned = [chart.n_pins > 0 for chart in self.charts]
-        if not any(pinned):
+        pinned = self.column("n_pins") > 0
+        if not pinned.any():
             return np.zeros(len(self.chart_of_corner), dtype=bool)
-        return np.array([*pinned, False])[self.chart_of_corner]
+        return np.append(pinned, False)[self.chart_of_corner]
+
+    def column(self, name: str) -> np.ndarray:
+        """Return what the charts have in one field, (number of charts,), without a record for each."""
+        return column(self.charts, name)
+
+
+def are_solved(solutions: Sequence[Solution]) -> np.ndarray:
+    """Return which charts of all solutions, one after the other, are solved, bool."""
+    return np.concatenate([np.zeros(0, bool), *(solution.column("status") == "solved" for solution in solutions)])
+
+
+def column_of_all(solutions: Sequence[Solution], name: str) -> np.ndarray:
+    """Return what the charts of all solutions, one after the other, have in one field."""
+    columns = [solution.column(name) for solution in solutions if len(solution.charts)]
+    return np.concatenate(columns) if columns else np.zeros(0)
 
 
 def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:
@@ -117,10 +134,14 @@ def solve(
     try:
         result = _unwrap(mesh, options, progress, kept)
     except ValueError as error:
-        corners = len(mesh.corner_vertices)
-        refused = np.where(mesh.selected_faces, 0, -1)
-        return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), refused, str(error))
+        return _refused(mesh, str(error))
     return _solutions([mesh], mesh, result)[0]
+
+
+def _refused(mesh: PolygonMesh, error: str) -> Solution:
+    corners = len(mesh.corner_vertices)
+    failed_islands = np.where(mesh.selected_faces, 0, -1)
+    return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), failed_islands, error)
 
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
@@ -143,7 +164,7 @@ def _solutions(
     """Return what the result for the `whole`, all `meshes` in one, is for each of them; it is used up."""
     chart_of_corner = np.repeat(result.chart_of_face, np.diff(whole.face_offsets))
     chart_of_corner[~result.solved_corners] = -1
-    failed = np.array([*(chart.status != "solved" for chart in result.charts), False])
+    failed = np.append(column(result.charts, "status") != "solved", False)
     failed_islands = np.where(failed[result.chart_of_face], result.chart_of_face, -1)
     too_small = find_too_small_faces(whole, result.uv, chart_of_corner)
     if len(meshes) == 1:
@@ -218,10 +239,18 @@ def solve_all(
     progress: Progress | None = None,
     kept: Any = None,  # noqa: ANN401 - as in solve
 ) -> list[Solution]:
-    """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces."""
+    """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces.
+
+    Raises:
+        MemoryError: there is too little memory for any of them. A mesh that is too large while others are not is
+            refused alone.
+    """
     groups = _groups(meshes, options)
     solved = [_solve_group(group, options, part, kept) for group, part in zip(groups, parts(groups, progress))]
-    return [solution for solutions in solved for solution in solutions]
+    solutions = [solution for group in solved for solution in group]
+    if solutions and not any(solutions):
+        raise MemoryError
+    return [solution or _refused(mesh, texts.TOO_LITTLE_MEMORY_FOR_MESH) for mesh, solution in zip(meshes, solutions)]
 
 
 def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[PolygonMesh]]:
@@ -249,16 +278,28 @@ def _solve_group(
     options: Options,
     progress: Progress | None,
     kept: Any,  # noqa: ANN401 - as in solve
-) -> list[Solution]:
-    """Return the solution of every mesh of a `group` that can be joined."""
+) -> list[Solution | None]:
+    """Return the solution of every mesh of a `group` that can be joined, None where there is too little memory."""
     if len(group) > 1:
         try:
             whole = joined(group)
             result = _unwrap(whole, options, progress, kept)
-        except ValueError:
-            # One of them is refused, which the others must not suffer from.
+        except (ValueError, MemoryError):
+            # One of them is refused, or too large, which the others must not suffer from.
             pass
         else:
             return _solutions(group, whole, result)
     each = [progress] if len(group) == 1 else parts([[mesh] for mesh in group], progress)
-    return [solve(mesh, options, part, kept) for mesh, part in zip(group, each)]
+    return [_solve_within_memory(mesh, options, part, kept) for mesh, part in zip(group, each)]
+
+
+def _solve_within_memory(
+    mesh: PolygonMesh,
+    options: Options,
+    progress: Progress | None,
+    kept: Any,  # noqa: ANN401 - as in solve
+) -> Solution | None:
+    try:
+        return solve(mesh, options, progress, kept)
+    except MemoryError:
+        return None

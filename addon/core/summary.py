@@ -4,11 +4,11 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from .solve import Solution
+from .solve import Solution, are_solved, column_of_all
+from .translation import translate
 
 
 @dataclass(frozen=True)
@@ -56,38 +56,41 @@ class Summary:
 
 def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
-    charts = [chart for solution in solutions for chart in solution.charts]
-    solved = [chart for chart in charts if chart.status == "solved"]
-    area = sum(chart.area for chart in solved)
-    changed = [chart for chart in solved if _is_unfolded(chart)]
+
+    def of(name: str) -> np.ndarray:
+        return column_of_all(solutions, name)
+
+    solved = are_solved(solutions)
+    unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
+    messages = of("message")
     return Summary(
-        solved=len(solved),
-        mean_qc=sum(chart.mean_qc * (chart.area / area) for chart in solved) if area > 0.0 else float("nan"),
-        max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
-        flipped=sum(chart.flipped for chart in solved),
-        overlapping=sum(chart.overlapping for chart in solved),
-        unfolded=sum(chart.unfolded for chart in changed),
-        embedded=sum(chart.is_embedding for chart in changed),
-        mean_qc_change=_mean_qc_change(changed),
-        failures=Counter(chart.message for chart in charts if chart.status != "solved"),
+        solved=int(np.count_nonzero(solved)),
+        mean_qc=_average(of("mean_qc")[solved], of("area")[solved]),
+        max_qc=max(of("max_qc")[solved].tolist(), default=float("nan")),
+        flipped=sum(of("flipped")[solved].tolist()),
+        overlapping=sum(of("overlapping")[solved].tolist()),
+        unfolded=sum(of("unfolded")[unfolded].tolist()),
+        embedded=sum(of("is_embedding")[unfolded].tolist()),
+        mean_qc_change=_mean_qc_change(*(of(name)[unfolded] for name in ("mean_qc_before", "mean_qc", "area"))),
+        failures=Counter(messages[~solved].tolist()),
         # What unfolding did has a sentence of its own, with numbers that differ from chart to chart.
-        repairs=Counter(chart.message for chart in solved if chart.message and not _is_unfolded(chart)),
-        pinned=Counter(chart.method for chart in solved if chart.n_pins > 1),
-        refused=tuple(f"{name}: {solution.error}" for solution, name in zip(solutions, names) if solution.error),
+        repairs=Counter(filter(None, messages[solved & ~unfolded].tolist())),
+        pinned=Counter(of("method")[solved & (of("n_pins") > 1)].tolist()),
+        refused=tuple(
+            f"{name}: {translate(solution.error)}" for solution, name in zip(solutions, names) if solution.error
+        ),
     )
 
 
-def _is_unfolded(chart: Any) -> bool:  # noqa: ANN401 - a chart of the native module, which core does not import
-    return bool(chart.unfolded or chart.is_embedding) and not chart.flipped
+def _average(values: np.ndarray, area: np.ndarray) -> float:
+    """Return the mean of `values` (N,) weighted by `area` (N,), NaN without area."""
+    total = sum(area.tolist())
+    return sum((values * (area / total)).tolist()) if total > 0.0 else float("nan")
 
 
-def _mean_qc_change(charts: Sequence[Any]) -> tuple[float, float] | None:
+def _mean_qc_change(before: np.ndarray, after: np.ndarray, area: np.ndarray) -> tuple[float, float] | None:
     """Return the mean QC before and after unfolding, weighted by area, of the charts that had a map before."""
-    mapped = [chart for chart in charts if not np.isnan(chart.mean_qc_before)]
-    area = sum(chart.area for chart in mapped)
-    if not area > 0.0:
+    mapped = ~np.isnan(before)
+    if not area[mapped].sum() > 0.0:
         return None
-    return tuple(
-        sum(value(chart) * (chart.area / area) for chart in mapped)
-        for value in (lambda chart: chart.mean_qc_before, lambda chart: chart.mean_qc)
-    )
+    return _average(before[mapped], area[mapped]), _average(after[mapped], area[mapped])

@@ -351,6 +351,7 @@ EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap w
 NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
 STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
+TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for it; close other programs, select fewer faces, or add seams"
 NO_SUCH_EXTENDER = "No such extender; choose one in the list"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "No faces selected"
@@ -770,7 +771,7 @@ def nothing_to_suggest(is_limited: bool) -> str:
 
 def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
     """Return why meshes got no suggestion, given one text for each, empty where there is nothing to tell."""
-    refused = [": ".join((name, error.rstrip("."))) for name, error in zip(names, errors) if error]
+    refused = [": ".join((name, translate(error).rstrip("."))) for name, error in zip(names, errors) if error]
     return translate("No seams suggested for {meshes}").format(meshes="; ".join(refused)) if refused else ""
 
 

@@ -430,6 +430,9 @@ TEXTS = {
     "Not enough memory to let the map follow; close other programs, or add seams": (
         "Zu wenig Speicher, um die UV-Map folgen zu lassen; andere Programme schließen oder Nähte hinzufügen"
     ),
+    "Not enough memory for it; close other programs, select fewer faces, or add seams": (
+        "Zu wenig Speicher dafür; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
+    ),
     "No such extender; choose one in the list": "Diesen Extender gibt es nicht; einen in der Liste wählen",
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau   Oder eine Zahl tippen"

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import names
 from ..core import texts
-from ..core.solve import Solution
+from ..core.solve import Solution, are_solved, column_of_all
 from ..core.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_mesh
@@ -42,9 +42,10 @@ def show(
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
-    found = [(chart, edit_mesh) for edit_mesh, solution in zip(edit_meshes, solutions) for chart in solution.charts]
-    found.sort(key=lambda each: _order(each[0]))
-    for chart, edit_mesh in found[:_MAX_ROWS]:
+    first = np.cumsum([0, *(len(solution.charts) for solution in solutions)])
+    for index in _worst_first(solutions)[:_MAX_ROWS].tolist():
+        owner = int(np.searchsorted(first, index, side="right")) - 1
+        edit_mesh, chart = edit_meshes[owner], solutions[owner].charts[index - int(first[owner])]
         _islands.append(_Island(edit_mesh.mesh.name_full, edit_mesh.polygons.topology, chart.faces))
         row = rows.add()
         row.name = _text(chart)
@@ -88,11 +89,15 @@ def forget() -> None:
     _lines.clear()
 
 
-def _order(chart: object) -> tuple:
-    """Sort failed islands first, then those with flipped or overlapping faces, then by their worst face."""
-    if chart.status != "solved":
-        return (0, -len(chart.faces))
-    return (1, -(chart.flipped + chart.overlapping), -chart.max_qc)
+def _worst_first(solutions: Sequence[Solution]) -> np.ndarray:
+    """Return all islands, failed ones first, then those with flipped or overlapping faces, then by their worst face."""
+
+    def of(name: str) -> np.ndarray:
+        return column_of_all(solutions, name)
+
+    solved = are_solved(solutions)
+    number = np.where(solved, of("flipped") + of("overlapping"), of("n_faces"))
+    return np.lexsort([np.where(solved, -of("max_qc"), 0.0), -number, solved])
 
 
 def _text(chart: object) -> str:

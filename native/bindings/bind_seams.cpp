@@ -15,7 +15,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-/// Returns the edges and where each cut begins in them.
+/// Returns the edges, where each cut begins in them, and the message.
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
                   std::optional<Array<double>> vertex_preference, const py::object& given_options,
@@ -34,7 +34,7 @@ py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets,
   if (!suggestion.edges.empty()) {
     std::copy_n(suggestion.edges.front().data(), 2 * suggestion.edges.size(), edges.mutable_data());
   }
-  return py::make_tuple(edges, copy(suggestion.cut_offsets));
+  return py::make_tuple(edges, copy(suggestion.cut_offsets), suggestion.message);
 }
 
 }  // namespace

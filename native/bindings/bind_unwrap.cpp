@@ -10,9 +10,9 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
+#include "bindings/chart_records.h"
 #include "bindings/options.h"
 #include "bindings/progress_function.h"
-#include "bindings/solve_record.h"
 #include "bindings/space_metric.h"
 #include "bindings/turns.h"
 #include "spectral_conformal/kept_maps.h"
@@ -22,30 +22,16 @@ namespace spectral_conformal::python {
 
 namespace {
 
-py::dict result_of(const Unwrap& unwrapped) {
+py::dict result_of(Unwrap&& unwrapped) {
   py::array_t<double> uv({static_cast<py::ssize_t>(unwrapped.uv.rows()), static_cast<py::ssize_t>(2)});
   std::copy_n(unwrapped.uv.data(), unwrapped.uv.size(), uv.mutable_data());
-  py::list charts;
-  for (const UnwrappedChart& chart : unwrapped.charts) {
-    py::dict record = solve_record(chart);
-    record["faces"] = copy(chart.faces);
-    record["status"] = chart.solved ? "solved" : "failed";
-    record["mean_qc"] = chart.mean_qc;
-    record["max_qc"] = chart.max_qc;
-    record["flipped"] = chart.flipped;
-    record["overlapping"] = chart.overlapping;
-    record["n_pins"] = chart.n_pins;
-    record["n_vertices"] = chart.n_vertices;
-    record["area"] = chart.area;
-    record["reused"] = chart.reused;
-    charts.append(record);
-  }
   py::dict timings;
   for (const auto& [phase, seconds] : unwrapped.timings) timings[phase.c_str()] = seconds;
   return py::dict(py::arg("timings") = timings, py::arg("uv") = uv,
                   py::arg("solved_corners") = copy(unwrapped.solved_corners),
-                  py::arg("chart_of_face") = copy(unwrapped.chart_of_face), py::arg("charts") = charts,
-                  py::arg("unused_extenders") = copy(unwrapped.unused_extenders));
+                  py::arg("chart_of_face") = copy(unwrapped.chart_of_face),
+                  py::arg("unused_extenders") = copy(unwrapped.unused_extenders),
+                  py::arg("charts") = chart_records(std::move(unwrapped.charts)));
 }
 
 /// A mesh to unwrap, its pins, metric and options, and the arrays that they refer to.
@@ -134,7 +120,7 @@ py::dict unwrap_mesh(UnwrapArguments& arguments, const ExtenderList& extenders, 
     const py::gil_scoped_release unlocked;
     unwrapped = unwrap(mesh, arguments.options, callback, hold.maps());
   }
-  return result_of(unwrapped);
+  return result_of(std::move(unwrapped));
 }
 
 /// An Unwrapper; the arguments must outlive it.
@@ -155,7 +141,7 @@ class MeshUnwrapper {
       const py::gil_scoped_release unlocked;
       unwrapped = unwrapper_->solve(extenders_of(extenders), options.hole_rigidity, options.tolerance, callback);
     }
-    return result_of(unwrapped);
+    return result_of(std::move(unwrapped));
   }
 
  private:
@@ -166,6 +152,7 @@ class MeshUnwrapper {
 }  // namespace
 
 void bind_unwrap(py::module_& module) {
+  bind_chart_records(module);
   py::class_<UnwrapArguments>(module, "UnwrapArguments", py::module_local())
       .def(py::init<const Array<double>&, const Array<int>&, const Array<int>&, std::optional<Array<int>>,
                     std::optional<Array<bool>>, const PinList&, std::optional<Array<bool>>,

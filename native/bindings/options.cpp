@@ -51,11 +51,24 @@ T named(const py::object& options, const char* option, const Name<T> (&names)[N]
 }
 
 template <class T, std::size_t N>
-const char* name_in(const Name<T> (&names)[N], T wanted) {
-  for (const auto& [name, value] : names) {
-    if (value == wanted) return name;
+std::size_t index_of(const Name<T> (&names)[N], T wanted) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (names[i].second == wanted) return i;
   }
   throw std::logic_error("a result has a value without a name");
+}
+
+template <class T, std::size_t N>
+const char* name_in(const Name<T> (&names)[N], T wanted) {
+  return names[index_of(names, wanted)].first;
+}
+
+template <class T, std::size_t N>
+py::tuple all_names(const Name<T> (&names)[N], bool or_none = false) {
+  py::list result;
+  if (or_none) result.append(py::none());
+  for (const auto& [name, value] : names) result.append(name);
+  return py::tuple(result);
 }
 
 }  // namespace
@@ -113,6 +126,26 @@ SeamSuggestionOptions seam_options_of(const py::object& options) {
   result.map.boundary = named(options, "boundary", boundaries);
   result.map.backend = named(options, "factorization", backends);
   return result;
+}
+
+py::dict names_of_codes() {
+  return py::dict(py::arg("method") = all_names(methods), py::arg("weights") = all_names(weights),
+                  py::arg("boundary") = all_names(boundaries), py::arg("eigenvalue_of") = all_names(eigenvalue_owners),
+                  py::arg("fallback") = all_names(fallbacks, true),
+                  py::arg("relaxation") = all_names(relaxations, true));
+}
+
+unsigned char code_of(Method method) { return static_cast<unsigned char>(index_of(methods, method)); }
+unsigned char code_of(Weights value) { return static_cast<unsigned char>(index_of(weights, value)); }
+unsigned char code_of(BoundaryMeasure boundary) { return static_cast<unsigned char>(index_of(boundaries, boundary)); }
+unsigned char code_of(EigenvalueOf eigenvalue_of) {
+  return static_cast<unsigned char>(index_of(eigenvalue_owners, eigenvalue_of));
+}
+unsigned char code_of(Fallback fallback) {
+  return fallback == Fallback::none ? 0 : static_cast<unsigned char>(1 + index_of(fallbacks, fallback));
+}
+unsigned char code_of(std::optional<RelaxationStatus> relaxation) {
+  return relaxation ? static_cast<unsigned char>(1 + index_of(relaxations, *relaxation)) : 0;
 }
 
 const char* name_of(Method method) { return name_in(methods, method); }

@@ -28,6 +28,18 @@ SolveOptions solve_options_of(const pybind11::object& options);
 /// From a spectral_conformal.SeamOptions, likewise.
 SeamSuggestionOptions seam_options_of(const pybind11::object& options);
 
+/// The names of a record's values by the names of its fields, each at the place that code_of gives.
+pybind11::dict names_of_codes();
+/// From 0 on.
+unsigned char code_of(Method method);
+unsigned char code_of(Weights weights);
+unsigned char code_of(BoundaryMeasure boundary);
+unsigned char code_of(EigenvalueOf eigenvalue_of);
+/// 0, whose name is None, for Fallback::none.
+unsigned char code_of(Fallback fallback);
+/// 0, whose name is None, where there was no relaxation.
+unsigned char code_of(std::optional<RelaxationStatus> relaxation);
+
 const char* name_of(Method method);
 const char* name_of(Weights weights);
 const char* name_of(BoundaryMeasure boundary);

@@ -38,6 +38,9 @@ def failed(message):
         max_qc=nan,
         flipped=0,
         overlapping=0,
+        unfolded=0,
+        is_embedding=False,
+        mean_qc_before=nan,
         method="",
         n_pins=0,
     )

@@ -73,6 +73,102 @@ def test_too_little_memory_for_a_mesh_is_an_error_and_a_small_one_is_solved_afte
     assert printed.count("MemoryError") >= 3, printed
 
 
+# A part of 400 faces, then one of 300,000 vertices, as above, and other parts.
+PARTS = """
+    def parts(*sizes):
+        grids = [grid(n) for n in sizes]
+        first = np.cumsum([0, *(len(vertices) for vertices, _ in grids)])
+        vertices = np.concatenate([vertices + [3 * k, 0, 0] for k, (vertices, _) in enumerate(grids)])
+        return vertices, *polygons(np.concatenate([triangles + n for (_, triangles), n in zip(grids, first)]))
+
+    def limited(margin, call):
+        used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+        before = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (used + margin * 2**20, before[1]))
+        try:
+            return call()
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, before)
+"""
+
+
+@pytest.mark.parametrize("factorization", ["auto", "eigen"])
+@pytest.mark.parametrize("call", ["unwrap", "Unwrapper", "kept maps"])
+def test_a_chart_that_is_too_large_fails_alone(call, factorization):
+    program = f"""
+        options = dict(factorization="{factorization}")
+        sizes = (20, 550, 9, 30)
+        mesh = parts(*sizes)
+        small = parts(20, 2, 9, 30)
+        kept = sc.KeptMaps()
+        unwrap = {{
+            "unwrap": lambda mesh: sc.unwrap(*mesh, **options),
+            "Unwrapper": lambda mesh: sc.Unwrapper(*mesh, **options).solve(),
+            "kept maps": lambda mesh: sc.unwrap(*mesh, **options, kept_maps=kept),
+        }}["{call}"]
+        expected = unwrap(small)
+        result = limited(300, lambda: unwrap(mesh))
+        assert [chart.status for chart in result.charts] == ["solved", "failed", "solved", "solved"]
+        assert result.charts[1].message == (
+            "There is too little memory for this island of 602802 faces; close other programs, or cut it into smaller "
+            "ones with seams."
+        )
+        for k in (0, 2, 3):
+            corners = np.repeat(result.chart_of_face == k, 3)
+            assert result.solved_corners[corners].all()
+            assert np.array_equal(result.uv[corners], expected.uv[np.repeat(expected.chart_of_face == k, 3)])
+        assert not result.solved_corners[np.repeat(result.chart_of_face == 1, 3)].any()
+    """
+    run(textwrap.dedent(PARTS) + textwrap.dedent(program))
+
+
+def test_an_unwrapper_solves_a_chart_once_there_is_memory_for_it():
+    program = """
+        mesh = parts(20, 550)
+        unwrapper = sc.Unwrapper(*mesh)
+        first = limited(200, unwrapper.solve)
+        assert [chart.status for chart in first.charts] == ["solved", "failed"]
+        second = unwrapper.solve()
+        assert [chart.status for chart in second.charts] == ["solved", "solved"]
+    """
+    run(textwrap.dedent(PARTS) + textwrap.dedent(program))
+
+
+def test_seams_of_a_part_that_is_too_large_are_left_out_alone():
+    program = """
+        import warnings
+
+        def closed(n):
+            # Two sheets on one border: without seams there is no map.
+            vertices, triangles = grid(n)
+            border = (np.abs(vertices[:, :2]) > 1 - 1e-9).any(axis=1)
+            lower = np.where(border, np.arange(n * n), np.arange(n * n) + n * n)
+            return np.r_[vertices, vertices - [0, 0, 0.5]], np.r_[triangles, lower[triangles][:, ::-1]]
+
+        def both(n, m):
+            (v, t), (w, s) = closed(n), closed(m)
+            return np.r_[v, w + [3, 0, 0]], *polygons(np.r_[t, s + len(v)])
+
+        alone = closed(12)
+        expected = sc.suggest_seams(alone[0], *polygons(alone[1]))
+        assert len(expected)
+        mesh = both(12, 400)
+        for max_length in (None, 1000.0):
+            cuts = limited(250, lambda: sc.suggest_cuts(*mesh, max_length=max_length))
+            assert cuts.message == (
+                "There is too little memory to look for seams in 1 part of the mesh, of up to 318404 vertices; close "
+                "other programs, or select fewer faces."
+            ), cuts.message
+            assert cuts and max(cut.max() for cut in cuts) < len(alone[0])
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = limited(250, lambda: sc.suggest_seams(*mesh))
+        assert np.array_equal(found, expected)
+        assert [str(warning.message) for warning in caught] == [cuts.message]
+    """
+    run(textwrap.dedent(PARTS) + textwrap.dedent(program))
+
+
 LOOPS = {
     "parameterize": "sc.parameterize(*mesh, factorization=backend)",
     "unwrap": "sc.unwrap(mesh[0], *polygons(mesh[1]), factorization=backend, fill_holes=True)",

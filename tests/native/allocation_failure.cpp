@@ -123,9 +123,10 @@ End run(const std::function<void()>& task, long n) {
   return end;
 }
 
-/// Lets the allocations of a task fail one after the other; `after` is called, with all memory there, after each.
+/// Lets the allocations of a task fail one after the other; `after` is called, with all memory there, after each. At
+/// least so many end with std::bad_alloc: most, where the task has one part.
 void fail_in_turn(
-    const std::function<void()>& task, const std::function<void()>& after = [] {}) {
+    const std::function<void()>& task, const std::function<void()>& after = [] {}, double least = 0.9) {
   use_failing_allocator_in_cholmod();
   REQUIRE(run(task, 0) == End::done);  // what is made once
   after();
@@ -144,7 +145,7 @@ void fail_in_turn(
     if (alive != before) FAIL_CHECK("allocation " << n << " of " << all << ": " << alive - before << " left");
   }
   // std::stable_sort and the like do with less memory.
-  CHECK(out_of_memory > 0.9 * tried);
+  CHECK(out_of_memory > least * tried);
 }
 
 Mesh with_seams() {
@@ -153,6 +154,24 @@ Mesh with_seams() {
   mesh.append(other);
   for (int v = 14; v < 18; ++v) mesh.seams.push_back({v, v + 1});
   return mesh;
+}
+
+/// What fails in one of several charts is made up for: it is solved once more, when the others are done.
+void fail_in_each_chart(const Mesh& mesh, const UnwrapOptions& options) {
+  const Unwrap expected = unwrap(mesh.view(), options, {});
+  REQUIRE(expected.charts.size() > 1);
+  Unwrap found;
+  int solved = 0;
+  fail_in_turn([&] { found = unwrap(mesh.view(), options, {}); },
+               [&] {
+                 if (found.charts.empty()) return;  // The memory was the mesh's.
+                 ++solved;
+                 CHECK(found.uv == expected.uv);
+                 CHECK(found.chart_of_face == expected.chart_of_face);
+                 found = {};
+               },
+               0);
+  CHECK(solved > 10);
 }
 
 }  // namespace
@@ -167,11 +186,11 @@ TEST_CASE("unwrap") {
     options.patch.fill_holes = true;
     options.solve.hole_rigidity = 0.5;
     options.extenders = {{0, 20, 0.3}};
-    fail_in_turn([&] { unwrap(mesh.view(), options, {}); });
+    fail_in_each_chart(mesh, options);
     UnwrapOptions pinned;
     pinned.patch.backend = backend;
     pinned.vertex_pins = {{0, {0, 0}}, {6, {1, 0}}, {30, {3, 1}}};
-    fail_in_turn([&] { unwrap(mesh.view(), pinned, {}); });
+    fail_in_each_chart(mesh, pinned);
   }
 }
 
@@ -206,7 +225,8 @@ TEST_CASE("a kept solver solves as before") {
         [&] {
           if (kept) CHECK(solve() == expected);
           kept.reset();
-        });
+        },
+        0);  // There are several charts, as above.
   }
 }
 

@@ -5,7 +5,8 @@
 
 namespace spectral_conformal {
 
-/// A polygon mesh in the caller's arrays. Nothing is owned.
+/// A polygon mesh in the caller's arrays. Nothing is owned, and nothing may change while the mesh is in use: what was
+/// counted is filled in later.
 struct PolygonMesh {
   const double* positions = nullptr;  ///< (n_vertices, 3)
   int n_vertices = 0;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "spectral_conformal/parameterize.h"
@@ -33,6 +34,7 @@ struct SeamSuggestionOptions {
 struct SeamSuggestion {
   std::vector<std::array<int, 2>> edges;  ///< vertices of the mesh, the smaller first; none twice, none a seam before
   std::vector<int> cut_offsets{0};  ///< cut i is edges [cut_offsets[i], cut_offsets[i + 1]); mirrored cuts are one
+  std::string message;  ///< parts that there is too little memory for, which got no seams; empty where there are none
 };
 
 /// Proposes seams that lower the distortion of the spectral maps of a mesh, chart by chart as build_charts cuts it.
@@ -45,7 +47,8 @@ struct SeamSuggestion {
 /// large charts all this is done on copies with few vertices first (see coarse_piece.h), and the charts themselves are
 /// cut where their copies are, and further where that is not enough. Charts that cannot be solved even so get no seams.
 /// The numbering of vertices and faces makes no difference (see canonical_mesh.h). Throws InvalidMesh for arrays that
-/// do not describe a mesh, and Cancelled.
+/// do not describe a mesh, Cancelled, and std::bad_alloc where there is too little memory for the mesh, or for any of
+/// its charts; those that are too large while others are not get no seams.
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -69,12 +69,13 @@ struct Unwrap {
 };
 
 /// Cuts a polygon mesh into charts and parameterises each. What one chart cannot do never stops the others: it is
-/// reported as failed; degenerate faces together make one failed chart, the last. Each chart is placed as by place().
+/// reported as failed, also where there is too little memory for it, unless that is so of all charts; degenerate faces
+/// together make one failed chart, the last. Each chart is placed as by place().
 /// Pins are those of mesh vertices, on all of their copies, and of corners (which win). A chart with several is solved
 /// by pinned LSCM, or, with solve.soft_pins, by the spectral method attracted by them; with one it is solved free and
 /// moved onto the pin. With `kept`, charts whose maps are there are not solved, and the maps of the others go there;
 /// only timings and UnwrappedChart::reused tell the difference. Throws InvalidMesh for arrays that do not describe a
-/// mesh, and Cancelled.
+/// mesh, Cancelled, and std::bad_alloc where there is too little memory for the mesh, or for any of its charts.
 Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress,
               KeptMaps* kept = nullptr);
 
@@ -82,7 +83,8 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
 /// factors, and every solve starts from the maps of the last.
 class Unwrapper {
  public:
-  /// The arrays of `mesh` and `options` must outlive this object. Throws InvalidMesh as unwrap does.
+  /// The arrays of `mesh` and `options` must outlive this object and not change meanwhile: some are read again later.
+  /// Throws InvalidMesh as unwrap does.
   Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options);
   ~Unwrapper();
   Unwrapper(const Unwrapper&) = delete;

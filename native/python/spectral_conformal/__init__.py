@@ -9,7 +9,8 @@ How maps are made is said by `Options`, whose fields are keywords of all functio
 kind or type that cannot be used raise ValueError (InvalidMeshError is one), a keyword that is no option raises
 TypeError, and a patch whose map passes no numerical check SolveError; `unwrap` reports invalid patches and failed maps
 chart by chart. Too little memory raises MemoryError, a progress function that returns False Cancelled; what it raises
-itself passes through. Arguments are never changed.
+itself passes through. Arguments are never changed. They are copied at the call: what a progress function or another
+thread does to them afterwards has no effect on the result, nor on the later solves of an object.
 
 Threads: all functions may be called from several threads at once, and let Python's other threads run while they
 compute. Of the objects, see `Solver`. Each call shares its work among as many threads as the machine has cores;
@@ -30,14 +31,16 @@ from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._packing import pack_boxes
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, face_triangles, map_defects
-from ._results import Chart, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
-from ._seams import suggest_cuts, suggest_seams
+from ._results import Chart, Charts, Distortion, FaceDistortion, MapDefects, Parameterization, Unwrap
+from ._seams import Cuts, suggest_cuts, suggest_seams
 from ._threads import limit_threads
 from ._unwrapping import Unwrapper, unwrap
 
 __all__ = [
     "Cancelled",
     "Chart",
+    "Charts",
+    "Cuts",
     "Distortion",
     "Extenders",
     "FaceDistortion",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, Optional
+from typing import Literal, Optional, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _native
 from ._options import Boundary, Method, Weights
 
 Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
@@ -25,6 +27,12 @@ Relaxation = Optional[
 "factorization_limit", more would change the map further; "stalled": flips or rounding leave no step; "indefinite_form":
 the form of the descent is not positive definite in double precision. Nothing was blended where the conformal map has
 "no_image_area", or the relaxed map was "rejected" because it had more flipped triangles or overflowed."""
+
+
+# What the codes in the rows of `Charts` stand for, and the rows' fields.
+_NAMES: dict[str, tuple[str | None, ...]] = _native.CHART_NAMES
+_FIELDS: tuple[str, ...] = _native.CHART_FIELDS
+_RECORDS_AT_ONCE = 1000
 
 
 @dataclass(frozen=True)
@@ -196,6 +204,88 @@ class Chart:
     """Whether the map was taken from the `kept_maps` of `unwrap`, not solved for."""
 
 
+class Charts(Sequence[Chart]):
+    """The charts of a result, in order: a sequence whose records are made when they are asked for.
+
+    A record takes some thousand bytes, a million of them as many as the solves: what is kept are arrays.
+    """
+
+    def __init__(self, rows: npt.NDArray[np.void], faces: npt.NDArray[np.int32], messages: Mapping[int, str]) -> None:
+        """Take what the native module has of them: see chart_records.h."""
+        self._rows = rows
+        self._faces = faces
+        self._first_faces = np.cumsum(rows["n_faces"], dtype=np.int64) - rows["n_faces"]
+        self._messages = messages
+        self._numbers = range(len(rows))
+
+    def __len__(self) -> int:
+        """Return how many charts there are, those that failed among them."""
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> Chart: ...
+    @overload
+    def __getitem__(self, index: slice) -> Charts: ...
+    def __getitem__(self, index: SupportsIndex | slice) -> Chart | Charts:
+        """Return a chart, or some of them as a sequence that shares the memory of this one."""
+        if not isinstance(index, slice):
+            place = range(len(self))[index]
+            return next(self._from(place, place + 1))
+        part = object.__new__(Charts)
+        part._rows = self._rows[index]
+        part._faces = self._faces
+        part._first_faces = self._first_faces[index]
+        part._messages = self._messages
+        part._numbers = self._numbers[index]
+        return part
+
+    def __iter__(self) -> Iterator[Chart]:
+        """Go through the charts; a loop that keeps none of them needs memory for a few."""
+        for start in range(0, len(self), _RECORDS_AT_ONCE):
+            yield from self._from(start, start + _RECORDS_AT_ONCE)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the other, a list too, has equal records."""
+        if self is other:
+            return True
+        if not isinstance(other, (Charts, list)):
+            return NotImplemented
+        return len(self) == len(other) and all(mine == theirs for mine, theirs in zip(self, other))
+
+    __hash__ = None
+
+    def __repr__(self) -> str:
+        """Return a line about all of them."""
+        solved = int(np.count_nonzero(self._rows["status"]))
+        return f"<{len(self)} charts, {solved} of them solved>"
+
+    @property
+    def n_faces(self) -> npt.NDArray[np.int32]:
+        """(number of charts,)"""
+        return self._rows["n_faces"].copy()
+
+    def column(self, name: str) -> np.ndarray:
+        """Return what all charts have in one field, but for `faces`, as an array (number of charts,)."""
+        if name == "message":
+            return np.array([self._messages.get(number, "") for number in self._numbers], object)
+        if name in _NAMES:
+            return np.array(_NAMES[name], object)[self._rows[name]]
+        return self._rows[name].copy()
+
+    def _from(self, start: int, end: int) -> Iterator[Chart]:
+        first_faces = self._first_faces[start:end].tolist()
+        for row, first, number in zip(self._rows[start:end].tolist(), first_faces, self._numbers[start:end]):
+            fields = dict(zip(_FIELDS, row))
+            fields["faces"] = self._faces[first : first + fields.pop("n_faces")].copy()
+            fields["message"] = self._messages.get(number, "")
+            for name, names in _NAMES.items():
+                fields[name] = names[fields[name]]
+            # Without the constructor, which sets the fields of a frozen record one by one: ten times as slow.
+            chart = object.__new__(Chart)
+            chart.__dict__.update(fields)
+            yield chart
+
+
 @dataclass(frozen=True)
 class Unwrap:
     """A polygon mesh unwrapped chart by chart. Charts are not packed: each is centred at the origin, or at its pins."""
@@ -206,7 +296,7 @@ class Unwrap:
     """(C,)"""
     chart_of_face: npt.NDArray[np.int32]
     """(faces,) index into charts, -1 for faces that are not selected."""
-    charts: list[Chart]
+    charts: Charts
     unused_extenders: npt.NDArray[np.bool_]
     """(number of extenders,) those without effect: no solved chart has both vertices, or its pins hold it."""
     timings: dict[str, float]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,13 @@ from ._options import SeamOptionChanges, SeamOptions, changed, takes_options
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+
+class Cuts(list):
+    """Cuts, each (n, 2) int32 vertex pairs: a list, and what there is to say of it."""
+
+    message: str = ""
+    """For people: parts that there is too little memory for, which got no seams; empty where there are none."""
 
 
 @takes_options(SeamOptions, SeamOptionChanges)
@@ -58,7 +66,10 @@ def suggest_seams(
         ValueError: the arrays do not describe a mesh, or an option is out of range.
         TypeError: a keyword is no option; the message names the closest one.
         Cancelled: `progress` returned False.
-        MemoryError: there is too little memory.
+        MemoryError: there is too little memory for the mesh, or for any part of it.
+
+    Warns:
+        RuntimeWarning: there is too little memory for a part of the mesh, which got no seams, while others did.
     """
     cuts = suggest_cuts(
         vertices,
@@ -70,6 +81,8 @@ def suggest_seams(
         vertex_preference=vertex_preference,
         progress=progress,
     )
+    if cuts.message:
+        warnings.warn(cuts.message, RuntimeWarning, stacklevel=3)
     return np.concatenate([np.zeros((0, 2), np.int32), *cuts])
 
 
@@ -85,15 +98,18 @@ def suggest_cuts(
     vertex_preference: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
-) -> list[npt.NDArray[np.int32]]:
+) -> Cuts:
     """Return the seams of `suggest_seams` cut by cut, each (n, 2): the first few are those that help most.
 
-    A cut and its mirror image are one. Arguments and errors are those of `suggest_seams`.
+    A cut and its mirror image are one. Arguments and errors are those of `suggest_seams`; what that warns of is the
+    list's `message`.
     """
     used = changed(options, SeamOptions(), changes)
     polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
-    edges, offsets = _native.suggest_seams(
+    edges, offsets, message = _native.suggest_seams(
         *polygons, preference, used.with_energy_limit(), _arguments.checked_progress(progress)
     )
-    return np.split(edges, offsets[1:-1]) if len(edges) else []
+    cuts = Cuts(np.split(edges, offsets[1:-1]) if len(edges) else [])
+    cuts.message = message
+    return cuts

@@ -11,7 +11,7 @@ from . import _arguments, _native
 from ._arguments import Extenders, Pins, Progress
 from ._kept_maps import KeptMaps, native_of
 from ._options import OptionChanges, Options, ResolveChanges, changed, takes_options
-from ._results import Chart, Unwrap
+from ._results import Charts, Unwrap
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -69,7 +69,8 @@ def unwrap(
         ValueError: the arrays do not describe a mesh, or an option is not of the kind described here.
         TypeError: a keyword is no option; the message names the closest one.
         Cancelled: `progress` returned False.
-        MemoryError: there is too little memory.
+        MemoryError: there is too little memory for the mesh, or for any of its charts; a chart that is too large while
+            others are not fails alone.
     """
     used = changed(options, _DEFAULTS, changes)
     arguments, n_vertices = _checked_mesh(
@@ -178,12 +179,4 @@ def _checked_mesh(
 
 
 def _result(result: dict[str, Any]) -> Unwrap:
-    result["charts"] = [_chart(record) for record in result["charts"]]
-    return Unwrap(**result)
-
-
-def _chart(record: dict[str, Any]) -> Chart:
-    # Without the constructor, which sets the fields of a frozen record one by one: ten times as slow.
-    chart = object.__new__(Chart)
-    chart.__dict__.update(record)
-    return chart
+    return Unwrap(**{**result, "charts": Charts(*result["charts"])})

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -59,9 +60,9 @@ struct Cut {
 /// Solves one chart, again and again; reports what it cannot do instead of throwing.
 class ChartUnwrapper {
  public:
-  /// `cut` and `options` must outlive this object.
-  ChartUnwrapper(const Cut& cut, Chart chart, const UnwrapOptions& options)
-      : cut_(cut), chart_(std::move(chart)), patch_(options.patch), metric_(options.metric) {
+  /// `cut`, `chart` and `options` must outlive this object.
+  ChartUnwrapper(const Cut& cut, const Chart& chart, const UnwrapOptions& options)
+      : cut_(cut), chart_(chart), patch_(options.patch), metric_(options.metric) {
     report_.n_vertices = chart_.n_vertices();
     report_.method = options.solve.method;
     report_.weights = options.patch.weights;
@@ -92,7 +93,8 @@ class ChartUnwrapper {
     std::string description;  ///< see describe_chart; empty where nothing is to be kept
   };
 
-  /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first.
+  /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first. Throws
+  /// std::bad_alloc, without its factor: others need the memory.
   Solution solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress, const KeptMaps* kept = nullptr) {
     Solution result{report_, {}, {}, {}, {}};
@@ -115,7 +117,18 @@ class ChartUnwrapper {
       result.report.message = problem.what();
     } catch (const SolveFailure& problem) {
       result.report.message = problem.what();
+    } catch (const std::bad_alloc&) {
+      solver_.reset();
+      throw;
     }
+    return result;
+  }
+
+  /// What became of a chart whose solve there is no memory for.
+  Solution out_of_memory() const {
+    Solution result{report_, {}, {}, {}, {}};
+    result.report.message = "There is too little memory for this island of " + std::to_string(report_.faces.size()) +
+                            " faces; close other programs, or cut it into smaller ones with seams.";
     return result;
   }
 
@@ -180,7 +193,7 @@ class ChartUnwrapper {
   }
 
   const Cut& cut_;
-  Chart chart_;
+  const Chart& chart_;
   PatchOptions patch_;
   const SpaceMetric* metric_;
   UnwrappedChart report_;  ///< before a solve
@@ -192,7 +205,7 @@ class ChartUnwrapper {
 };
 
 /// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused. Its
-/// map goes to `kept`, which may be null.
+/// map goes to `kept`, which may be null, unless there is no memory for it.
 void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, KeptMaps* kept = nullptr) {
   add_seconds(solution.timings, result.timings);
   if (solution.report.solved) {
@@ -205,11 +218,16 @@ void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Ke
       }
     }
   }
-  result.charts.push_back(solution.report);
   if (kept && !solution.description.empty()) {
-    solution.report.reused = false;
-    kept->keep(std::move(solution.description), {std::move(solution.report), std::move(solution.z)});
+    try {
+      UnwrappedChart report = solution.report;
+      report.reused = false;
+      kept->keep(std::move(solution.description), {std::move(report), std::move(solution.z)});
+    } catch (const std::bad_alloc&) {
+      // Solved again, then.
+    }
   }
+  result.charts.push_back(std::move(solution.report));
 }
 
 /// A result without its charts.
@@ -220,6 +238,7 @@ Unwrap empty_result(const Cut& cut, std::size_t n_extenders) {
   result.solved_corners.assign(static_cast<std::size_t>(n_corners), false);
   result.chart_of_face = cut.decomposition.chart_of_face;
   result.unused_extenders.assign(n_extenders, true);
+  result.charts.reserve(cut.decomposition.charts.size() + 1);
   return result;
 }
 
@@ -251,21 +270,42 @@ class ChartLoop {
     }
   }
 
-  /// Calls solve(i, progress), and then write(i) in the order of the charts.
-  template <class Solve, class Write>
-  void run(const Progress& progress, const Solve& solve, const Write& write) const {
+  /// Calls solve(i, progress), and then write(its solution) in the order of the charts. One that runs out of memory
+  /// beside others is solved again alone, and where that is too much, too, give_up(i) stands in for its solve. Throws
+  /// std::bad_alloc where that is so of all.
+  template <class Solve, class GiveUp, class Write>
+  void run(const Progress& progress, const Solve& solve, const GiveUp& give_up, const Write& write) const {
     int first = 0;
+    int given_up = 0;
     while (first < size()) {
       const int last = end_of_batch(first);
+      std::vector<std::optional<ChartUnwrapper::Solution>> solutions(static_cast<std::size_t>(last - first));
       run_in_parallel(
           last - first, n_faces_of(first, last) < min_faces_to_share ? 1 : max_threads,
           [&](int k, const Progress& going_on) {
             const int i = first + k;
-            solve(i, part(going_on, end_[i], end_[i + 1]));
+            try {
+              solutions[static_cast<std::size_t>(k)] = solve(i, part(going_on, end_[i], end_[i + 1]));
+            } catch (const std::bad_alloc&) {
+              // It has none, then.
+            }
           },
           progress, "eigenproblem");
-      for (; first < last; ++first) write(first);
+      const bool were_others = last - first > 1;
+      // The fraction done only rises.
+      const Progress rest = [&](double, const char* phase) { return !progress || progress(end_[last], phase); };
+      for (std::optional<ChartUnwrapper::Solution>& solution : solutions) {
+        if (!solution && were_others) solution = solved_alone(first, rest, solve);
+        if (!solution) {
+          solution = give_up(first);
+          ++given_up;
+        }
+        write(*std::move(solution));
+        solution.reset();
+        ++first;
+      }
     }
+    if (given_up > 0 && given_up == size()) throw std::bad_alloc();
   }
 
  private:
@@ -273,10 +313,20 @@ class ChartLoop {
   static constexpr std::size_t max_faces_together = 20000;
   /// In a batch: the maps of all its charts are kept until it ends.
   static constexpr std::size_t max_faces_in_batch = 400000;
+  /// Likewise: a chart of one face takes a kilobyte until then.
+  static constexpr int max_charts_in_batch = 20000;
   /// Fewer are done before a second thread has begun.
   static constexpr std::size_t min_faces_to_share = 2000;
   static constexpr unsigned max_threads = 64;
 
+  template <class Solve>
+  static std::optional<ChartUnwrapper::Solution> solved_alone(int i, const Progress& progress, const Solve& solve) {
+    try {
+      return solve(i, progress);
+    } catch (const std::bad_alloc&) {
+      return std::nullopt;
+    }
+  }
   int size() const { return static_cast<int>(n_faces_.size()); }
   std::size_t n_faces_of(int first, int last) const {
     return std::accumulate(n_faces_.begin() + first, n_faces_.begin() + last, std::size_t{0});
@@ -285,7 +335,8 @@ class ChartLoop {
     std::size_t n_faces = n_faces_[first];
     int last = first + 1;
     if (n_faces > max_faces_together) return last;
-    while (last < size() && n_faces_[last] <= max_faces_together && n_faces + n_faces_[last] <= max_faces_in_batch) {
+    const int end = std::min(size(), first + max_charts_in_batch);
+    while (last < end && n_faces_[last] <= max_faces_together && n_faces + n_faces_[last] <= max_faces_in_batch) {
       n_faces += n_faces_[last++];
     }
     return last;
@@ -307,17 +358,19 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   result.timings.swap(timings);
   std::vector<Chart>& charts = cut.decomposition.charts;
   const ChartLoop loop(charts);
-  std::vector<ChartUnwrapper::Solution> solutions(charts.size());
   loop.run(
       progress,
       [&](int i, const Progress& going_on) {
-        const auto k = static_cast<std::size_t>(i);
-        // Moved in, so that each gives its memory back before the next solve.
-        ChartUnwrapper chart(cut, std::move(charts[k]), options);
-        solutions[k] =
-            chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
+        Chart& chart = charts[static_cast<std::size_t>(i)];
+        ChartUnwrapper::Solution solution =
+            ChartUnwrapper(cut, chart, options)
+                .solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
+        // Each gives its memory back before the next solve.
+        const Chart solved = std::move(chart);
+        return solution;
       },
-      [&](int i) { add(cut, std::move(solutions[static_cast<std::size_t>(i)]), result, kept); });
+      [&](int i) { return ChartUnwrapper(cut, charts[static_cast<std::size_t>(i)], options).out_of_memory(); },
+      [&](ChartUnwrapper::Solution&& solution) { add(cut, std::move(solution), result, kept); });
   add_degenerate_faces(cut, result);
   return result;
 }
@@ -329,7 +382,7 @@ struct Unwrapper::State {
   State(const PolygonMesh& mesh, const UnwrapOptions& options)
       : cut(mesh, options.corner_pins), loop(cut.decomposition.charts) {
     charts.reserve(cut.decomposition.charts.size());
-    for (Chart& chart : cut.decomposition.charts) charts.emplace_back(cut, std::move(chart), options);
+    for (const Chart& chart : cut.decomposition.charts) charts.emplace_back(cut, chart, options);
   }
 };
 
@@ -341,14 +394,13 @@ Unwrapper::~Unwrapper() = default;
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const Progress& progress) {
   Unwrap result = empty_result(state_->cut, extenders.size());
-  std::vector<ChartUnwrapper::Solution> solutions(state_->charts.size());
   state_->loop.run(
       progress,
       [&](int i, const Progress& going_on) {
-        const auto k = static_cast<std::size_t>(i);
-        solutions[k] = state_->charts[k].solve(extenders, hole_rigidity, tolerance, going_on);
+        return state_->charts[static_cast<std::size_t>(i)].solve(extenders, hole_rigidity, tolerance, going_on);
       },
-      [&](int i) { add(state_->cut, std::move(solutions[static_cast<std::size_t>(i)]), result); });
+      [&](int i) { return state_->charts[static_cast<std::size_t>(i)].out_of_memory(); },
+      [&](ChartUnwrapper::Solution&& solution) { add(state_->cut, std::move(solution), result); });
   add_degenerate_faces(state_->cut, result);
   return result;
 }

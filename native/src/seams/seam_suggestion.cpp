@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <queue>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "graph/parallel_calls.h"
@@ -43,7 +45,7 @@ class SeamFinder {
       const int image = parts_.mirrors[i].image;
       const bool is_image = image >= 0 && image < static_cast<int>(i);
       const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
-      searches_.push_back(is_searched ? std::make_unique<PieceSearch>(searched_, static_cast<int>(i)) : nullptr);
+      searches_.push_back(is_searched ? new_search(i) : nullptr);
     }
   }
 
@@ -54,10 +56,15 @@ class SeamFinder {
       search_each();
     }
     report(progress_, 1.0, "done");
+    const auto is_searched = [](const auto& search) { return search != nullptr; };
+    if (!given_up_.empty() && std::none_of(searches_.begin(), searches_.end(), is_searched)) throw std::bad_alloc();
     return result();
   }
 
  private:
+  std::unique_ptr<PieceSearch> new_search(std::size_t i) const {
+    return std::make_unique<PieceSearch>(searched_, static_cast<int>(i));
+  }
   /// The pieces have nothing to do with each other. The largest first: smaller ones fill the time until they are done.
   void search_each() {
     std::vector<std::size_t> order;
@@ -68,11 +75,37 @@ class SeamFinder {
       return parts_.pieces[a].vertices.size() > parts_.pieces[b].vertices.size();
     });
     std::size_t n_large = 0;
-    while (n_large < order.size() && searches_[order[n_large]]->is_large()) search(order[n_large++], progress_);
+    for (; n_large < order.size() && searches_[order[n_large]]->is_large(); ++n_large) {
+      if (!has_memory_for(order[n_large], [&] { search(order[n_large], progress_); }))
+        given_up_.push_back(order[n_large]);
+    }
+    std::vector<char> is_left(order.size(), 0);
     run_in_parallel(
         static_cast<int>(order.size() - n_large), Cutter::max_threads,
-        [&](int k, const Progress& going_on) { search(order[n_large + static_cast<std::size_t>(k)], going_on); },
+        [&](int k, const Progress& going_on) {
+          const std::size_t place = n_large + static_cast<std::size_t>(k);
+          is_left[place] = !has_memory_for(order[place], [&] { search(order[place], going_on); });
+        },
         progress_, "seams");
+    const bool were_others = order.size() - n_large > 1;
+    for (std::size_t place = n_large; place < order.size(); ++place) {
+      if (!is_left[place]) continue;
+      const std::size_t i = order[place];
+      // Once more, alone.
+      if (were_others) searches_[i] = new_search(i);
+      if (!were_others || !has_memory_for(i, [&] { search(i, progress_); })) given_up_.push_back(i);
+    }
+  }
+  /// Does some work on the search of a piece, and gives what that takes back where it is too much; then returns false.
+  template <class Work>
+  bool has_memory_for(std::size_t i, const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const std::bad_alloc&) {
+      searches_[i].reset();
+      return false;
+    }
   }
   void search(std::size_t i, const Progress& going_on) {
     PieceSearch& search = *searches_[i];
@@ -84,13 +117,15 @@ class SeamFinder {
   }
   /// What topology needs, then always the most urgent cut, as long as there is length left.
   void search_within_length() {
-    for (const auto& search : searches_) {
-      if (search) search->begin(quiet(progress_));
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      if (!searches_[i]) continue;
+      if (!has_memory_for(i, [&] { searches_[i]->begin(quiet(progress_)); })) given_up_.push_back(i);
     }
     for (int next = most_urgent(); next >= 0; next = most_urgent()) {
       ++steps_;
       const auto i = static_cast<std::size_t>(next);
-      searches_[i]->step(length_left() / copies(i), quiet(progress_));
+      const double length = length_left() / copies(i);
+      if (!has_memory_for(i, [&] { searches_[i]->step(length, quiet(progress_)); })) given_up_.push_back(i);
     }
   }
   double length_left() const {
@@ -137,6 +172,17 @@ class SeamFinder {
       add(i, searches_[i]->cuts()[taken[i]++], proposed, result);
       queue(i);
     }
+    std::size_t largest = 0;
+    int n_given_up = 0;
+    for (const std::size_t i : given_up_) {
+      largest = std::max(largest, parts_.pieces[i].vertices.size());
+      n_given_up += copies(i);
+    }
+    if (n_given_up > 0) {
+      result.message = "There is too little memory to look for seams in " + std::to_string(n_given_up) +
+                       (n_given_up == 1 ? " part" : " parts") + " of the mesh, of up to " + std::to_string(largest) +
+                       " vertices; close other programs, or select fewer faces.";
+    }
     return result;
   }
   void add(std::size_t i, const PieceSearch::Cut& cut, std::set<std::array<int, 2>>& proposed,
@@ -161,7 +207,8 @@ class SeamFinder {
   MirroredPieces parts_;
   SearchedMesh searched_;
   std::vector<std::unique_ptr<PieceSearch>> searches_;
-  std::atomic<int> steps_{0};  ///< by several threads at once
+  std::vector<std::size_t> given_up_;  ///< pieces that there is too little memory for
+  std::atomic<int> steps_{0};          ///< by several threads at once
 };
 
 }  // namespace
