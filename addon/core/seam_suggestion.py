@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
+from typing import NamedTuple
 
 import numpy as np
 
@@ -108,19 +109,24 @@ def suggest(
     wanted = preferences or [None] * len(meshes)
     each = parts([[mesh] for mesh in meshes], progress)
     found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, each, wanted)]
-    if found and all(error == texts.TOO_LITTLE_MEMORY_FOR_MESH for _, error in found):
+    if found and all(each.is_too_large for each in found):
         raise MemoryError
     cuts = [
-        [Cut(index, edges, _length(meshes[index], edges)) for edges in cuts] for index, (cuts, _) in enumerate(found)
+        [Cut(index, edges, _length(meshes[index], edges)) for edges in each.cuts] for index, each in enumerate(found)
     ]
     in_turn = (cut for turn in zip_longest(*cuts) for cut in turn if cut is not None)
-    return Suggestion(tuple(in_turn), tuple(error for _, error in found))
+    return Suggestion(tuple(in_turn), tuple(each.message for each in found))
 
 
-def _suggest(
-    mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None
-) -> tuple[list[np.ndarray], str]:
-    """Return the cuts of one mesh, and why it, or a part of it, was refused."""
+class _Found(NamedTuple):
+    """The cuts of one mesh, why it, or a part of it, was refused, and whether that is for want of memory for it."""
+
+    cuts: list[np.ndarray]
+    message: str
+    is_too_large: bool = False
+
+
+def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None) -> _Found:
     try:
         cuts = native.spectral_conformal().suggest_cuts(
             mesh.vertices,
@@ -139,10 +145,10 @@ def _suggest(
             progress=progress,
         )
     except ValueError as error:
-        return [], str(error)
+        return _Found([], message=str(error))
     except MemoryError:
-        return [], texts.TOO_LITTLE_MEMORY_FOR_MESH
-    return cuts, cuts.message
+        return _Found([], message=texts.TOO_LITTLE_MEMORY_FOR_MESH, is_too_large=True)
+    return _Found(cuts, message=getattr(cuts, "message", ""))
 
 
 def _length(mesh: PolygonMesh, edges: np.ndarray) -> float:

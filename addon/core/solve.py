@@ -138,10 +138,10 @@ def solve(
     return _solutions([mesh], mesh, result)[0]
 
 
-def _refused(mesh: PolygonMesh, error: str) -> Solution:
+def _refused(mesh: PolygonMesh, message: str) -> Solution:
     corners = len(mesh.corner_vertices)
     failed_islands = np.where(mesh.selected_faces, 0, -1)
-    return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), failed_islands, error)
+    return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), failed_islands, message)
 
 
 def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
@@ -250,7 +250,10 @@ def solve_all(
     solutions = [solution for group in solved for solution in group]
     if solutions and not any(solutions):
         raise MemoryError
-    return [solution or _refused(mesh, texts.TOO_LITTLE_MEMORY_FOR_MESH) for mesh, solution in zip(meshes, solutions)]
+    return [
+        solution or _refused(mesh, message=texts.TOO_LITTLE_MEMORY_FOR_MESH)
+        for mesh, solution in zip(meshes, solutions)
+    ]
 
 
 def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[PolygonMesh]]:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "bindings/arrays.h"
@@ -37,8 +38,16 @@ py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets,
   return py::make_tuple(edges, copy(suggestion.cut_offsets), suggestion.message);
 }
 
+/// A RuntimeWarning where a public function was called: beyond that function and what checks its options.
+void warn(const std::string& message) {
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, message.c_str(), 3) != 0) throw py::error_already_set();
+}
+
 }  // namespace
 
-void bind_seams(py::module_& module) { module.def("suggest_seams", &suggest); }
+void bind_seams(py::module_& module) {
+  module.def("suggest_seams", &suggest);
+  module.def("warn", &warn);
+}
 
 }  // namespace spectral_conformal::python

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -82,7 +81,7 @@ def suggest_seams(
         progress=progress,
     )
     if cuts.message:
-        warnings.warn(cuts.message, RuntimeWarning, stacklevel=3)
+        _native.warn(cuts.message)
     return np.concatenate([np.zeros((0, 2), np.int32), *cuts])
 
 
