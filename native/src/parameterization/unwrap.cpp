@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -52,8 +53,52 @@ struct Cut {
   PinSplitMesh split;
   PolygonMesh mesh;
   ChartDecomposition decomposition;
+  std::vector<int> n_copies;  ///< per given vertex, in all charts
   Cut(const PolygonMesh& given, const CornerPins& corner_pins)
-      : split(given, corner_pins), mesh(split.view()), decomposition(build_charts(mesh)) {}
+      : split(given, corner_pins),
+        mesh(split.view()),
+        decomposition(build_charts(mesh)),
+        n_copies(static_cast<std::size_t>(given.n_vertices), 0) {
+    for (const Chart& chart : decomposition.charts) {
+      for (const int v : chart.vertices) ++n_copies[split.original_vertex(v)];
+    }
+  }
+};
+
+/// Extenders, found by chart: those that have many charts to act in are not looked at in each.
+class ExtendersOfCharts {
+ public:
+  /// Both must outlive this object.
+  ExtendersOfCharts(const Cut& cut, const std::vector<VertexExtender>& extenders) : cut_(cut), extenders_(extenders) {
+    for (std::size_t k = 0; k < extenders.size(); ++k) {
+      const auto& [from, to, strength] = extenders[k];
+      by_rarer_end_[n_copies(to) < n_copies(from) ? to : from].push_back(k);
+    }
+  }
+  const VertexExtender& operator[](std::size_t k) const { return extenders_[k]; }
+  /// The numbers, ascending, of those of which the chart has the end with fewer copies.
+  std::vector<std::size_t> near(const Chart& chart) const {
+    std::vector<std::size_t> result;
+    if (extenders_.empty()) return result;
+    for (const int v : chart.vertices) {
+      const auto found = by_rarer_end_.find(cut_.split.original_vertex(v));
+      if (found != by_rarer_end_.end()) result.insert(result.end(), found->second.begin(), found->second.end());
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+ private:
+  /// None of what is no vertex of the mesh.
+  int n_copies(int vertex) const {
+    const bool exists = vertex >= 0 && vertex < static_cast<int>(cut_.n_copies.size());
+    return exists ? cut_.n_copies[static_cast<std::size_t>(vertex)] : 0;
+  }
+
+  const Cut& cut_;
+  const std::vector<VertexExtender>& extenders_;
+  std::map<int, std::vector<std::size_t>> by_rarer_end_;
 };
 
 /// Solves one chart, again and again; reports what it cannot do instead of throwing.
@@ -93,7 +138,7 @@ class ChartUnwrapper {
   };
 
   /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first.
-  Solution solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
+  Solution solve(const ExtendersOfCharts& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress, const KeptMaps* kept = nullptr) {
     Solution result{report_, {}, {}, {}, {}};
     if (!is_possible_) return result;
@@ -121,9 +166,9 @@ class ChartUnwrapper {
 
  private:
   /// The extenders between two different vertices of the chart; `acting` gets their numbers.
-  std::vector<Extender> own(const std::vector<VertexExtender>& extenders, std::vector<std::size_t>& acting) {
+  std::vector<Extender> own(const ExtendersOfCharts& extenders, std::vector<std::size_t>& acting) {
     std::vector<Extender> result;
-    for (std::size_t k = 0; k < extenders.size(); ++k) {
+    for (const std::size_t k : extenders.near(chart_)) {
       const VertexExtender& extender = extenders[k];
       std::vector<int> from = copies(extender.from);
       std::vector<int> to = copies(extender.to);
@@ -307,6 +352,7 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   result.timings.swap(timings);
   std::vector<Chart>& charts = cut.decomposition.charts;
   const ChartLoop loop(charts);
+  const ExtendersOfCharts extenders(cut, options.extenders);
   std::vector<ChartUnwrapper::Solution> solutions(charts.size());
   loop.run(
       progress,
@@ -314,8 +360,7 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
         const auto k = static_cast<std::size_t>(i);
         // Moved in, so that each gives its memory back before the next solve.
         ChartUnwrapper chart(cut, std::move(charts[k]), options);
-        solutions[k] =
-            chart.solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
+        solutions[k] = chart.solve(extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
       },
       [&](int i) { add(cut, std::move(solutions[static_cast<std::size_t>(i)]), result, kept); });
   add_degenerate_faces(cut, result);
@@ -341,12 +386,13 @@ Unwrapper::~Unwrapper() = default;
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const Progress& progress) {
   Unwrap result = empty_result(state_->cut, extenders.size());
+  const ExtendersOfCharts extenders_of_charts(state_->cut, extenders);
   std::vector<ChartUnwrapper::Solution> solutions(state_->charts.size());
   state_->loop.run(
       progress,
       [&](int i, const Progress& going_on) {
         const auto k = static_cast<std::size_t>(i);
-        solutions[k] = state_->charts[k].solve(extenders, hole_rigidity, tolerance, going_on);
+        solutions[k] = state_->charts[k].solve(extenders_of_charts, hole_rigidity, tolerance, going_on);
       },
       [&](int i) { add(state_->cut, std::move(solutions[static_cast<std::size_t>(i)]), result); });
   add_degenerate_faces(state_->cut, result);
