@@ -14,7 +14,7 @@ namespace {
 
 /// Vertices around the mirror image of one, by which a spot that the tolerance does not resolve costs no more than this
 /// for each of its vertices. A pole whose faces have vertices of their own has fewer.
-constexpr int most_told_apart = 512;
+constexpr int most_told_apart = 256;
 /// Of a polygon with more vertices that have images, so many decide about another: all of them say much the same.
 constexpr std::ptrdiff_t most_deciding = 64;
 
