@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <list>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "spectral_conformal/types.h"
@@ -24,31 +25,29 @@ class KeptMaps {
 
   /// Those used last are kept, as many as `max_bytes` hold with their descriptions.
   explicit KeptMaps(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+  // Entries are found through pointers to them.
+  KeptMaps(const KeptMaps&) = delete;
+  KeptMaps& operator=(const KeptMaps&) = delete;
 
   /// The map of a chart; null where there is none. Valid until the next call of keep().
   const Map* find(const std::string& description) const;
-  /// Keeps the map of a chart, or has it be the one used last, and forgets others for it. One that is too large for
-  /// `max_bytes` alone is not kept.
+  /// Keeps the map of a chart, or has it be the one used last, and forgets others for it, in constant time each.
+  /// One that is too large for `max_bytes` alone is not kept.
   void keep(std::string&& description, Map&& map);
-  std::size_t size() const { return maps_.size(); }
+  std::size_t size() const { return by_use_.size(); }
   std::size_t bytes() const { return bytes_; }
 
  private:
   struct Entry {
+    std::string description;
     Map map;
     std::size_t bytes = 0;
-    std::uint64_t last_use = 0;
-  };
-
-  /// Of some of the bytes: descriptions are long, and those that share it are compared.
-  struct SampledHash {
-    std::size_t operator()(const std::string& description) const;
   };
 
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
-  std::uint64_t use_ = 0;
-  std::unordered_map<std::string, Entry, SampledHash> maps_;
+  std::list<Entry> by_use_;                                                   ///< the one used last at the end
+  std::unordered_map<std::string_view, std::list<Entry>::iterator> entries_;  ///< by descriptions there
 };
 
 }  // namespace spectral_conformal

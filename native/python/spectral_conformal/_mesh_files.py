@@ -348,9 +348,10 @@ def _ply_binary(path: Path, data: bytes, at: int, elements: list[_Element], orde
 
 
 def _ply_rows(path: Path, data: bytes, at: int, element: _Element, order: str) -> tuple[Columns, int]:
-    """Return the columns of an element, and where it ends: in one piece where all lists are as long as the first's."""
+    """Return the columns of an element, and where it ends, in pieces of rows whose lists are as long as the first's."""
     rows: Columns = {each.name: [] for each in element.properties}
     done = 0
+    most = element.rows  # in the next piece: looking far ahead is for nothing where lengths change with every row
     while done < element.rows:
         layout, lengths, ahead = [], [], at
         for each in element.properties:
@@ -367,7 +368,7 @@ def _ply_rows(path: Path, data: bytes, at: int, element: _Element, order: str) -
             ahead += np.dtype(each.type).itemsize * length
         row = np.dtype(layout)
         _piece(path, data, at, row.itemsize, element, done)
-        possible = min(element.rows - done, (len(data) - at) // max(row.itemsize, 1)) or 1
+        possible = min(most, element.rows - done, (len(data) - at) // max(row.itemsize, 1)) or 1
         table = np.frombuffer(data, row, possible, at)
         same = np.ones(possible, dtype=bool)
         for each, length in zip(element.properties, lengths):
@@ -378,6 +379,7 @@ def _ply_rows(path: Path, data: bytes, at: int, element: _Element, order: str) -
             rows[each.name] += list(table[each.name][:taken])
         at += taken * row.itemsize
         done += taken
+        most = 2 * taken
     return rows, at
 
 

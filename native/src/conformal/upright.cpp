@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "geometry/bounding_rectangles.h"
@@ -34,7 +35,8 @@ constexpr double same_axis = 0.02;  // in radians
 // An outline is straight where this fraction of it runs within 3 degrees along its smallest rectangle: of a circle 7 %
 // does, of a regular octagon half; no regular outline is at the limit.
 constexpr double straight_fraction = 0.18;
-constexpr double straight_sine = 0.0523;
+// In radians, just below 3 degrees, at which regular outlines have edges.
+constexpr double straight_angle = 0.05232;
 // Of an outline that is not, how much larger its box may get to be exactly upright.
 constexpr double larger_box = 0.1;
 
@@ -118,18 +120,53 @@ Complex gradient_of_fit(const ComplexVector& w, const Eigen::VectorXd& mass, con
 
 double area_of(const Rectangle& r) { return r.width * r.height; }
 
-/// Whether enough of the outline, a closed polygon, runs along the sides of the rectangle for an eye to see it lean.
-bool is_straight(const std::vector<Complex>& outline, const Rectangle& rectangle) {
-  double along = 0;
-  double length = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Complex edge = (outline[(i + 1) % outline.size()] - outline[i]) * std::conj(rectangle.direction);
-    const double off = std::min(std::abs(edge.real()), std::abs(edge.imag()));
-    length += std::abs(edge);
-    if (off <= straight_sine * std::abs(edge)) along += std::abs(edge);
+/// How much of an outline runs along a direction, asked of as many directions as a round outline has edges.
+class OutlineDirections {
+ public:
+  /// Of a closed polygon.
+  explicit OutlineDirections(const std::vector<Complex>& outline) {
+    std::vector<std::pair<double, double>> edges;
+    edges.reserve(outline.size());
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
+      edges.emplace_back(side_angle(edge), std::abs(edge));
+    }
+    std::sort(edges.begin(), edges.end());
+    angles_.reserve(edges.size());
+    lengths_.reserve(edges.size() + 1);
+    for (const auto& [angle, length] : edges) {
+      angles_.push_back(angle);
+      lengths_.push_back(lengths_.back() + length);
+    }
   }
-  return along >= straight_fraction * length;
-}
+  /// Whether enough of it runs along the sides of the rectangle for an eye to see it lean.
+  bool is_straight(const Rectangle& rectangle) const {
+    const double angle = side_angle(rectangle.direction);
+    // Those beyond either end of the quarter turn are at the other one.
+    const double along = length_between(angle - straight_angle, angle + straight_angle) +
+                         length_between(angle - quarter - straight_angle, angle - quarter + straight_angle) +
+                         length_between(angle + quarter - straight_angle, angle + quarter + straight_angle);
+    return along >= straight_fraction * lengths_.back();
+  }
+
+ private:
+  static constexpr double quarter = pi / 2;
+
+  /// Of a line, modulo a quarter turn.
+  static double side_angle(Complex line) {
+    const double angle = std::arg(line);
+    return angle - quarter * std::floor(angle / quarter);
+  }
+  double length_between(double first, double last) const {
+    const auto begin = std::lower_bound(angles_.begin(), angles_.end(), first);
+    const auto end = std::upper_bound(begin, angles_.end(), last);
+    return lengths_[static_cast<std::size_t>(end - angles_.begin())] -
+           lengths_[static_cast<std::size_t>(begin - angles_.begin())];
+  }
+
+  std::vector<double> angles_;        ///< of the edges, ascending
+  std::vector<double> lengths_{0.0};  ///< of all edges before each, and of all
+};
 
 double deviation(Complex turned) { return std::abs(std::arg(turned / up)); }
 
@@ -193,7 +230,8 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   std::vector<Rectangle> rectangles;
   if (axes.empty()) {
     rectangles = smallest_rectangles(hull, equal_area);
-    const auto straight = [&](const Rectangle& r) { return is_straight(boundary, r); };
+    const OutlineDirections outline(boundary);
+    const auto straight = [&](const Rectangle& r) { return outline.is_straight(r); };
     if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
       const Complex highest = preferred.directions.front();
       const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));

@@ -1,6 +1,7 @@
 #include "mesh/charts.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -233,18 +234,23 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
   ChartBuilder builder(mesh, half_edges, components.reversed, result.chart_vertex_of_corner);
   for (Chart& chart : result.charts) builder.complete(chart);
 
+  std::vector<std::pair<int, int>> corner_of_vertex;  // of the face that stands for a duplicate
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (half_edges.state(face) != FaceState::duplicate) continue;
     const int original = half_edges.original(face);
     Chart& chart = result.charts[result.chart_of_face[original]];
     result.chart_of_face[face] = result.chart_of_face[original];
     chart.duplicates.push_back(face);
+    corner_of_vertex.clear();
+    for (int d = mesh.face_offsets[original]; d < mesh.face_offsets[original + 1]; ++d) {
+      corner_of_vertex.emplace_back(mesh.corner_vertices[d], d);
+    }
+    std::sort(corner_of_vertex.begin(), corner_of_vertex.end());
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-      for (int d = mesh.face_offsets[original]; d < mesh.face_offsets[original + 1]; ++d) {
-        if (mesh.corner_vertices[c] == mesh.corner_vertices[d]) {
-          result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[d];
-        }
-      }
+      // The last of a vertex that the face has several times.
+      const auto behind = std::upper_bound(corner_of_vertex.begin(), corner_of_vertex.end(),
+                                           std::pair(mesh.corner_vertices[c], half_edges.n_corners()));
+      result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[std::prev(behind)->second];
     }
   }
   return result;

@@ -6,7 +6,10 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 
+#include "geometry/nearest_point.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -25,34 +28,71 @@ void for_each_selected_corner(const PolygonMesh& mesh, Visit&& visit) {
   }
 }
 
-/// The different pins of each vertex that has any, in the order of the corners.
-std::map<int, std::vector<Complex>> pins_of_vertices(const PolygonMesh& mesh, const CornerPins& pins) {
-  std::map<int, std::vector<Complex>> result;
+/// The different pins of each vertex that has several, in the order of the corners. Those that are not finite are
+/// named where a chart has them.
+std::map<int, std::vector<Complex>> different_pins(const PolygonMesh& mesh, const CornerPins& pins) {
+  struct Pin {
+    int vertex;
+    Complex uv;
+    int corner;
+  };
+  std::vector<Pin> all;
   for_each_selected_corner(mesh, [&](int c) {
     if (!pins.pinned[c]) return;
-    std::vector<Complex>& positions = result[mesh.corner_vertices[c]];
     const Complex uv = uv_of(pins, c);
-    if (std::find(positions.begin(), positions.end(), uv) == positions.end()) positions.push_back(uv);
+    if (std::isfinite(uv.real()) && std::isfinite(uv.imag())) all.push_back({mesh.corner_vertices[c], uv, c});
   });
+  const auto place = [](const Pin& pin) { return std::tuple(pin.vertex, pin.uv.real(), pin.uv.imag()); };
+  std::sort(all.begin(), all.end(), [&](const Pin& a, const Pin& b) {
+    return std::tuple(place(a), a.corner) < std::tuple(place(b), b.corner);
+  });
+  const auto is_same = [&](const Pin& a, const Pin& b) { return place(a) == place(b); };
+  all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
+  std::sort(all.begin(), all.end(),
+            [](const Pin& a, const Pin& b) { return std::pair(a.vertex, a.corner) < std::pair(b.vertex, b.corner); });
+  std::map<int, std::vector<Complex>> result;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_alone =
+        (i == 0 || all[i - 1].vertex != all[i].vertex) && (i + 1 == all.size() || all[i + 1].vertex != all[i].vertex);
+    if (!is_alone) result[all[i].vertex].push_back(all[i].uv);
+  }
   return result;
 }
+
+/// Tells the copy to which each corner of a vertex goes: that whose pin is nearest to the corner's UV.
+class NearestCopy {
+ public:
+  explicit NearestCopy(const std::vector<Complex>& pins) : nearest_(pins) {}
+  int of(Complex uv) {
+    if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) return 0;
+    // Many corners share a UV, such as all that have none yet.
+    const auto [known, is_new] = known_.try_emplace({uv.real(), uv.imag()}, 0);
+    if (is_new) known->second = nearest_.to(uv);
+    return known->second;
+  }
+
+ private:
+  NearestPoint nearest_;
+  std::map<std::pair<double, double>, int> known_;
+};
 
 }  // namespace
 
 PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : mesh_(mesh) {
   validate(mesh);
   if (pins.pinned == nullptr) return;
-  std::map<int, std::vector<Complex>> split = pins_of_vertices(mesh, pins);
-  for (auto it = split.begin(); it != split.end();) it = it->second.size() < 2 ? split.erase(it) : std::next(it);
+  const std::map<int, std::vector<Complex>> split = different_pins(mesh, pins);
   if (split.empty()) return;
 
   std::map<int, int> first_copy;
+  std::map<int, NearestCopy> nearest;
   for (const auto& [vertex, positions] : split) {
     if (positions.size() >
         static_cast<std::size_t>(std::numeric_limits<int>::max() - mesh.n_vertices) - copied_.size()) {
       throw InvalidMesh("The mesh has too many vertices with several pins; unpin some.");
     }
     first_copy[vertex] = mesh.n_vertices + static_cast<int>(copied_.size());
+    nearest.emplace(vertex, positions);
     copied_.insert(copied_.end(), positions.size() - 1, vertex);
   }
   positions_.assign(mesh.positions, mesh.positions + 3 * static_cast<std::size_t>(mesh.n_vertices));
@@ -62,12 +102,9 @@ PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : me
   }
   corner_vertices_.assign(mesh.corner_vertices, mesh.corner_vertices + mesh.face_offsets[mesh.n_faces]);
   for_each_selected_corner(mesh, [&](int c) {
-    const auto found = split.find(mesh.corner_vertices[c]);
-    if (found == split.end()) return;
-    const Complex uv = uv_of(pins, c);
-    const auto nearest = std::min_element(found->second.begin(), found->second.end(),
-                                          [uv](Complex a, Complex b) { return std::norm(a - uv) < std::norm(b - uv); });
-    const auto copy = static_cast<int>(nearest - found->second.begin());
+    const auto found = nearest.find(mesh.corner_vertices[c]);
+    if (found == nearest.end()) return;
+    const int copy = found->second.of(uv_of(pins, c));
     if (copy > 0) corner_vertices_[static_cast<std::size_t>(c)] = first_copy[found->first] + copy - 1;
   });
   add_seams(split);

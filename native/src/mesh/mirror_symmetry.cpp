@@ -12,6 +12,12 @@
 namespace spectral_conformal {
 namespace {
 
+/// Vertices around the mirror image of one, by which a spot that the tolerance does not resolve costs no more than this
+/// for each of its vertices. A pole whose faces have vertices of their own has fewer.
+constexpr int most_told_apart = 256;
+/// Of a polygon with more vertices that have images, so many decide about another: all of them say much the same.
+constexpr std::ptrdiff_t most_deciding = 64;
+
 /// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
 class NearbyVertices {
  public:
@@ -25,24 +31,30 @@ class NearbyVertices {
       next_[static_cast<std::size_t>(v)] = std::exchange(first, v);
     }
   }
-  /// Those within the radius, ascending.
-  std::vector<int> near(const Eigen::RowVector3d& point) const {
-    std::vector<int> result;
+  /// Those within the radius, ascending; none where they are too many to be told apart.
+  void near(const Eigen::RowVector3d& point, std::vector<int>& result) const {
+    result.clear();
+    int n_seen = 0;
     const Eigen::RowVector3d reach = Eigen::RowVector3d::Constant(radius_);
     const Cell first = cell_of(point - reach);
     const Cell last = cell_of(point + reach);  // the same or the next one
     for (std::int64_t x = first[0]; x <= last[0]; ++x) {
       for (std::int64_t y = first[1]; y <= last[1]; ++y) {
         for (std::int64_t z = first[2]; z <= last[2]; ++z) {
-          for (int v = first_[bucket({x, y, z})]; v >= 0; v = next_[static_cast<std::size_t>(v)]) {
+          const Cell cell{x, y, z};
+          for (int v = first_[bucket(cell)]; v >= 0; v = next_[static_cast<std::size_t>(v)]) {
+            // Others are in the bucket by chance.
+            if (cell_of(points_.row(v)) != cell) continue;
+            if (++n_seen > most_told_apart) {
+              result.clear();
+              return;
+            }
             if ((points_.row(v) - point).norm() <= radius_) result.push_back(v);
           }
         }
       }
     }
     std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
   }
 
  private:
@@ -51,7 +63,6 @@ class NearbyVertices {
     return {static_cast<std::int64_t>(std::floor(p[0] / cell_)), static_cast<std::int64_t>(std::floor(p[1] / cell_)),
             static_cast<std::int64_t>(std::floor(p[2] / cell_))};
   }
-  /// Vertices of several cells in one bucket are told apart by their distances.
   std::size_t bucket(const Cell& cell) const {
     std::uint64_t key = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
                         static_cast<std::uint64_t>(cell[1]) * 19349663U ^
@@ -119,64 +130,103 @@ class AmbiguousMatch {
  public:
   /// image (V,): -1 where there is none yet.
   AmbiguousMatch(const PolygonMesh& mesh, const VertexFaces& faces, const std::vector<int>& image)
-      : faces_(faces), image_(image), start_(static_cast<std::size_t>(mesh.n_faces) + 1, 0) {
+      : mesh_(mesh),
+        faces_(faces),
+        image_(image),
+        start_(static_cast<std::size_t>(mesh.n_faces) + 1, 0),
+        votes_(image.size(), -1),
+        voted_(image.size(), -1) {
+    std::vector<int> own;
     for (int face = 0; face < mesh.n_faces; ++face) {
+      own.clear();
       if (mesh.is_selected(face)) {
         for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-          if (image[mesh.corner_vertices[c]] >= 0) matched_.push_back(mesh.corner_vertices[c]);
+          if (image[mesh.corner_vertices[c]] >= 0) own.push_back(mesh.corner_vertices[c]);
         }
+      }
+      const auto n = static_cast<std::ptrdiff_t>(own.size());
+      const std::ptrdiff_t n_deciding = std::min(n, most_deciding);
+      for (std::ptrdiff_t k = 0; k < n_deciding; ++k) {
+        matched_.push_back(own[static_cast<std::size_t>(k * n / n_deciding)]);
       }
       start_[static_cast<std::size_t>(face) + 1] = static_cast<int>(matched_.size());
     }
   }
   /// The first of the best candidates.
-  int choose(int own, const std::vector<int>& candidates) const {
-    int best = candidates.front();
-    std::ptrdiff_t max_common = -1;
-    for (const int candidate : candidates) {
-      const std::ptrdiff_t n_common = common(own, candidate);
-      if (n_common <= max_common) continue;
-      max_common = n_common;
-      best = candidate;
+  int choose(int own, const std::vector<int>& candidates) {
+    for (const int candidate : candidates) votes_[candidate] = 0;
+    for (const int* face = faces_.begin(own); face != faces_.end(own); ++face) {
+      for (int i = start_[*face]; i < start_[*face + 1]; ++i) {
+        if (matched_[i] != own) vote(image_[matched_[i]], candidates);
+      }
     }
+    const int best =
+        *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) { return votes_[a] < votes_[b]; });
+    for (const int candidate : candidates) votes_[candidate] = -1;
     return best;
   }
 
  private:
-  std::ptrdiff_t common(int own, int candidate) const {
-    std::ptrdiff_t result = 0;
-    for (const int* face = faces_.begin(own); face != faces_.end(own); ++face) {
-      for (int i = start_[*face]; i < start_[*face + 1]; ++i) {
-        const int image = image_[matched_[i]];
-        result += matched_[i] != own && image != candidate && faces_.share_a_face(image, candidate) ? 1 : 0;
+  /// Adds one to the candidates that share a face with `image`, whichever way is shorter.
+  void vote(int image, const std::vector<int>& candidates) {
+    std::size_t n_corners = 0;
+    for (const int* face = faces_.begin(image); face != faces_.end(image); ++face) {
+      n_corners += static_cast<std::size_t>(mesh_.n_corners(*face));
+      if (n_corners > candidates.size()) {
+        for (const int candidate : candidates) {
+          if (candidate != image && faces_.share_a_face(image, candidate)) ++votes_[candidate];
+        }
+        return;
       }
     }
-    return result;
+    ++vote_;
+    for (const int* face = faces_.begin(image); face != faces_.end(image); ++face) {
+      for (int c = mesh_.face_offsets[*face]; c < mesh_.face_offsets[*face + 1]; ++c) {
+        const int other = mesh_.corner_vertices[c];
+        if (other == image || votes_[other] < 0 || voted_[other] == vote_) continue;
+        voted_[other] = vote_;
+        ++votes_[other];
+      }
+    }
   }
 
+  const PolygonMesh& mesh_;
   const VertexFaces& faces_;
   const std::vector<int>& image_;
-  std::vector<int> start_;    ///< per face, into matched_
-  std::vector<int> matched_;  ///< the vertices of each face that have an image
+  std::vector<int> start_;           ///< per face, into matched_
+  std::vector<int> matched_;         ///< of the vertices of each face that have an image, those that decide
+  std::vector<int> votes_;           ///< per vertex, -1 for one that is no candidate
+  std::vector<std::int64_t> voted_;  ///< per vertex, the last vote in which it was counted
+  std::int64_t vote_ = -1;
 };
 
 /// Matches the vertices across one plane. Only pairs that name each other are kept.
 void match_vertices(const PolygonMesh& mesh, const Positions& points, const std::vector<int>& used,
                     const NearbyVertices& nearby, const VertexFaces& faces, MirrorSymmetry& result) {
   std::vector<int> image(static_cast<std::size_t>(points.rows()), -1);
-  std::vector<std::pair<int, std::vector<int>>> ambiguous;
-  for (const int v : used) {
+  std::vector<int> near;
+  const auto find_near = [&](int v) {
     Eigen::RowVector3d mirrored = points.row(v);
     mirrored[result.axis] = -mirrored[result.axis];
-    std::vector<int> near = nearby.near(mirrored);
+    nearby.near(mirrored, near);
+  };
+  std::vector<int> ambiguous;
+  for (const int v : used) {
+    find_near(v);
     if (near.size() == 1) image[v] = near.front();
-    if (near.size() > 1) ambiguous.emplace_back(v, std::move(near));
+    if (near.size() > 1) ambiguous.push_back(v);
   }
-  std::vector<int> chosen;
-  chosen.reserve(ambiguous.size());
-  const AmbiguousMatch match(mesh, faces, image);
-  for (const auto& [v, candidates] : ambiguous) chosen.push_back(match.choose(v, candidates));
-  for (std::size_t i = 0; i < chosen.size(); ++i) image[ambiguous[i].first] = chosen[i];
+  if (!ambiguous.empty()) {
+    std::vector<int> chosen;
+    chosen.reserve(ambiguous.size());
+    AmbiguousMatch match(mesh, faces, image);
+    for (const int v : ambiguous) {
+      // Again: all of their lists would take more memory than the mesh.
+      find_near(v);
+      chosen.push_back(match.choose(v, near));
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) image[ambiguous[i]] = chosen[i];
+  }
   result.vertex.assign(image.size(), -1);
   result.side.assign(image.size(), 0);
   for (const int v : used) {
@@ -185,21 +235,50 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
   }
 }
 
-/// The face with these vertices, ascending, the first of several, or -1.
-int face_of(const PolygonMesh& mesh, const VertexFaces& faces, const std::vector<int>& vertices) {
-  const int rarest = *std::min_element(vertices.begin(), vertices.end(),
-                                       [&](int a, int b) { return faces.count(a) < faces.count(b); });
-  std::vector<int> own;
-  const int* const found = std::find_if(faces.begin(rarest), faces.end(rarest), [&](int face) {
-    own.assign(mesh.corner_vertices + mesh.face_offsets[face], mesh.corner_vertices + mesh.face_offsets[face + 1]);
-    std::sort(own.begin(), own.end());
-    return own == vertices;
-  });
-  return found == faces.end(rarest) ? -1 : *found;
-}
+/// Finds the selected faces by their vertices.
+class FacesByVertices {
+ public:
+  explicit FacesByVertices(const PolygonMesh& mesh) : mesh_(mesh) {
+    for (int face = 0; face < mesh.n_faces; ++face) {
+      if (mesh.is_selected(face)) faces_.emplace_back(key_of(vertices_of(face)), face);
+    }
+    std::sort(faces_.begin(), faces_.end());
+  }
+  /// The face with these vertices in some order, the first of several, or -1. Sorts them.
+  int find(std::vector<int>& vertices) const {
+    const std::uint64_t key = key_of(vertices);
+    std::sort(vertices.begin(), vertices.end());
+    for (auto it = std::lower_bound(faces_.begin(), faces_.end(), std::pair(key, -1));
+         it != faces_.end() && it->first == key; ++it) {
+      std::vector<int> own = vertices_of(it->second);
+      std::sort(own.begin(), own.end());
+      if (own == vertices) return it->second;
+    }
+    return -1;
+  }
+
+ private:
+  std::vector<int> vertices_of(int face) const {
+    return {mesh_.corner_vertices + mesh_.face_offsets[face], mesh_.corner_vertices + mesh_.face_offsets[face + 1]};
+  }
+  /// Of any order of the vertices the same (SplitMix64's mixing, Steele et al. 2014).
+  static std::uint64_t key_of(const std::vector<int>& vertices) {
+    std::uint64_t key = vertices.size();
+    for (const int v : vertices) {
+      std::uint64_t x = (static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL;
+      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+      x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+      key += x ^ (x >> 31);
+    }
+    return key;
+  }
+
+  const PolygonMesh& mesh_;
+  std::vector<std::pair<std::uint64_t, int>> faces_;  ///< sorted
+};
 
 /// Returns how many have an image.
-int match_faces(const PolygonMesh& mesh, const VertexFaces& faces, MirrorSymmetry& result) {
+int match_faces(const PolygonMesh& mesh, const FacesByVertices& faces, MirrorSymmetry& result) {
   int matched = 0;
   std::vector<int> mirrored;
   for (int face = 0; face < mesh.n_faces; ++face) {
@@ -209,8 +288,7 @@ int match_faces(const PolygonMesh& mesh, const VertexFaces& faces, MirrorSymmetr
       mirrored.push_back(result.vertex[mesh.corner_vertices[c]]);
     }
     if (mirrored.empty() || std::find(mirrored.begin(), mirrored.end(), -1) != mirrored.end()) continue;
-    std::sort(mirrored.begin(), mirrored.end());
-    result.face[face] = face_of(mesh, faces, mirrored);
+    result.face[face] = faces.find(mirrored);
     matched += result.face[face] >= 0 ? 1 : 0;
   }
   return matched;
@@ -240,6 +318,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
   const VertexFaces faces(mesh);
+  const FacesByVertices faces_by_vertices(mesh);
   std::array<MirrorSymmetry, 3> candidates;
   std::array<int, 3> matched{};
   run_in_parallel(
@@ -247,7 +326,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
       [&](int axis, const Progress&) {
         candidates[axis] = {axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
         match_vertices(mesh, points, used, nearby, faces, candidates[axis]);
-        matched[axis] = match_faces(mesh, faces, candidates[axis]);
+        matched[axis] = match_faces(mesh, faces_by_vertices, candidates[axis]);
       },
       {}, "");
   const auto most = std::max_element(matched.begin(), matched.end());  // the first axis of equals

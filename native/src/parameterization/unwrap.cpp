@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -53,8 +54,52 @@ struct Cut {
   PinSplitMesh split;
   PolygonMesh mesh;
   ChartDecomposition decomposition;
+  std::vector<int> n_copies;  ///< per given vertex, in all charts
   Cut(const PolygonMesh& given, const CornerPins& corner_pins)
-      : split(given, corner_pins), mesh(split.view()), decomposition(build_charts(mesh)) {}
+      : split(given, corner_pins),
+        mesh(split.view()),
+        decomposition(build_charts(mesh)),
+        n_copies(static_cast<std::size_t>(given.n_vertices), 0) {
+    for (const Chart& chart : decomposition.charts) {
+      for (const int v : chart.vertices) ++n_copies[split.original_vertex(v)];
+    }
+  }
+};
+
+/// Extenders, found by chart: those that have many charts to act in are not looked at in each.
+class ExtendersOfCharts {
+ public:
+  /// Both must outlive this object.
+  ExtendersOfCharts(const Cut& cut, const std::vector<VertexExtender>& extenders) : cut_(cut), extenders_(extenders) {
+    for (std::size_t k = 0; k < extenders.size(); ++k) {
+      const auto& [from, to, strength] = extenders[k];
+      by_rarer_end_[n_copies(to) < n_copies(from) ? to : from].push_back(k);
+    }
+  }
+  const VertexExtender& operator[](std::size_t k) const { return extenders_[k]; }
+  /// The numbers, ascending, of those of which the chart has the end with fewer copies.
+  std::vector<std::size_t> near(const Chart& chart) const {
+    std::vector<std::size_t> result;
+    if (extenders_.empty()) return result;
+    for (const int v : chart.vertices) {
+      const auto found = by_rarer_end_.find(cut_.split.original_vertex(v));
+      if (found != by_rarer_end_.end()) result.insert(result.end(), found->second.begin(), found->second.end());
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+ private:
+  /// None of what is no vertex of the mesh.
+  int n_copies(int vertex) const {
+    const bool exists = vertex >= 0 && vertex < static_cast<int>(cut_.n_copies.size());
+    return exists ? cut_.n_copies[static_cast<std::size_t>(vertex)] : 0;
+  }
+
+  const Cut& cut_;
+  const std::vector<VertexExtender>& extenders_;
+  std::map<int, std::vector<std::size_t>> by_rarer_end_;
 };
 
 /// Solves one chart, again and again; reports what it cannot do instead of throwing.
@@ -95,7 +140,7 @@ class ChartUnwrapper {
 
   /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first. Throws
   /// std::bad_alloc, without its factor: others need the memory.
-  Solution solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity, double tolerance,
+  Solution solve(const ExtendersOfCharts& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress, const KeptMaps* kept = nullptr) {
     Solution result{report_, {}, {}, {}, {}};
     if (!is_possible_) return result;
@@ -134,9 +179,9 @@ class ChartUnwrapper {
 
  private:
   /// The extenders between two different vertices of the chart; `acting` gets their numbers.
-  std::vector<Extender> own(const std::vector<VertexExtender>& extenders, std::vector<std::size_t>& acting) {
+  std::vector<Extender> own(const ExtendersOfCharts& extenders, std::vector<std::size_t>& acting) {
     std::vector<Extender> result;
-    for (std::size_t k = 0; k < extenders.size(); ++k) {
+    for (const std::size_t k : extenders.near(chart_)) {
       const VertexExtender& extender = extenders[k];
       std::vector<int> from = copies(extender.from);
       std::vector<int> to = copies(extender.to);
@@ -358,13 +403,14 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   result.timings.swap(timings);
   std::vector<Chart>& charts = cut.decomposition.charts;
   const ChartLoop loop(charts);
+  const ExtendersOfCharts extenders(cut, options.extenders);
   loop.run(
       progress,
       [&](int i, const Progress& going_on) {
         Chart& chart = charts[static_cast<std::size_t>(i)];
         ChartUnwrapper::Solution solution =
             ChartUnwrapper(cut, chart, options)
-                .solve(options.extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
+                .solve(extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
         // Each gives its memory back before the next solve.
         const Chart solved = std::move(chart);
         return solution;
@@ -394,10 +440,12 @@ Unwrapper::~Unwrapper() = default;
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const Progress& progress) {
   Unwrap result = empty_result(state_->cut, extenders.size());
+  const ExtendersOfCharts extenders_of_charts(state_->cut, extenders);
   state_->loop.run(
       progress,
       [&](int i, const Progress& going_on) {
-        return state_->charts[static_cast<std::size_t>(i)].solve(extenders, hole_rigidity, tolerance, going_on);
+        return state_->charts[static_cast<std::size_t>(i)].solve(extenders_of_charts, hole_rigidity, tolerance,
+                                                                 going_on);
       },
       [&](int i) { return state_->charts[static_cast<std::size_t>(i)].out_of_memory(); },
       [&](ChartUnwrapper::Solution&& solution) { add(state_->cut, std::move(solution), result); });

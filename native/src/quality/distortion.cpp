@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "geometry/binary_unit.h"
 #include "geometry/quad_splits.h"
@@ -114,6 +115,19 @@ struct InUnits {
   }
 };
 
+/// The map of a chart's own vertices.
+ComplexVector chart_map(const Chart& chart, const ComplexVector& z) {
+  ComplexVector own(chart.n_vertices());
+  for (int v = 0; v < chart.n_vertices(); ++v) own[v] = z[chart.vertices[v]];
+  return own;
+}
+
+std::vector<int> all_of(const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<int> result(triangles.size());
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
 }  // namespace
 
 int Distortion::n_flipped() const { return static_cast<int>(std::count(flipped.begin(), flipped.end(), true)); }
@@ -195,7 +209,8 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
   Distortion result = measure_triangles(shapes, triangles, z);
   result.triangulation = mapped_triangulation(triangles, {}, z);
   summarize(result);
-  result.overlapping = overlapping_triangles(triangles, z);
+  MapOfCharts charts;
+  std::vector<char> is_in_chart(triangles.size(), 0);
   result.flipped.assign(triangles.size(), false);
   double largest = -1;
   for (const Chart& chart : decomposition.charts) {
@@ -205,7 +220,9 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
       area += result.area[face];
       image_area += result.image_area[face];
     }
+    charts.add(chart, chart_map(chart, z), image_area < 0, all_of(chart.triangles), chart.faces);
     for (const int face : chart.faces) {
+      is_in_chart[static_cast<std::size_t>(face)] = 1;
       const auto& triangle = triangles[static_cast<std::size_t>(face)];
       const bool against = image_area < 0 ? is_positive(triangle, z) : is_flipped(triangle, z);
       result.flipped[static_cast<std::size_t>(face)] = !shapes[static_cast<std::size_t>(face)].clamped && against;
@@ -215,10 +232,16 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
     result.turning_number = 0;
     if (chart.boundary_loops.empty()) continue;
     const int outer = outer_loop(chart.boundary_loops, chart.positions(mesh));
-    ComplexVector own(chart.n_vertices());
-    for (int v = 0; v < chart.n_vertices(); ++v) own[v] = z[chart.vertices[v]];
-    result.turning_number = turning_number(chart.boundary_loops[outer], chart.triangles, chart.triangle_weights, own);
+    result.turning_number =
+        turning_number(chart.boundary_loops[outer], chart.triangles, chart.triangle_weights, chart_map(chart, z));
   }
+  for (std::size_t face = 0; face < triangles.size(); ++face) {
+    const auto& [a, b, c] = triangles[face];
+    if (is_in_chart[face] == 0) charts.add_loose({z[a], z[b], z[c]}, static_cast<int>(face));
+  }
+  const std::vector<bool> overlapping = overlapping_in_map(charts);
+  result.overlapping.assign(triangles.size(), false);
+  for (std::size_t t = 0; t < overlapping.size(); ++t) result.overlapping[charts.face[t]] = overlapping[t];
   in_units.restore(result);
   return result;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/quad_splits.h"
+#include "geometry/signed_area.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"
 #include "quality/overlap.h"
@@ -109,31 +110,14 @@ int face_of(const Chart& island, int triangle) {
   return island.faces[static_cast<std::size_t>(island.triangle_face[static_cast<std::size_t>(triangle)])];
 }
 
-/// The triangles of several islands in one map.
-struct Layout {
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<int> face;  ///< of the mesh
-  std::vector<Complex> z;
-
-  /// `oriented`: the map of the island or its mirror image, positively oriented.
-  void add(const Chart& island, const ComplexVector& island_z, const ComplexVector& oriented) {
-    const int first = static_cast<int>(z.size());
-    for (const int t : mapped_triangulation(island.triangles, island.triangle_weights, oriented)) {
-      const auto& [a, b, c] = island.triangles[static_cast<std::size_t>(t)];
-      triangles.push_back({first + a, first + b, first + c});
-      face.push_back(face_of(island, t));
-    }
-    z.insert(z.end(), island_z.begin(), island_z.end());
-  }
-
-  void mark_overlapping(std::vector<bool>& faces) const {
-    const Eigen::Map<const ComplexVector> map(z.data(), static_cast<Eigen::Index>(z.size()));
-    const std::vector<bool> overlapping = overlapping_triangles(triangles, map, face, resolution);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (overlapping[t]) faces[face[t]] = true;
-    }
-  }
-};
+/// Adds an island to a map of several. `oriented`: its map or that mirrored, positively oriented.
+void add_island(const Chart& island, const ComplexVector& z, const ComplexVector& oriented, MapOfCharts& map) {
+  const std::vector<int> chosen = mapped_triangulation(island.triangles, island.triangle_weights, oriented);
+  std::vector<int> faces;
+  faces.reserve(chosen.size());
+  for (const int t : chosen) faces.push_back(face_of(island, t));
+  map.add(island, z, signed_area(island.triangles, island.triangle_weights, z) < 0, chosen, faces);
+}
 
 void mark_flipped(const Chart& island, const ComplexVector& z, std::vector<bool>& faces) {
   const FlipTolerance tolerance{0, resolution};
@@ -151,7 +135,7 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
   MapDefects result;
   result.flipped.assign(static_cast<std::size_t>(mesh.n_faces), false);
   result.overlapping = result.flipped;
-  Layout layout;
+  MapOfCharts layout;
   ChartDecomposition islands = build_charts(in_plane);
   result.island_of_face = std::move(islands.chart_of_face);
   for (const Chart& island : islands.charts) {
@@ -159,14 +143,17 @@ MapDefects find_map_defects(const PolygonMesh& mesh, const double* corner_uv, bo
     const ComplexVector oriented = positively_oriented(island.triangles, island.triangle_weights, z);
     mark_flipped(island, oriented, result.flipped);
     if (between_islands) {
-      layout.add(island, z, oriented);
+      add_island(island, z, oriented, layout);
     } else {
       for (const int face : overlapping_faces(island, oriented, resolution)) {
         result.overlapping[island.faces[static_cast<std::size_t>(face)]] = true;
       }
     }
   }
-  layout.mark_overlapping(result.overlapping);
+  const std::vector<bool> overlapping = overlapping_in_map(layout, resolution);
+  for (std::size_t t = 0; t < overlapping.size(); ++t) {
+    if (overlapping[t]) result.overlapping[layout.face[t]] = true;
+  }
   return result;
 }
 

@@ -15,6 +15,7 @@ namespace {
 struct BoundaryEdge {
   int from;
   int to;
+  int loop;
 };
 
 /// Whether two boundary edges have no point in common but the vertex that neighbours share.
@@ -66,12 +67,13 @@ class Boundary {
     return off;
   }
 
-  /// The sum of the winding numbers of all loops about a point that none of them meets.
-  int winding_number(Complex p) const {
+  /// The sum of the winding numbers of all loops but one about a point that none of them meets.
+  int winding_number(Complex p, int left_out = -1) const {
     int result = 0;
     // Where a ray to the right crosses them.
     const PlaneBox ray{{p.real(), p.imag()}, {std::numeric_limits<double>::infinity(), p.imag()}};
     tree_.for_each_meeting(ray, [&](int i) {
+      if (edge(i).loop == left_out) return true;
       const Complex from = z_[edge(i).from];
       const Complex to = z_[edge(i).to];
       if (from.imag() <= p.imag() && to.imag() > p.imag() && orientation(from, to, p) > 0) ++result;
@@ -84,9 +86,12 @@ class Boundary {
  private:
   static std::vector<BoundaryEdge> edges_of(const std::vector<BoundaryLoop>& loops) {
     std::vector<BoundaryEdge> result;
-    for (const BoundaryLoop& loop : loops) {
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+      const BoundaryLoop& loop = loops[k];
       if (loop.size() == 2) continue;
-      for (std::size_t i = 0; i < loop.size(); ++i) result.push_back({loop[i], loop[(i + 1) % loop.size()]});
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        result.push_back({loop[i], loop[(i + 1) % loop.size()], static_cast<int>(k)});
+      }
     }
     return result;
   }
@@ -222,6 +227,27 @@ class DegreeTest {
 
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
   return has_one_outer_loop(loops, z) && Boundary(loops, z).is_simple();
+}
+
+bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
+  if (loops.empty()) return true;
+  PlaneBox box = PlaneBox::of({z[loops.front().front()]});
+  for (const BoundaryLoop& loop : loops) {
+    for (const int v : loop) box.include(PlaneBox::of({z[v]}));
+  }
+  // The rays by which winding numbers are counted run to the right: along the shorter side they meet fewer of many
+  // islands in a row. A quarter turn is exact.
+  const bool is_wide = box.high[0] - box.low[0] > box.high[1] - box.low[1];
+  const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
+  const Boundary boundary(loops, turned);
+  if (!boundary.is_simple()) return false;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (loops[k].size() == 2) continue;
+    const int sense = orientation_of_simple(loops[k], turned);
+    if (sense == 0) return false;
+    if (sense > 0 && boundary.winding_number(turned[loops[k].front()], static_cast<int>(k)) > 0) return false;
+  }
+  return true;
 }
 
 std::vector<int> overlap_suspects(const std::vector<std::array<int, 3>>& triangles,

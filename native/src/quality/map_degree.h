@@ -29,6 +29,10 @@ namespace spectral_conformal {
 /// touches itself. loops: all of the chart's; z (V,), finite. O(n log n) for n boundary edges.
 bool has_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
+/// The same for the boundary loops of several orientable charts, each to the left of its loops: no loop meets another,
+/// and each that runs counter-clockwise lies where the degree of all others is at most 0.
+bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
+
 /// Triangles, ascending, of which every two that overlap have one between them, or both overlap one: those that are not
 /// counter-clockwise, and, unless has_degree_at_most_one, those that the boundary may pass through or over which the
 /// degree is above 1. The others cover the plane at most once. triangles: those of an orientable chart, one split of

@@ -11,6 +11,7 @@
 #include "geometry/quad_splits.h"
 #include "graph/parallel_calls.h"
 #include "quality/box_tree.h"
+#include "quality/flips.h"
 #include "quality/map_degree.h"
 
 namespace spectral_conformal {
@@ -84,7 +85,7 @@ class OverlapTest {
     if (z_.size() == 0) return result();
     std::vector<int> numbers(triangles_.size());
     std::iota(numbers.begin(), numbers.end(), 0);
-    const Subset all = subset(std::move(numbers));
+    const Subset all = subset(one_of_each_stack(std::move(numbers)));
     for_each_triangle([&](std::size_t t) {
       if (!overlaps(t)) find_overlaps(t, all, tests_pair, true);
     });
@@ -98,6 +99,7 @@ class OverlapTest {
   /// Tests pairs with one of these only.
   std::vector<bool> with(std::vector<int> some) {
     if (z_.size() == 0) return result();
+    some = one_of_each_stack(std::move(some));
     test_with(subset(some), true);
     // Of these, what overlaps none of them may overlap others, which had found another of them first.
     some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlaps(t); }), some.end());
@@ -124,15 +126,60 @@ class OverlapTest {
     return {std::move(triangles), std::move(placed), BoxTree(boxes)};
   }
 
+  /// Leaves out those that lie exactly on another one, of which many may, in its order of corners: what is found of one
+  /// holds for all. Two stay where the faces differ, since pairs of one face do not count.
+  std::vector<int> one_of_each_stack(std::vector<int> some) {
+    const auto place_of = [this](int t) {
+      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
+      return std::array<double, 6>{z_[a].real(), z_[a].imag(), z_[b].real(), z_[b].imag(), z_[c].real(), z_[c].imag()};
+    };
+    std::vector<std::pair<std::array<double, 6>, int>> placed;
+    placed.reserve(some.size());
+    for (const int t : some) placed.emplace_back(place_of(t), t);
+    std::sort(placed.begin(), placed.end());
+    const auto face_of = [this](int t) { return face_.empty() ? t : face_[static_cast<std::size_t>(t)]; };
+    std::vector<int> result;
+    result.reserve(some.size());
+    for (std::size_t i = 0; i < placed.size();) {
+      const int first = placed[i].second;
+      result.push_back(first);
+      bool has_other_face = false;
+      std::size_t k = i + 1;
+      for (; k < placed.size() && placed[k].first == placed[i].first; ++k) {
+        const int t = placed[k].second;
+        if (!has_other_face && face_of(t) != face_of(first)) {
+          has_other_face = true;
+          result.push_back(t);
+        } else {
+          stacked_.emplace_back(first, t);
+        }
+      }
+      i = k;
+    }
+    if (!stacked_.empty()) {
+      is_left_out_.assign(triangles_.size(), 0);
+      for (const auto& [first, t] : stacked_) is_left_out_[static_cast<std::size_t>(t)] = 1;
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
   bool overlaps(std::size_t t) const { return overlapping_[t].load(std::memory_order_relaxed); }
   void mark(std::size_t t) { overlapping_[t].store(true, std::memory_order_relaxed); }
-  std::vector<bool> result() const { return {overlapping_.begin(), overlapping_.end()}; }
+  std::vector<bool> result() {
+    for (const auto& [first, t] : stacked_) {
+      if (overlaps(static_cast<std::size_t>(first))) mark(static_cast<std::size_t>(t));
+    }
+    return {overlapping_.begin(), overlapping_.end()};
+  }
 
   template <class Work>
   void for_each_triangle(const Work& work) const {
     run_blocks_in_parallel(triangles_.size(), tested_at_once, max_testing_threads,
                            [&](std::size_t begin, std::size_t end) {
-                             for (std::size_t t = begin; t < end; ++t) work(t);
+                             for (std::size_t t = begin; t < end; ++t) {
+                               if (is_left_out_.empty() || is_left_out_[t] == 0) work(t);
+                             }
                            });
   }
 
@@ -182,7 +229,9 @@ class OverlapTest {
   const std::vector<std::array<int, 3>>& triangles_;
   const std::vector<int>& face_;
   double resolution_;
-  ComplexVector z_;  ///< empty where the map has no extent
+  ComplexVector z_;                           ///< empty where the map has no extent
+  std::vector<std::pair<int, int>> stacked_;  ///< a triangle, and one left out that lies on it
+  std::vector<char> is_left_out_;             ///< per triangle; empty where none is
   std::vector<std::atomic<bool>> overlapping_;
 };
 
@@ -191,6 +240,49 @@ class OverlapTest {
 std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map,
                                         const std::vector<int>& face, double resolution) {
   return OverlapTest(triangles, map, face, resolution).among_all();
+}
+
+void MapOfCharts::add(const Chart& chart, const ComplexVector& chart_z, bool is_mirrored, const std::vector<int>& which,
+                      const std::vector<int>& face_of_each) {
+  const int first = static_cast<int>(z.size());
+  for (const int t : which) {
+    const auto& [a, b, c] = chart.triangles[static_cast<std::size_t>(t)];
+    if (!chart.orientable) loose.push_back(static_cast<int>(triangles.size()));
+    triangles.push_back({first + a, first + b, first + c});
+    mirrored.push_back(is_mirrored ? 1 : 0);
+  }
+  face.insert(face.end(), face_of_each.begin(), face_of_each.end());
+  z.insert(z.end(), chart_z.begin(), chart_z.end());
+  if (!chart.orientable) return;
+  for (BoundaryLoop loop : chart.boundary_loops) {
+    for (int& v : loop) v += first;
+    if (is_mirrored) std::reverse(loop.begin(), loop.end());
+    loops.push_back(std::move(loop));
+  }
+}
+
+void MapOfCharts::add_loose(const std::array<Complex, 3>& corners, int its_face) {
+  const int first = static_cast<int>(z.size());
+  loose.push_back(static_cast<int>(triangles.size()));
+  triangles.push_back({first, first + 1, first + 2});
+  mirrored.push_back(0);
+  face.push_back(its_face);
+  z.insert(z.end(), corners.begin(), corners.end());
+}
+
+std::vector<bool> overlapping_in_map(const MapOfCharts& map, double resolution) {
+  const ComplexVector z = Eigen::Map<const ComplexVector>(map.z.data(), static_cast<Eigen::Index>(map.z.size()));
+  OverlapTest test(map.triangles, z, map.face, resolution);
+  if (!have_degree_at_most_one(map.loops, z)) return test.among_all();
+  std::vector<std::array<int, 3>> upright = map.triangles;
+  for (std::size_t t = 0; t < upright.size(); ++t) {
+    if (map.mirrored[t] != 0) std::swap(upright[t][1], upright[t][2]);
+  }
+  std::vector<int> suspects = non_positive_triangles(upright, z);
+  suspects.insert(suspects.end(), map.loose.begin(), map.loose.end());
+  std::sort(suspects.begin(), suspects.end());
+  suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+  return test.with(std::move(suspects));
 }
 
 std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, double resolution) {

@@ -15,6 +15,26 @@ namespace spectral_conformal {
 std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map,
                                         const std::vector<int>& face = {}, double resolution = 0);
 
+/// The triangles of several charts in one map. Each chart has vertices of its own.
+struct MapOfCharts {
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<char> mirrored;       ///< per triangle: its chart lies mirrored in the map
+  std::vector<int> face;            ///< of each triangle
+  std::vector<int> loose;           ///< triangles of no chart, or of one that is not orientable
+  std::vector<BoundaryLoop> loops;  ///< of the others, each chart to the left as it lies
+  std::vector<Complex> z;
+
+  /// Adds those triangles of a chart that `which` names; face_of_each (which.size(),).
+  void add(const Chart& chart, const ComplexVector& chart_z, bool is_mirrored, const std::vector<int>& which,
+           const std::vector<int>& face_of_each);
+  /// Adds a triangle of no chart.
+  void add_loose(const std::array<Complex, 3>& corners, int its_face);
+};
+
+/// The same for charts. Where have_degree_at_most_one proves it enough, only pairs with a triangle that is loose or
+/// lies against its chart are tested, so that islands apart from each other cost O(n log n), however many boxes meet.
+std::vector<bool> overlapping_in_map(const MapOfCharts& map, double resolution = 0);
+
 /// The faces of a chart, as indices into its `faces`, ascending, whose images under z cover part of another face's.
 /// Triangulated by mapped_triangulation. Where has_degree_at_most_one proves it enough, only pairs with one of the
 /// non_positive_triangles are tested, so that an injective map costs next to nothing. z (V,) positively oriented.
