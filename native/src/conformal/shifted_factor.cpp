@@ -9,6 +9,7 @@ namespace spectral_conformal {
 ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& positions, const BoundaryForm& form,
                              double relative_shift, FactorizationBackend backend, const Progress& progress) {
   ShiftedFactor result;
+  if (form.vertices.empty()) return result;  // L alone is singular
   const auto diagonal = [&matrix](int v) -> Complex& { return matrix.valuePtr()[matrix.outerIndexPtr()[v]]; };
   std::vector<Complex> unshifted;
   unshifted.reserve(form.vertices.size());

@@ -12,6 +12,7 @@
 #include "conformal/placement.h"
 #include "conformal/start_vector.h"
 #include "injective/polish.h"
+#include "mesh/boundary_loops.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
 
@@ -30,6 +31,14 @@ constexpr double first_relative_shift = 1e-12;
 /// Ends steps of exact length: a tenth of what counts as resolved, since each leaves up to 0.9 of the error, and above
 /// the 1e-9 where rounding ends them.
 constexpr double negligible_exact_step = 0.1 * resolved_change;
+
+/// B of Eq. 5. Throws InvalidMesh where it is zero.
+BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary) {
+  if (!SpectralSolver::has_form(patch, boundary)) {
+    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
+  }
+  return boundary_form(patch.outer, patch.positions, boundary);
+}
 
 }  // namespace
 
@@ -59,19 +68,19 @@ SpectralSolver::SpectralSolver(const NormalizedPatch& patch, Weights weights, Bo
       backend_(backend),
       boundary_(boundary),
       energy_(std::make_unique<ConformalEnergy>(patch.positions, patch.triangles, patch.triangle_weights, weights,
-                                                patch.n_virtual)),    // Eq. 2 and 3
-      form_(boundary_form(patch.outer, patch.positions, boundary)) {  // Eq. 5
-  if (form_.vertices.size() < 2) {
-    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
-  }
-}
+                                                patch.n_virtual)),  // Eq. 2 and 3
+      form_(form_of(patch, boundary)) {}
 
 SpectralSolver::SpectralSolver(const SpectralSolver& like, Weights weights, BoundaryMeasure boundary)
     : patch_(like.patch_),
       backend_(like.backend_),
       boundary_(boundary),
       energy_(std::make_unique<ConformalEnergy>(*like.energy_, weights)),
-      form_(boundary_form(patch_->outer, patch_->positions, boundary)) {}
+      form_(form_of(*patch_, boundary)) {}
+
+bool SpectralSolver::has_form(const NormalizedPatch& patch, BoundaryMeasure boundary) {
+  return boundary == BoundaryMeasure::vertex || loop_length(patch.outer, patch.positions) > 0;
+}
 
 SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attractors, const Progress& progress,
                                   Timings& timings) {

@@ -36,10 +36,13 @@ struct SpectralMap {
 /// solves.
 class SpectralSolver {
  public:
-  /// The patch must outlive this object. Throws InvalidMesh where the outer loop has no length.
+  /// The patch must outlive this object. Throws InvalidMesh unless has_form.
   SpectralSolver(const NormalizedPatch& patch, Weights weights, BoundaryMeasure boundary, FactorizationBackend backend);
-  /// The same patch and metric with another energy or form.
+  /// The same patch and metric with another energy or form. Throws as the above.
   SpectralSolver(const SpectralSolver& like, Weights weights, BoundaryMeasure boundary);
+
+  /// Whether B of Eq. 5 is not zero: by length it is on an outer loop that has none.
+  static bool has_form(const NormalizedPatch& patch, BoundaryMeasure boundary);
 
   /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: where memory
   /// runs out, this object is as it was.
