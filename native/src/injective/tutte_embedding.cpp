@@ -60,9 +60,10 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
   return edges;
 }
 
-/// Points of the unit circle, their distances in proportion to the loop's edges.
+/// Points of the unit circle, their distances in proportion to the loop's edges; equal for a loop without length.
 void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions, ComplexVector& z) {
-  const double min_length = min_relative_length * loop_length(loop, positions) / static_cast<double>(loop.size());
+  const double length = loop_length(loop, positions);
+  const double min_length = length > 0 ? min_relative_length * length / static_cast<double>(loop.size()) : 1;
   std::vector<double> reached{0};
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const double edge = (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
