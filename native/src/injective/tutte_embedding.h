@@ -20,8 +20,8 @@ namespace spectral_conformal {
 /// vertices equally many edges away from the circle.
 ///
 /// triangles (F, 3): one triangulation of the chart, counter-clockwise; loops: as in Chart, `outer` the index of the
-/// outer one; positions (V, 3) finite. Returns (V,). Throws SolveFailure when the Tutte system cannot be solved in
-/// double precision, Cancelled, and what Factorization throws.
+/// outer one; positions (V, 3) finite. Returns (V,), or nothing where the Tutte system cannot be solved
+/// in double precision even once. Throws Cancelled, and what Factorization throws.
 ComplexVector tutte_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
                               int outer, const Eigen::Ref<const Positions>& positions, FactorizationBackend backend,
                               const Progress& progress = {});
