@@ -146,10 +146,11 @@ class Solver {
   /// is solved again with another start and, unless it was raised already, a larger shift, then, where
   /// SolveOptions::fallbacks allows it (spectral only), gives way to the best of some other maps (fallbacks.h); the
   /// fields of the result and `message` say which. Extenders and hole rigidity change the form
-  /// B of Method::spectral and leave the factor; a solve with them starts from the maps of earlier solves, has no
-  /// fallbacks, and fails where they are so strong that the map winds round more than once. With `fold_free` flipped
-  /// triangles are unfolded, and a map that winds round more than once, or none, is replaced by an embedding; `message`
-  /// says what was done, what that cost, and where it could not be done.
+  /// B of Method::spectral and leave the factor; a solve with them has no fallbacks, and fails where they are so strong
+  /// that the map winds round more than once. What was solved before changes nothing, except that with a tolerance
+  /// above 1e-7, less than single precision stores, a solve with them starts from the earlier maps. With `fold_free`
+  /// flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced by an embedding;
+  /// `message` says what was done, what that cost, and where it could not be done.
   ///
   /// Throws SolveFailure when nothing passes, InvalidMesh for pins or forces that the method does not take or that all
   /// have one position, and Cancelled.

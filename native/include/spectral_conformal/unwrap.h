@@ -80,7 +80,7 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
               KeptMaps* kept = nullptr);
 
 /// The same for several solves that differ in extenders, hole rigidity and tolerance: keeps the charts and their
-/// factors, and every solve starts from the maps of the last.
+/// factors. What was solved before counts as little as in Solver::solve.
 class Unwrapper {
  public:
   /// The arrays of `mesh` and `options` must outlive this object and not change meanwhile: some are read again later.

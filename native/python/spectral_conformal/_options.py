@@ -58,7 +58,7 @@ class Options:
             identity (section 4.3). On top of `metric` where both are given.
         fold_free: bool, end without a flipped triangle and with a turning number of 1 or -1, at some cost in
             distortion. Flipped triangles are unfolded where they are; where that leaves some, or the map winds round
-            more than once or there is none, a Tutte embedding, one-to-one by theorem, is relaxed without flipping a
+            more than once or there is none, an embedding, one-to-one by theorem, is relaxed without flipping a
             triangle. Without pins, parts that cover each other are moved apart, in the end in an embedding whose border
             does not touch itself. `message` says what was done and what it cost, and where several pins leave no room.
             Triangles without area in 3D cannot flip; of a quad's two splits the first is kept unfolded.

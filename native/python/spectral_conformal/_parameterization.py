@@ -102,9 +102,10 @@ class Solver:
     ) -> Parameterization:
         """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`.
 
-        The options are those of the solver, with the changes given here. Extenders and hole rigidity change the form B
-        only: a solve with them starts from the earlier maps, so that a small change of strength costs a few solves; the
-        result agrees with a fresh one to the tolerance.
+        The options are those of the solver, with the changes given here. The map is that of a fresh solver, to the last
+        bit, whatever this one solved before. Except for drafts: extenders and hole rigidity change the form B only, so
+        that with a tolerance above 1e-7 a solve with them starts from the earlier maps. A small change of strength then
+        costs a few solves, and the map agrees with a fresh one to the tolerance.
         """
         return self._solved(changed(self._options, self._options, changes), pins, extenders, progress)
 

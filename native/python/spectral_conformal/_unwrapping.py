@@ -98,8 +98,8 @@ def unwrap(
 class Unwrapper:
     """`unwrap` for several solves of one mesh that differ in extenders, hole rigidity and tolerance only.
 
-    Keeps the charts and their factors; every solve starts from the maps of the last. Threads may use it as they may a
-    `Solver`.
+    Keeps the charts and their factors; what was solved before counts as little as in a `Solver`, and threads may use it
+    as they may that.
     """
 
     @takes_options(Options, OptionChanges)

@@ -52,9 +52,8 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
   const auto factorization = make_factorization(backend, n_free);
   factorization->analyze(block);
   if (!factorization->factorize(block)) {
-    throw SolveFailure("The pinned conformal energy is singular in double precision",
-                       "the island has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other "
-                       "vertices.");
+    result.is_factorized = false;
+    return result;
   }
   report(progress, 0.8, "solve");
   constexpr int max_solves = 4;  // the first and its refinements, which end by themselves where rounding is reached

@@ -7,12 +7,13 @@
 namespace spectral_conformal {
 
 struct PinnedSolution {
-  ComplexVector vector;  ///< (V,), pinned entries exactly as given
-  double residual = 0;   ///< |L z| over the free vertices / (largest diagonal entry x extent of the map)
+  bool is_factorized = true;  ///< false where the free part of L is not positive definite in double precision
+  ComplexVector vector;       ///< (V,), pinned entries exactly as given
+  double residual = 0;        ///< |L z| over the free vertices / (largest diagonal entry x extent of the map)
 };
 
 /// Pinned LSCM, which is DCP (section 2.2): minimises E_C with the pinned vertices held, L_ff z_f = -L_fp z_p, followed
-/// by iterative refinement. Precondition: at least two pins. Throws SolveFailure when the free part of L is singular.
+/// by iterative refinement. Precondition: at least two pins. Throws Cancelled, and what Factorization throws.
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
                           const Progress& progress);
 

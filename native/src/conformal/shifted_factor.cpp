@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace spectral_conformal {
 
 ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& positions, const BoundaryForm& form,
-                             double relative_shift, FactorizationBackend backend, const Progress& progress) {
+                             double relative_shift, FactorizationBackend backend, const Progress& progress,
+                             std::unique_ptr<Factorization> analyzed) {
   ShiftedFactor result;
+  if (form.vertices.empty()) return result;  // L alone is singular
   const auto diagonal = [&matrix](int v) -> Complex& { return matrix.valuePtr()[matrix.outerIndexPtr()[v]]; };
   std::vector<Complex> unshifted;
   unshifted.reserve(form.vertices.size());
@@ -22,9 +25,12 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
   const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), median, ratios.end());
   const double unit = *median;
-  result.factorization = make_factorization(backend, matrix.rows());
-  report(progress, 0.0, "ordering");
-  result.factorization->analyze(matrix, &positions);
+  result.factorization = std::move(analyzed);
+  if (!result.factorization) {
+    result.factorization = make_factorization(backend, matrix.rows());
+    report(progress, 0.0, "ordering");
+    result.factorization->analyze(matrix, &positions);
+  }
   // To 1e8 times the given shift, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no longer
   // converge in their bounded number.
   constexpr int max_raises = 4;

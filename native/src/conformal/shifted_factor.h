@@ -16,10 +16,13 @@ struct ShiftedFactor {
 };
 
 /// Factors L + s M with s = relative_shift times the median of L_ii / M_ii over the vertices with mass, raised a
-/// hundredfold, at most four times, while rounding breaks the factorisation. L is singular (L 1 = 0); the shift by the
-/// form itself leaves the eigenvectors of Eq. 5 as they are. Throws Cancelled, and what Factorization throws.
-/// matrix: L, used up. positions: (V, 3), of its rows.
+/// hundredfold, at most four times, while rounding breaks the factorisation. L is singular (L 1 = 0), so that a
+/// form without mass has no factor; the shift by the form itself leaves the eigenvectors of Eq. 5 as they are. Throws
+/// Cancelled, and what Factorization throws.
+/// matrix: L, used up. positions: (V, 3), of its rows. analyzed: of a matrix with the structure of L, to be used
+/// again, with its order and its memory; or null.
 ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& positions, const BoundaryForm& form,
-                             double relative_shift, FactorizationBackend backend, const Progress& progress);
+                             double relative_shift, FactorizationBackend backend, const Progress& progress,
+                             std::unique_ptr<Factorization> analyzed = nullptr);
 
 }  // namespace spectral_conformal

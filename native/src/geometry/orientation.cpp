@@ -2,9 +2,16 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include "spectral_conformal/errors.h"
+
 namespace spectral_conformal {
 
 int exact_orientation(Complex a, Complex b, Complex c) {
+  // CGAL's exact numbers hold no others: expanding one does not end.
+  for (const Complex p : {a, b, c}) {
+    if (std::isfinite(p.real()) && std::isfinite(p.imag())) continue;
+    throw SolveFailure("A map has coordinates that are not finite", "please report this with the mesh.");
+  }
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
   return static_cast<int>(
       CGAL::orientation(Point(a.real(), a.imag()), Point(b.real(), b.imag()), Point(c.real(), c.imag())));

@@ -6,11 +6,12 @@
 
 namespace spectral_conformal {
 
-/// The orientation of the triangle a b c, without the filter of orientation(): CGAL's exact predicate.
+/// The orientation of the triangle a b c, without the filter of orientation(): CGAL's exact predicate. Throws
+/// SolveFailure for coordinates that are not finite.
 int exact_orientation(Complex a, Complex b, Complex c);
 
-/// The orientation of the triangle a b c: 1 counter-clockwise, -1 clockwise, 0 where the points lie on one line. Exact
-/// for finite coordinates, whatever rounding does to the area.
+/// The orientation of the triangle a b c: 1 counter-clockwise, -1 clockwise, 0 where the points lie on one line. Exact,
+/// whatever rounding does to the area. Throws SolveFailure for coordinates that are not finite.
 inline int orientation(Complex a, Complex b, Complex c) {
   // Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), bound A:
   // a determinant above (3 + 16 u) u of the sum of its terms, u = 2^-53, has the right sign.

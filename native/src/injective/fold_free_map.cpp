@@ -8,11 +8,13 @@
 
 #include "geometry/quad_splits.h"
 #include "injective/descent.h"
+#include "injective/grid_embedding.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
 #include "quality/map_degree.h"
 #include "quality/overlap.h"
 #include "quality/turning_number.h"
+#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
@@ -68,6 +70,10 @@ class FoldFree {
     FoldFreeMap embedded = embed(part(progress_, 0.3, 1));
     embedded.flipped_before = result.flipped_before;
     if (result.z.size() > 0 && !embedded.is_locally_injective) return result;
+    if (embedded.z.size() == 0) {
+      throw SolveFailure("No embedding into a circle could be solved for in double precision",
+                         "add seams that make the island flatter.");
+    }
     return embedded;
   }
 
@@ -89,7 +95,7 @@ class FoldFree {
       return;
     }
     FoldFreeMap embedded = embed_apart(part(progress_, 0.92, 1));
-    if (!is_one_to_one(embedded.z)) return;
+    if (!embedded.is_locally_injective || !is_one_to_one(embedded.z)) return;
     embedded.flipped_before = map.flipped_before;
     embedded.covered_itself = embedded.came_apart_embedded = true;
     map = std::move(embedded);
@@ -132,6 +138,7 @@ class FoldFree {
   FoldFreeMap embed(const Progress& progress) {
     FoldFreeMap result;
     result.z = embedding(part(progress, 0, 0.4));
+    if (result.z.size() == 0) return result;
     const std::vector<DistortionElement> clamped = clamped_elements();
     // The first need not converge as far as the second, which is what is seen.
     relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress, 0.4, 0.7),
@@ -146,6 +153,7 @@ class FoldFree {
   FoldFreeMap embed_apart(const Progress& progress) {
     FoldFreeMap result;
     result.z = embedding(part(progress, 0, 0.2));
+    if (result.z.size() == 0) return result;
     relax(clamped_elements(), {DistortionMeasure::symmetric_dirichlet, 1e-4, more_factorizations, true},
           part(progress, 0.2, 0.6), result.z, Boundary::apart);
     result.relaxation = relax_angles_apart(part(progress, 0.6, 1), result.z);
@@ -153,11 +161,20 @@ class FoldFree {
     return result;
   }
 
+  /// Empty where there is none.
   ComplexVector embedding(const Progress& progress) const {
     ComplexVector z =
         tutte_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress, 0, 0.7));
     const std::vector<DistortionElement> clamped = clamped_elements();
-    if (count_flipped(clamped, z, unplaced) > 0) unfold_locally(clamped, {}, patch_.backend, z, part(progress, 0.7, 1));
+    if (z.size() > 0 && count_flipped(clamped, z, unplaced) > 0) {
+      unfold_locally(clamped, {}, patch_.backend, z, part(progress, 0.7, 0.9));
+    }
+    if (z.size() == 0 || count_flipped(clamped, z, unplaced) > 0) {
+      // Limbs shrink below what double precision resolves.
+      ComplexVector drawn =
+          grid_embedding(single_, patch_.loops, 0, static_cast<int>(patch_.positions.rows()), part(progress, 0.9, 1));
+      if (drawn.size() > 0) z = std::move(drawn);
+    }
     return z;
   }
 

@@ -41,13 +41,14 @@ struct FoldFreeMap {
 
 /// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are
 /// unfolded where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary
-/// winds round more than once, a Tutte embedding of the chart (tutte_embedding.h) is relaxed, first towards an
-/// isometry, then towards the least conformal distortion, without a step that folds a triangle (descent.h); not with
-/// `held` vertices. Of a quad's two splits the first is kept unfolded (the second where the diagonal of the first is an
-/// edge), the other where there is room. Degenerate triangles have no fold. Where the map is then locally one-to-one
-/// and yet has parts that lie on each other, it is relaxed towards an isometry, where that was asked for, only as far
-/// as these come apart; where they do not, an embedding is relaxed whose boundary does not touch itself either
-/// (boundary_barrier.h). Where that fails, too, the map stays.
+/// winds round more than once, an embedding of the chart (tutte_embedding.h, or grid_embedding.h where limbs shrink in
+/// it below double precision) is relaxed, first towards an isometry, then towards the least conformal distortion,
+/// without a step that folds a triangle (descent.h); not with `held` vertices. Of a quad's two splits the first is kept
+/// unfolded (the second where the diagonal of the first is an edge), the other where there is room. Degenerate
+/// triangles have no fold. Where the map is then locally one-to-one and yet has parts that lie on each other, it is
+/// relaxed towards an isometry, where that was asked for, only as far as these come apart; where they do not, an
+/// embedding is relaxed whose boundary does not touch itself either (boundary_barrier.h). Where that fails, too, the
+/// map stays.
 ///
 /// z (V,) mostly counter-clockwise, or empty for none. Throws Cancelled, SolveFailure and what Factorization throws.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});

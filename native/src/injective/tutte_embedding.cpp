@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <tuple>
@@ -13,7 +14,6 @@
 #include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
 #include "quality/flips.h"
-#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
 namespace {
@@ -60,9 +60,10 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
   return edges;
 }
 
-/// Points of the unit circle, their distances in proportion to the loop's edges.
+/// Points of the unit circle, their distances in proportion to the loop's edges; equal for a loop without length.
 void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions, ComplexVector& z) {
-  const double min_length = min_relative_length * loop_length(loop, positions) / static_cast<double>(loop.size());
+  const double length = loop_length(loop, positions);
+  const double min_length = length > 0 ? min_relative_length * length / static_cast<double>(loop.size()) : 1;
   std::vector<double> reached{0};
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const double edge = (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
@@ -86,9 +87,10 @@ class TutteSystem {
     if (count > 0) factorization_ = make_factorization(backend, count);
   }
 
-  /// Solves for all vertices of z but those on the circle, with the edges' present weights.
-  void solve(ComplexVector& z) {
-    if (n_unknown_ == 0) return;
+  /// Solves for all vertices of z but those on the circle, with the edges' present weights. False, and z stays, where
+  /// these span more than double precision holds.
+  bool solve(ComplexVector& z) {
+    if (n_unknown_ == 0) return true;
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * edges_.size());
     ComplexVector right_side = ComplexVector::Zero(n_unknown_);
@@ -105,15 +107,14 @@ class TutteSystem {
     matrix.setFromTriplets(entries.begin(), entries.end());
     if (!analyzed_) factorization_->analyze(matrix);
     analyzed_ = true;
-    if (!factorization_->factorize(matrix)) {
-      throw SolveFailure("The embedding into a circle could not be solved in double precision",
-                         "add seams that make the island flatter.");
-    }
+    if (!factorization_->factorize(matrix)) return false;
     ComplexVector solution;
     factorization_->solve(right_side, solution);
+    if (!solution.allFinite()) return false;
     for (std::size_t v = 0; v < unknown_.size(); ++v) {
       if (unknown_[v] >= 0) z[static_cast<Eigen::Index>(v)] = solution[unknown_[v]];
     }
+    return true;
   }
 
  private:
@@ -168,8 +169,8 @@ void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, 
 }
 
 struct Embedding {
-  ComplexVector z;
-  int flipped = 0;
+  ComplexVector z;  ///< empty where there is none
+  int flipped = std::numeric_limits<int>::max();
   double unevenness = 0;  ///< variance of log_stretch
 };
 
@@ -180,11 +181,11 @@ Embedding reweighted_embedding(const std::vector<std::array<int, 3>>& triangles,
   constexpr int rounds = 10;  // bounds the time: one factorisation each
   for (int round = 0; round < rounds; ++round) {
     report(progress, static_cast<double>(round) / rounds, "embedding");
-    system.solve(z);
+    if (!system.solve(z)) break;
     const std::vector<double> stretch = log_stretch(edges, z);
     const int flipped = static_cast<int>(non_positive_triangles(triangles, z).size());
     const double unevenness = variance(stretch);
-    if (round == 0 || std::tie(flipped, unevenness) < std::tie(best.flipped, best.unevenness)) {
+    if (best.z.size() == 0 || std::tie(flipped, unevenness) < std::tie(best.flipped, best.unevenness)) {
       best = {z, flipped, unevenness};
     }
     reweight(edges, stretch);
@@ -209,7 +210,7 @@ ComplexVector tutte_embedding(const std::vector<std::array<int, 3>>& triangles, 
     Embedding other = reweighted_embedding(triangles, edges, equations, z, part(progress, 0.5, 1));
     if (other.flipped < best.flipped) best = std::move(other);
   }
-  return best.z.head(positions.rows());
+  return best.z.size() == 0 ? best.z : best.z.head(positions.rows());
 }
 
 }  // namespace spectral_conformal

@@ -74,6 +74,7 @@ std::optional<FallbackMap> solve_fallback(const SpectralSolver& failed, const Sp
   candidates[1] = {{}, {}, Fallback::other_boundary, weights, other_boundary, 0, {}};
   candidates[2] = {{}, {}, Fallback::other_weights, other_weights, boundary, 0, {}};
   for (FallbackMap& candidate : candidates) {
+    if (!SpectralSolver::has_form(failed.patch(), candidate.boundary)) continue;
     SpectralSolver other(failed, candidate.weights, candidate.boundary);
     if (candidate.fallback == Fallback::clamped_triangles) {
       candidate.clamped_triangles = other.clamp(min_relative_height);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "conformal/correction.h"
 #include "conformal/pin_attraction.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
@@ -142,6 +143,8 @@ std::optional<SolveFailure> Solver::State::solve_pinned(const SolveOptions& sett
 SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, const Pins& attractors,
                                               const Progress& progress, Parameterization& result) {
   const bool is_free = settings.method == Method::spectral && !settings.has_extenders() && attractors.empty();
+  // Where less is asked for than single precision stores, as while a slider moves, a start near the end saves solves.
+  if (!(settings.tolerance > resolved_change)) spectral.forget_maps();
   SpectralMap map;
   std::optional<SpectralMap> with_free_holes;
   if (is_free && settings.hole_rigidity != 0.0) {
@@ -219,6 +222,8 @@ std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& gi
   // The fraction done only rises: the failed attempts have used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
   const double not_blended = is_blended ? 0 : options.area_blend;
+  // Other problems have factors of their own, which are as large.
+  spectral.drop_factor();
   std::optional<FallbackMap> other =
       solve_fallback(spectral, map, settings, attractors, not_blended, rest, result.timings, result.attempts);
   if (!other) return failure;
@@ -292,6 +297,7 @@ Parameterization Solver::State::solve(const SolveOptions& given, const Pins& pin
       pinned ? solve_pinned(settings, held, solving, result) : solve_spectral(settings, attractors, solving, result);
   // Hard pins have no other map; everything else has the embedding.
   if (failure && (!options.fold_free || !held.empty())) throw SolveFailure(*failure);
+  if (failure) spectral.drop_factor();  // the embedding has factors of its own
   if (options.fold_free) unfold(held, failure, part(progress, 0.5, 1.0), result);
 
   if (relaxation) {

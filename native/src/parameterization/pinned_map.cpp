@@ -62,6 +62,10 @@ SpectralMap solve_pinned(const SpectralSolver& solver, const Pins& pins, const P
   map.solves = 1;
   PinnedSolution solution = solve_lscm(energy, scaled_pins.held, solver.backend(), progress);
   watch.lap("solve");
+  if (!solution.is_factorized) {
+    map.rejection = Rejection::not_factorized;
+    return map;
+  }
   ComplexVector& z = solution.vector;
   const bool finite = z.allFinite();
   const double lambda = energy.value(z) / solver.form().value(z);

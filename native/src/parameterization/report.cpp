@@ -54,6 +54,9 @@ std::string reason_of(const SpectralMap& map, bool pinned) {
 
 std::string advice_for(const SpectralMap& map, const SolveOptions& options) {
   if (options.method == Method::lscm) {
+    if (map.rejection == Rejection::not_factorized) {
+      return "the island has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other vertices.";
+    }
     if (map.rejection == Rejection::collapsed) return "pin other vertices, or merge vertices by distance.";
     if (map.rejection == Rejection::no_area) return "use the spectral method, or pin other vertices.";
     return "clean up degenerate faces, or pin other vertices.";

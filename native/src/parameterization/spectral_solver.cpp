@@ -12,6 +12,7 @@
 #include "conformal/placement.h"
 #include "conformal/start_vector.h"
 #include "injective/polish.h"
+#include "mesh/boundary_loops.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"
 
@@ -30,6 +31,14 @@ constexpr double first_relative_shift = 1e-12;
 /// Ends steps of exact length: a tenth of what counts as resolved, since each leaves up to 0.9 of the error, and above
 /// the 1e-9 where rounding ends them.
 constexpr double negligible_exact_step = 0.1 * resolved_change;
+
+/// B of Eq. 5. Throws InvalidMesh where it is zero.
+BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary) {
+  if (!SpectralSolver::has_form(patch, boundary)) {
+    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
+  }
+  return boundary_form(patch.outer, patch.positions, boundary);
+}
 
 }  // namespace
 
@@ -59,19 +68,19 @@ SpectralSolver::SpectralSolver(const NormalizedPatch& patch, Weights weights, Bo
       backend_(backend),
       boundary_(boundary),
       energy_(std::make_unique<ConformalEnergy>(patch.positions, patch.triangles, patch.triangle_weights, weights,
-                                                patch.n_virtual)),    // Eq. 2 and 3
-      form_(boundary_form(patch.outer, patch.positions, boundary)) {  // Eq. 5
-  if (form_.vertices.size() < 2) {
-    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
-  }
-}
+                                                patch.n_virtual)),  // Eq. 2 and 3
+      form_(form_of(patch, boundary)) {}
 
 SpectralSolver::SpectralSolver(const SpectralSolver& like, Weights weights, BoundaryMeasure boundary)
     : patch_(like.patch_),
       backend_(like.backend_),
       boundary_(boundary),
       energy_(std::make_unique<ConformalEnergy>(*like.energy_, weights)),
-      form_(boundary_form(patch_->outer, patch_->positions, boundary)) {}
+      form_(form_of(*patch_, boundary)) {}
+
+bool SpectralSolver::has_form(const NormalizedPatch& patch, BoundaryMeasure boundary) {
+  return boundary == BoundaryMeasure::vertex || loop_length(patch.outer, patch.positions) > 0;
+}
 
 SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attractors, const Progress& progress,
                                   Timings& timings) {
@@ -105,12 +114,14 @@ SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& att
   const BoundaryForm identity = on_boundary ? BoundaryForm{} : identity_form(patch_->n_vertices);
   const BoundaryForm& form = on_boundary ? form_ : identity;
 
-  // The factor of L + s M (Eq. 7).
+  // The factor of L + s M (Eq. 7): one at a time, kept where M is that of the boundary.
   ShiftedFactor own;
-  const bool kept = on_boundary && attempt.relative_shift == first_relative_shift;
-  ShiftedFactor& factor = kept ? factor_ : own;
-  if (!factor.factorization) {
-    factor = factored(form, attempt.relative_shift, part(progress, 0.0, 0.6));
+  ShiftedFactor& factor = on_boundary ? factor_ : own;
+  if (!on_boundary) {
+    own = factored(form, attempt.relative_shift, part(progress, 0.0, 0.6));
+    watch.lap("factorization");
+  } else if (!is_factored() || relative_shift_ != attempt.relative_shift) {
+    keep_factor(attempt.relative_shift, part(progress, 0.0, 0.6));
     watch.lap("factorization");
   }
   map.shift = factor.shift;
@@ -145,7 +156,7 @@ SpectralMap SpectralSolver::attempt(const SolveOptions& options, const Pins& att
   if (map.rejection != Rejection::none) return map;
 
   map.z = v.z.head(patch_->n_vertices);
-  if (kept) previous_ = v.z;
+  if (on_boundary) previous_ = v.z;
   map.whole = std::move(v.z);
   watch.lap("eigenproblem");
   return map;
@@ -232,19 +243,29 @@ ExtendedForm SpectralSolver::extended_form(const BoundaryForm& form, const Solve
   return extended;
 }
 
-ShiftedFactor SpectralSolver::factored(const BoundaryForm& form, double relative_shift, const Progress& progress) {
+ShiftedFactor SpectralSolver::factored(const BoundaryForm& form, double relative_shift, const Progress& progress,
+                                       std::unique_ptr<Factorization> analyzed) {
   HermitianMatrix matrix = energy_->matrix();
   max_diagonal_ = 0;
   for (Eigen::Index v = 0; v < matrix.outerSize(); ++v) {
     max_diagonal_ = std::max(max_diagonal_, matrix.valuePtr()[matrix.outerIndexPtr()[v]].real());
   }
-  return factor_shifted(std::move(matrix), patch_->positions, form, relative_shift, backend_, progress);
+  return factor_shifted(std::move(matrix), patch_->positions, form, relative_shift, backend_, progress,
+                        std::move(analyzed));
+}
+
+void SpectralSolver::keep_factor(double relative_shift, const Progress& progress) {
+  // The structure of L is the same whatever the shift.
+  std::unique_ptr<Factorization> analyzed = std::move(factor_.factorization);
+  drop_factor();
+  factor_ = factored(form_, relative_shift, progress, std::move(analyzed));
+  relative_shift_ = relative_shift;
 }
 
 double SpectralSolver::max_diagonal() const { return max_diagonal_ > 0 ? max_diagonal_ : energy_->max_diagonal(); }
 
 SpectralMap SpectralSolver::factorize(const Progress& progress) {
-  factor_ = factored(form_, first_relative_shift, progress);
+  keep_factor(first_relative_shift, progress);
   SpectralMap outcome;
   outcome.attempts = 1;
   outcome.shift = factor_.shift;
@@ -258,7 +279,7 @@ bool SpectralSolver::place(ComplexVector& z) const {
 }
 
 int SpectralSolver::polish(SpectralMap& map, const Progress& progress, Timings& timings) {
-  if (!is_factored() || previous_.size() == 0) return 0;
+  if (!is_factored()) return 0;
   Stopwatch watch(timings);
   ComplexVector polished = map.whole;
   const int steps = spectral_conformal::polish(*energy_, *factor_.factorization, polished, {}, progress);
@@ -308,18 +329,22 @@ SpectralSolver::Numbers SpectralSolver::numbers(const ComplexVector& whole) cons
 
 void SpectralSolver::stretch(const std::vector<TriangleMetric>& metric) {
   energy_->stretch(metric);
-  forget();
+  drop_factor();
 }
 
-void SpectralSolver::forget() {
+void SpectralSolver::drop_factor() {
   factor_ = {};
+  max_diagonal_ = 0;
+  forget_maps();
+}
+
+void SpectralSolver::forget_maps() {
   ritz_basis_ = {};
   previous_.resize(0);
-  max_diagonal_ = 0;
 }
 
 int SpectralSolver::clamp(double min_relative_height) {
-  forget();
+  drop_factor();
   return energy_->clamp(min_relative_height);
 }
 

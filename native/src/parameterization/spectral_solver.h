@@ -32,14 +32,17 @@ struct SpectralMap {
 ///   Eq. 2, 3  L = L_D - A, the conformal energy
 ///   Eq. 5     L z = lambda B z, B the form of the boundary, smallest nonzero lambda
 ///   Eq. 7     B^ z = mu (L + s M) z, largest mu; B^ is B without the constants
-/// then the checks, the polish, and the similarity that the energy leaves free. Keeps the factor of L + s M between
-/// solves.
+/// then the checks, the polish, and the similarity that the energy leaves free. Keeps one factor of L + s M between
+/// solves, that of the last attempt, and the maps that solves with soft constraints may start from.
 class SpectralSolver {
  public:
-  /// The patch must outlive this object. Throws InvalidMesh where the outer loop has no length.
+  /// The patch must outlive this object. Throws InvalidMesh unless has_form.
   SpectralSolver(const NormalizedPatch& patch, Weights weights, BoundaryMeasure boundary, FactorizationBackend backend);
-  /// The same patch and metric with another energy or form.
+  /// The same patch and metric with another energy or form. Throws as the above.
   SpectralSolver(const SpectralSolver& like, Weights weights, BoundaryMeasure boundary);
+
+  /// Whether B of Eq. 5 is not zero: by length it is on an outer loop that has none.
+  static bool has_form(const NormalizedPatch& patch, BoundaryMeasure boundary);
 
   /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: where memory
   /// runs out, this object is as it was.
@@ -51,15 +54,18 @@ class SpectralSolver {
   /// definite in double precision.
   SpectralMap factorize(const Progress& progress);
   bool is_factored() const { return factor_.factorization != nullptr; }
+  /// Gives the memory of the factor back, with the maps that belong to it. The next solve factors again.
+  void drop_factor();
+  /// From here on solves do not start from the maps of earlier ones, on which their rounding would depend.
+  void forget_maps();
 
   /// The map of Method::spectral, fiedler or area, not yet placed; `attractors` are soft pins. Tried again, with a
   /// larger shift and another start, where it fails its checks. Solves with soft constraints start from the maps of
-  /// earlier solves.
+  /// earlier solves since forget_maps.
   SpectralMap solve(const SolveOptions& options, const Pins& attractors, const Progress& progress, Timings& timings);
 
   /// Lowers the mean QC of a map of this solver (polish.h) and returns the number of steps; not the whole way, or none
-  /// of it, where more of it would lie on itself than before. 0, and the map stays, where no step lowers it, or
-  /// the factor was not kept: the map took a second attempt.
+  /// of it, where more of it would lie on itself than before. 0, and the map stays, where no step lowers it.
   int polish(SpectralMap& map, const Progress& progress, Timings& timings);
 
   /// Fixes what the energy leaves free (placement.h): centred, with the area in 3D, upright. z (V,). False, and z
@@ -90,9 +96,11 @@ class SpectralSolver {
   Eigenvector eigenvector(const SolveOptions& options, const Pins& attractors, const BoundaryForm& form,
                           ShiftedFactor& factor, const Attempt& attempt, const Progress& progress);
   /// Factors L + s M, as factor_shifted does.
-  ShiftedFactor factored(const BoundaryForm& form, double relative_shift, const Progress& progress);
+  ShiftedFactor factored(const BoundaryForm& form, double relative_shift, const Progress& progress,
+                         std::unique_ptr<Factorization> analyzed = nullptr);
+  /// Keeps the factor of this shift, in place of another.
+  void keep_factor(double relative_shift, const Progress& progress);
   double max_diagonal() const;  ///< the unit of residuals
-  void forget();                ///< what belongs to the factor
   ExtendedForm extended_form(const BoundaryForm& form, const SolveOptions& options, const Pins& attractors) const;
 
   const NormalizedPatch* patch_;
@@ -102,8 +110,10 @@ class SpectralSolver {
   double max_diagonal_ = 0;                  ///< largest diagonal entry of L as it is now, once it was factored, else 0
   BoundaryForm form_;                        ///< M, and B^ with the constants taken out
   ShiftedFactor factor_;                     ///< of L + s M
-  RitzBasis ritz_basis_;                     ///< of the last solve with soft constraints and factor_
-  ComplexVector previous_;                   ///< the last accepted map with factor_, virtual vertices included
+  double relative_shift_ = 0;                ///< that factor_ was asked for with
+  // What the next solve with soft constraints starts from; of solves with factor_, or empty.
+  RitzBasis ritz_basis_;    ///< of the last one with soft constraints
+  ComplexVector previous_;  ///< the last accepted map, virtual vertices included
 };
 
 }  // namespace spectral_conformal

@@ -724,7 +724,7 @@ SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts) const {
         if (removed.count(defect.face) == 0) more += defect.extent;
       }
       const double score = more / price(cut.cut);
-      if (score <= best_score) continue;
+      if (!(score > best_score)) continue;  // not a number: a cut that costs nothing and removes no more
       best_score = score;
       best = &cut;
     }

@@ -45,6 +45,14 @@ TEST_CASE("a matrix that no shift makes definite has no factor, and the last shi
   }
 }
 
+TEST_CASE("a form without mass has no factor") {
+  const Patch patch(bumpy_grid(4, 4));
+  const ConformalEnergy energy = patch.energy(Weights::uniform);
+  for (const auto backend : backends()) {
+    CHECK_FALSE(factor_shifted(energy.matrix(), patch.positions, {}, 1e-12, backend, {}).factorization);
+  }
+}
+
 TEST_CASE("the listener can stop it") {
   const Patch patch(bumpy_grid(4, 4));
   const ConformalEnergy energy = patch.energy(Weights::uniform);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/orientation.h"
+#include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
 
@@ -29,6 +30,17 @@ TEST_CASE("the sign is exact where rounding decides on the area") {
       const int expected = p.imag() > p.real() ? 1 : p.imag() < p.real() ? -1 : 0;
       CHECK(orientation({12, 12}, {24, 24}, p) == expected);
       CHECK(orientation(p, {24, 24}, {12, 12}) == -expected);
+    }
+  }
+}
+
+TEST_CASE("coordinates that are not finite are refused") {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const Complex p : {Complex(bad, 0), Complex(0, bad), Complex(-bad, bad)}) {
+      CHECK_THROWS_AS(orientation(p, 1.0, {0, 1}), SolveFailure);
+      CHECK_THROWS_AS(orientation(1.0, p, {0, 1}), SolveFailure);
+      CHECK_THROWS_AS(orientation(1.0, {0, 1}, p), SolveFailure);
+      CHECK_THROWS_AS(orientation(p, p, p), SolveFailure);
     }
   }
 }

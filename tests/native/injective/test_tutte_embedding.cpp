@@ -94,6 +94,19 @@ TEST_CASE("edges without length have a place of their own") {
   CHECK(count_flipped(patch, embed(patch)) == 0);
 }
 
+TEST_CASE("a loop without length gets equal arcs") {
+  Mesh mesh = finger(6, 5);
+  for (std::size_t k = 0; k < 6; ++k) mesh.points[k] = {0, 0, 0};
+  const Patch patch(mesh);
+  const ComplexVector z = embed(patch);
+  REQUIRE(z.allFinite());
+  CHECK(count_flipped(patch, z) == 0);
+  const BoundaryLoop& loop = patch.outer();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    CHECK(std::arg(std::conj(z[loop[i]]) * z[loop[(i + 1) % loop.size()]]) == doctest::Approx(2 * pi / 6));
+  }
+}
+
 TEST_CASE("it can be cancelled") {
   const Patch patch(bumpy_grid(5, 4));
   CHECK_THROWS_AS(embed(patch, FactorizationBackend::automatic, [](double, const char*) { return false; }), Cancelled);

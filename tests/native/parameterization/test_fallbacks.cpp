@@ -74,6 +74,17 @@ TEST_CASE("with a blend only other problems are solved; the map says of which fo
         doctest::Approx(named.energy().value(other->map.z) / named.form().value(other->map.z)).epsilon(1e-3));
 }
 
+TEST_CASE("a boundary without length has no fallback by length") {
+  const Patch patch(bumpy_grid(6, 6));
+  NormalizedPatch point = normalized_patch(patch.chart, patch.positions, false);
+  for (const int v : point.outer) point.positions.row(v).setZero();
+  const SpectralSolver solver(point, Weights::uniform, BoundaryMeasure::vertex, FactorizationBackend::automatic);
+  Timings timings;
+  int attempts = 0;
+  const auto other = solve_fallback(solver, {}, {}, {{0, {0, 0}}, {9, {1, 2}}, {30, {3, 1}}}, 0, {}, timings, attempts);
+  CHECK((!other || other->boundary == BoundaryMeasure::vertex));
+}
+
 TEST_CASE("without any map there is no fallback") {
   const Patch patch(bumpy_grid(4, 4));
   NormalizedPatch empty = normalized_patch(patch.chart, patch.positions, false);

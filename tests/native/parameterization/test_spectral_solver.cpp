@@ -95,9 +95,12 @@ TEST_CASE("the numbers of a map do not depend on a factor") {
 TEST_CASE("an outer loop without length is refused") {
   const Patch patch(bumpy_grid(3, 3));
   NormalizedPatch point = normalized_patch(patch.chart, patch.positions, false);
-  point.positions.setZero();
+  for (const int v : point.outer) point.positions.row(v).setZero();
   CHECK_THROWS_AS(SpectralSolver(point, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic),
                   InvalidMesh);
+  // By vertex it has a form, from which none by length can be made.
+  const SpectralSolver by_vertex(point, Weights::uniform, BoundaryMeasure::vertex, FactorizationBackend::automatic);
+  CHECK_THROWS_AS(SpectralSolver(by_vertex, Weights::uniform, BoundaryMeasure::length), InvalidMesh);
 }
 
 TEST_SUITE_END();

@@ -1,0 +1,234 @@
+#include "injective/grid_embedding.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace spectral_conformal {
+namespace {
+
+/// The neighbours of each vertex, counter-clockwise: of a vertex of the outer loop from the next one of the loop to the
+/// one before it.
+class Rotations {
+ public:
+  Rotations(const std::vector<std::array<int, 3>>& triangles, int n) : start_(static_cast<std::size_t>(n) + 1, 0) {
+    for (const auto& triangle : triangles) {
+      for (const int v : triangle) ++start_[static_cast<std::size_t>(v) + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    corners_.resize(static_cast<std::size_t>(start_.back()));
+    std::vector<int> next(start_.begin(), start_.end() - 1);
+    for (const auto& triangle : triangles) {
+      for (int k = 0; k < 3; ++k) {
+        corners_[next[triangle[k]]++] = {triangle[(k + 1) % 3], triangle[(k + 2) % 3]};
+      }
+    }
+    // Of every directed edge there is one triangle to its left.
+    for (int v = 0; v < n; ++v) {
+      std::sort(begin(v), end(v));
+      const auto same = [](const Corner& a, const Corner& b) { return a.from == b.from; };
+      if (std::adjacent_find(begin(v), end(v), same) != end(v)) is_simple_ = false;
+    }
+  }
+
+  bool is_simple() const { return is_simple_; }
+  /// The neighbour of v that follows `w` counter-clockwise; -1 where no triangle lies between them.
+  int next(int v, int w) const {
+    const auto found = std::lower_bound(begin(v), end(v), Corner{w, -1});
+    return found == end(v) || found->from != w ? -1 : found->to;
+  }
+  template <class Visit>
+  void for_each_neighbour(int v, const Visit& visit) const {
+    for (auto corner = begin(v); corner != end(v); ++corner) visit(corner->from);
+  }
+
+ private:
+  /// Of a triangle at a vertex: its other vertices.
+  struct Corner {
+    int from;
+    int to;
+    bool operator<(const Corner& other) const { return from != other.from ? from < other.from : to < other.to; }
+  };
+  using Iterator = std::vector<Corner>::iterator;
+  using ConstIterator = std::vector<Corner>::const_iterator;
+  Iterator begin(int v) { return corners_.begin() + start_[static_cast<std::size_t>(v)]; }
+  Iterator end(int v) { return corners_.begin() + start_[static_cast<std::size_t>(v) + 1]; }
+  ConstIterator begin(int v) const { return corners_.begin() + start_[static_cast<std::size_t>(v)]; }
+  ConstIterator end(int v) const { return corners_.begin() + start_[static_cast<std::size_t>(v) + 1]; }
+
+  std::vector<int> start_;  ///< (n + 1,)
+  std::vector<Corner> corners_;
+  bool is_simple_ = true;
+};
+
+/// A canonical order (de Fraysseix, Pach and Pollack 1990), found from its end: every vertex is taken from the border
+/// of what is left, where it is the end of no edge that is a chord of it.
+class CanonicalOrder {
+ public:
+  /// A vertex, and the border below it from left to right: its neighbours among the vertices before it.
+  struct Step {
+    int vertex;
+    std::vector<int> below;
+  };
+
+  /// The loop's first edge is the base and stays.
+  CanonicalOrder(const Rotations& rotations, const BoundaryLoop& loop, int n)
+      : rotations_(rotations),
+        first_(loop[0]),
+        second_(loop[1]),
+        left_(static_cast<std::size_t>(n), -1),
+        right_(static_cast<std::size_t>(n), -1),
+        n_chords_(static_cast<std::size_t>(n), 0),
+        state_(static_cast<std::size_t>(n), within) {
+    // Seen from the base, the loop runs from right to left.
+    for (std::size_t i = 1; i < loop.size(); ++i) {
+      const int left = loop[(i + 1) % loop.size()];
+      left_[loop[i]] = left;
+      right_[left] = loop[i];
+    }
+    for (const int v : loop) state_[v] = border;
+    for (const int v : loop) {
+      rotations.for_each_neighbour(v, [&](int w) { n_chords_[v] += is_chord(v, w) ? 1 : 0; });
+    }
+    for (const int v : loop) offer(v);
+  }
+
+  /// The steps from the last to the first; fewer than there are vertices besides the base where there is no such order.
+  std::vector<Step> steps(const Progress& progress) {
+    constexpr std::size_t between_reports = 4096;
+    std::vector<Step> result;
+    // First come, first taken: from all sides inwards.
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (i % between_reports == 0) report(progress, 0, "embedding");
+      const int v = open_[i];
+      if (state_[v] != border || n_chords_[v] > 0) continue;
+      Step step{v, below(v)};
+      if (step.below.empty()) return result;
+      take(step);
+      result.push_back(std::move(step));
+    }
+    return result;
+  }
+
+ private:
+  static constexpr char within = 0;
+  static constexpr char border = 1;
+  static constexpr char just_exposed = 2;  ///< on the border since this step
+  static constexpr char taken = 3;
+
+  void offer(int v) {
+    if (n_chords_[v] == 0 && v != first_ && v != second_) open_.push_back(v);
+  }
+  /// Of two neighbours on the border.
+  bool is_chord(int v, int w) const {
+    const bool is_base = (v == first_ && w == second_) || (v == second_ && w == first_);
+    const bool is_on_border = state_[w] == border || state_[w] == just_exposed;
+    return is_on_border && left_[v] != w && right_[v] != w && !is_base;
+  }
+  std::vector<int> below(int v) const {
+    std::vector<int> result{left_[v]};
+    while (result.back() != right_[v]) {
+      const int next = rotations_.next(v, result.back());
+      if (next < 0 || state_[next] == taken || result.size() > left_.size()) return {};
+      result.push_back(next);
+    }
+    return result;
+  }
+  void take(const Step& step) {
+    const std::vector<int>& below = step.below;
+    state_[step.vertex] = taken;
+    for (std::size_t i = 0; i + 1 < below.size(); ++i) {
+      right_[below[i]] = below[i + 1];
+      left_[below[i + 1]] = below[i];
+    }
+    if (below.size() == 2) {
+      // What was a chord is now an edge of the border.
+      for (const int v : below) {
+        --n_chords_[v];
+        offer(v);
+      }
+      return;
+    }
+    const auto begin = below.begin() + 1;
+    const auto end = below.end() - 1;
+    for (auto v = begin; v != end; ++v) state_[*v] = just_exposed;
+    for (auto v = begin; v != end; ++v) {
+      rotations_.for_each_neighbour(*v, [&](int w) {
+        if (!is_chord(*v, w)) return;
+        ++n_chords_[*v];
+        if (state_[w] == border) ++n_chords_[w];
+      });
+    }
+    for (auto v = begin; v != end; ++v) {
+      state_[*v] = border;
+      offer(*v);
+    }
+  }
+
+  const Rotations& rotations_;
+  int first_;
+  int second_;
+  std::vector<int> left_;  ///< on the border, seen from the base; -1 at its end
+  std::vector<int> right_;
+  std::vector<int> n_chords_;  ///< of each vertex of the border
+  std::vector<char> state_;
+  std::vector<int> open_;
+};
+
+}  // namespace
+
+ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
+                             int outer, int n, const Progress& progress) {
+  const BoundaryLoop& loop = loops[static_cast<std::size_t>(outer)];
+  if (loop.size() < 3) return {};
+  std::vector<std::array<int, 3>> closed = triangles;
+  int n_closed = n;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (static_cast<int>(k) == outer || loops[k].size() < 3) continue;
+    // The chart is on the left of its loops, the hole on the other side.
+    for (std::size_t i = 0; i < loops[k].size(); ++i) {
+      closed.push_back({loops[k][(i + 1) % loops[k].size()], loops[k][i], n_closed});
+    }
+    ++n_closed;
+  }
+  const Rotations rotations(closed, n_closed);
+  if (!rotations.is_simple()) return {};
+  std::vector<CanonicalOrder::Step> steps = CanonicalOrder(rotations, loop, n_closed).steps(progress);
+  if (static_cast<int>(steps.size()) != n_closed - 2) return {};
+  std::reverse(steps.begin(), steps.end());
+
+  // From the base upwards. Of each vertex of the border the distance from its left neighbour, and of one that came to
+  // lie below a vertex that from this one, or from the neighbour that came to lie below together with it.
+  std::vector<std::int64_t> offset(static_cast<std::size_t>(n_closed), 0);
+  std::vector<std::int64_t> x(offset);
+  std::vector<std::int64_t> y(offset);
+  for (const auto& [v, below] : steps) {
+    const int left = below.front();
+    const int right = below.back();
+    ++offset[below[1]];
+    ++offset[right];
+    std::int64_t width = 0;
+    for (std::size_t i = 1; i < below.size(); ++i) width += offset[below[i]];
+    offset[v] = (width + y[right] - y[left]) / 2;
+    y[v] = (width + y[right] + y[left]) / 2;
+    offset[right] = width - offset[v];
+    if (below.size() > 2) offset[below[1]] -= offset[v];
+  }
+  // The last border, and then downwards what each vertex covered.
+  x[loop[0]] = 0;
+  for (std::size_t i = loop.size() - 1; i >= 1; --i) x[loop[i]] = x[loop[(i + 1) % loop.size()]] + offset[loop[i]];
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    int from = step->vertex;
+    for (std::size_t i = 1; i + 1 < step->below.size(); ++i) {
+      x[step->below[i]] = x[from] + offset[step->below[i]];
+      from = step->below[i];
+    }
+  }
+  ComplexVector z(n);
+  for (int v = 0; v < n; ++v) z[v] = Complex(static_cast<double>(x[v]), static_cast<double>(y[v]));
+  return z;
+}
+
+}  // namespace spectral_conformal

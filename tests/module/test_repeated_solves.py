@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A call gives the same map, bit for bit, whatever its Solver or Unwrapper solved before."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import degenerate, meshes
+
+DISK = meshes.bumpy_disk(400)
+MESHES = {
+    "disk": (DISK, {}),
+    "polished": (DISK, {"polish": True}),
+    "holes": (meshes.bumpy_disk(900, holes=3), {"polish": True}),
+    "blended": (DISK, {"area_blend": 0.5}),
+    "fallback": (meshes.rough_grid(10, 4.0, 6), {"polish": True}),
+    "embedding": (meshes.rough_grid(8, 3.0, 2), {"fold_free": True}),
+}
+
+
+def twice_attempted():
+    """Return patches whose first attempt fails where rounding drowns the smallest eigenvalue, with their options."""
+    for seed in range(20):
+        mesh = degenerate.nested(*meshes.bumpy_disk(200, seed), 3e-12, seed=seed)
+        try:
+            solution = sc.parameterize(*mesh, weights="inverse_area", fallbacks=False)
+        except sc.SolveError:
+            continue
+        if solution.attempts == 2:
+            yield mesh, {"weights": "inverse_area", "polish": True}
+
+
+TWICE = list(twice_attempted())
+
+
+def calls_of(vertices):
+    """Return options of solves of this mesh, all of which have a map, a fallback or the same error."""
+    ends = (0, len(vertices) // 2)
+    pins = {0: (0.0, 0.0), len(vertices) // 3: (1.0, 0.2), len(vertices) - 1: (0.3, 1.0)}
+    return [
+        {},
+        {"extenders": [(*ends, 1.0)]},
+        {"extenders": [(*ends, 1.05)]},
+        {"extenders": [(*ends, -0.05)]},
+        {"extenders": [(*ends, 30.0), (1, 2, 0.5)], "hole_rigidity": 1.0},
+        {"hole_rigidity": 1.0},
+        {"hole_rigidity": "automatic"},
+        {"pins": pins, "soft_pins": 1.0},
+        {"pins": pins},
+        {"method": "lscm"},
+        {"method": "fiedler"},
+        {"method": "area"},
+        {"fallbacks": False},
+    ]
+
+
+def solved(solve, call):
+    """Return what a call gives, to be compared."""
+    try:
+        solution = solve(**call)
+    except (sc.SolveError, sc.InvalidMeshError) as error:
+        return str(error)
+    records = getattr(solution, "charts", [solution])
+    return [solution.uv.tobytes(), *((each.attempts, each.iterations, each.polish_steps) for each in records)]
+
+
+@pytest.mark.parametrize("name", [*MESHES, "second attempt"])
+def test_a_solver_gives_what_a_fresh_one_gives(name):
+    mesh, options = TWICE[0] if name == "second attempt" else MESHES[name]
+    calls = calls_of(mesh[0])
+    fresh = [solved(sc.Solver(*mesh, **options).solve, call) for call in calls]
+    solver = sc.Solver(*mesh, **options)
+    order = np.random.default_rng(1).permutation(np.repeat(np.arange(len(calls)), 3))
+    for k in order:
+        assert solved(solver.solve, calls[k]) == fresh[k], calls[k]
+        if k % 2:
+            # A draft starts from what was there, and leaves nothing behind.
+            solved(solver.solve, {"extenders": [(0, 5, 0.1 * k)], "tolerance": 1e-4})
+
+
+@pytest.mark.parametrize("name", ["disk", "holes", "second attempt"])
+def test_an_unwrapper_gives_what_a_fresh_one_gives(name):
+    (vertices, triangles), options = TWICE[0] if name == "second attempt" else MESHES[name]
+    mesh = (vertices, *meshes.polygons(triangles))
+    ends = (0, len(vertices) // 2)
+    calls = [{}, {"extenders": [(*ends, 1.0)]}, {"extenders": [(*ends, 2.0)]}, {"hole_rigidity": 1.0}]
+    fresh = [solved(sc.Unwrapper(*mesh, **options).solve, call) for call in calls]
+    unwrapper = sc.Unwrapper(*mesh, **options)
+    for k in (0, 1, 0, 2, 1, 3, 0, 3, 2):
+        assert solved(unwrapper.solve, calls[k]) == fresh[k]
+        solved(unwrapper.solve, {"extenders": [(*ends, 0.5 + k)], "tolerance": 1e-4})
+
+
+def test_a_draft_agrees_to_its_tolerance():
+    solver = sc.Solver(*DISK)
+    for strength in (1.0, 1.1, 1.3, 0.2, -0.05, 5.0):
+        call = {"extenders": [(0, 200, strength)]}
+        draft = solver.solve(**call, tolerance=1e-4)
+        assert meshes.similarity_deviation(draft.uv, sc.parameterize(*DISK, **call).uv) < 1e-3
+
+
+def test_a_map_of_the_second_attempt_is_polished_too():
+    assert TWICE
+    for mesh, options in TWICE:
+        plain = sc.parameterize(*mesh, **{**options, "polish": False})
+        polished = sc.parameterize(*mesh, **options)
+        assert plain.attempts == polished.attempts == 2
+        assert polished.polish_steps > 0
+        assert sc.distortion(*mesh, polished.uv).mean_qc < sc.distortion(*mesh, plain.uv).mean_qc
+
+
+def test_a_second_attempt_has_the_order_and_the_memory_of_the_first():
+    mesh, options = TWICE[0]
+    solver = sc.Solver(*mesh, **options)
+    for factorizations in (1, 2):  # the first is there already
+        done = sc._native.counted_work(solver.solve)
+        assert (done["analyses"], done["factorizations"]) == (0, factorizations)
+
+
+def test_a_factor_that_fallbacks_do_not_need_is_given_back():
+    mesh, _ = MESHES["fallback"]
+    solver = sc.Solver(*mesh)
+    first, second = (sc._native.counted_work(solver.solve) for _ in range(2))
+    assert solver.solve().fallback is not None
+    assert second["analyses"] == first["analyses"] + 1
