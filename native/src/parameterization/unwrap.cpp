@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "conformal/conformal_energy.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
@@ -258,12 +259,12 @@ class ChartLoop {
     while (first < size()) {
       const int last = end_of_batch(first);
       run_in_parallel(
-          last - first, n_faces_of(first, last) < min_faces_to_share ? 1 : max_threads,
+          last - first,
           [&](int k, const Progress& going_on) {
             const int i = first + k;
             solve(i, part(going_on, end_[i], end_[i + 1]));
           },
-          progress, "eigenproblem");
+          progress, "eigenproblem", n_faces_of(first, last) < min_faces_to_share ? 1 : all_threads);
       for (; first < last; ++first) write(first);
     }
   }
@@ -275,7 +276,6 @@ class ChartLoop {
   static constexpr std::size_t max_faces_in_batch = 400000;
   /// Fewer are done before a second thread has begun.
   static constexpr std::size_t min_faces_to_share = 2000;
-  static constexpr unsigned max_threads = 64;
 
   int size() const { return static_cast<int>(n_faces_.size()); }
   std::size_t n_faces_of(int first, int last) const {
@@ -297,7 +297,9 @@ class ChartLoop {
 
 }  // namespace
 
-Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress, KeptMaps* kept) {
+Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& given, KeptMaps* kept) {
+  const Listening listening(given);
+  const Progress& progress = listening.progress();
   report(progress, 0.0, "charts");
   Timings timings;
   Stopwatch watch(timings);
@@ -339,7 +341,9 @@ Unwrapper::Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options)
 Unwrapper::~Unwrapper() = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
-                        double tolerance, const Progress& progress) {
+                        double tolerance, const Progress& given) {
+  const Listening listening(given);
+  const Progress& progress = listening.progress();
   Unwrap result = empty_result(state_->cut, extenders.size());
   std::vector<ChartUnwrapper::Solution> solutions(state_->charts.size());
   state_->loop.run(

@@ -38,7 +38,7 @@ constexpr std::ptrdiff_t searched_at_once = 512;
 constexpr int searched_fraction = 64;
 /// Vertices of one call that updates costs.
 constexpr int costs_at_once = 8192;
-constexpr unsigned max_threads = 16;
+constexpr double search_nanoseconds = 5000;
 
 /// Sum of squared distances from planes, each with a weight, as x^T A x + 2 b^T x + c.
 struct Quadric {
@@ -456,7 +456,7 @@ void ShrinkingMesh::relax() {
 /// Of the vertices around which the last round changed something.
 void ShrinkingMesh::update_costs() {
   const int n = static_cast<int>(into_.size());
-  run_blocks_in_parallel(n, costs_at_once, max_threads, [&](int begin, int end) {
+  run_blocks_in_parallel(n, costs_at_once, search_nanoseconds, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       if (into_[v] == v && changed_[v] == round_ - 1) cost_[v] = least_cost(v);
     }
@@ -473,7 +473,7 @@ bool ShrinkingMesh::is_worth_a_search(int v) const {
 /// For each of n merges, as things stand; only those worth a search are searched for.
 std::vector<Target> ShrinkingMesh::search(const Merge* merges, std::ptrdiff_t n) const {
   std::vector<Target> targets(static_cast<std::size_t>(n));
-  run_blocks_in_parallel(n, searched_at_once, max_threads, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  run_blocks_in_parallel(n, searched_at_once, search_nanoseconds, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     Fan fan;
     for (std::ptrdiff_t i = begin; i < end; ++i) {
       const int v = merges[i].vertex;

@@ -26,14 +26,11 @@ constexpr std::size_t parted_faces = 20000;
 constexpr double few_faces = 0.03;
 constexpr std::size_t max_flap = 50;
 
-/// A tenth of a search goes into cuts that part faces.
-constexpr unsigned max_searching_threads = 4;
-
 /// What is found by each of some searches that do not depend on each other.
 std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
   std::vector<SeamEdges> result(searches.size());
   run_in_parallel(
-      static_cast<int>(searches.size()), max_searching_threads,
+      static_cast<int>(searches.size()),
       [&](int i, const Progress&) { result[static_cast<std::size_t>(i)] = searches[static_cast<std::size_t>(i)](); },
       {}, "seams");
   return result;

@@ -128,7 +128,7 @@ bool contains(const TrialMaps& charts, const std::shared_ptr<const TrialMap>& ch
 }
 
 void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
-  run_in_parallel(static_cast<int>(n), Cutter::max_threads, work, progress, "seams");
+  run_in_parallel(static_cast<int>(n), work, progress, "seams", Cutter::max_threads);
 }
 
 void add_new(const SeamEdges& more, SeamEdges& all) {

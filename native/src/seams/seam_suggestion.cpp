@@ -70,9 +70,9 @@ class SeamFinder {
     std::size_t n_large = 0;
     while (n_large < order.size() && searches_[order[n_large]]->is_large()) search(order[n_large++], progress_);
     run_in_parallel(
-        static_cast<int>(order.size() - n_large), Cutter::max_threads,
+        static_cast<int>(order.size() - n_large),
         [&](int k, const Progress& going_on) { search(order[n_large + static_cast<std::size_t>(k)], going_on); },
-        progress_, "seams");
+        progress_, "seams", Cutter::max_threads);
   }
   void search(std::size_t i, const Progress& going_on) {
     PieceSearch& search = *searches_[i];
