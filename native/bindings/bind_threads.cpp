@@ -1,10 +1,15 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
+#include "graph/thread_budget.h"
 #include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal::python {
 
-void bind_threads(pybind11::module_& module) { module.def("limit_threads", &ThreadLimit::exchange); }
+void bind_threads(pybind11::module_& module) {
+  module.def("limit_threads", &ThreadLimit::exchange);
+  // For tests; no part of the Python interface.
+  module.def("pretend_cores", &ThreadBudget::exchange_cores);
+}
 
 }  // namespace spectral_conformal::python

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/signed_area.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "linear_algebra/large_pages.h"
 
@@ -14,13 +15,16 @@ namespace {
 /// L grows beyond it, relative to the mean triangle's. Beyond about 1e13 rounding breaks the factorisation.
 constexpr double max_entry = 1e12;
 
+/// Of one triangle, where nothing but a few numbers is computed of it.
+constexpr double triangle_nanoseconds = 25;
+
 /// Calls work(i) once for every i from 0 to n - 1, in several threads where there are many.
 template <class Work>
 void for_each_index(std::size_t n, const Work& work) {
   // Threads are not worth their start for fewer.
   constexpr std::size_t at_once = 20000;
-  constexpr unsigned max_threads = 16;
-  run_blocks_in_parallel(n, at_once, max_threads, [&](std::size_t begin, std::size_t end) {
+  constexpr double nanoseconds = 50;
+  run_blocks_in_parallel(n, at_once, nanoseconds, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }
@@ -48,6 +52,7 @@ ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
         (shapes_[t].clamped ? triangle_area(positions.row(a), positions.row(b), positions.row(c)) : shapes_[t].area());
     weight_sum_ += triangle_weights_[t];
   }
+  still_working(10 * static_cast<double>(triangles_.size()));
   weigh();
 }
 
@@ -70,6 +75,7 @@ void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
   for (std::size_t t = 0; t < metric.size(); ++t) {
     if (!shapes_[t].clamped) shapes[t] = stretched(shapes[t], metric[t]);
   }
+  still_working(triangle_nanoseconds * static_cast<double>(shapes_.size()));
   stretched_.swap(shapes);
 }
 
@@ -82,6 +88,7 @@ int ConformalEnergy::clamp(double min_height) {
     shape = shape.clamped_to(min_height);
     ++clamped;
   }
+  still_working(triangle_nanoseconds * static_cast<double>(shapes_.size()));
   if (clamped > 0) stretched_.swap(shapes);
   return clamped;
 }
@@ -115,6 +122,7 @@ void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
       if (i != j) visit(i, j, half_weight * (scaled_cotangents[k] / double_area), half_weight);
     }
   }
+  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
 }
 
 double ConformalEnergy::max_diagonal() const {
@@ -139,6 +147,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
     }
   }
   for (int v = 0; v < n_vertices_; ++v) start[v + 1] += start[v];
+  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
   LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices_]));
   std::vector<int> fill(start.begin(), start.end() - 1);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
@@ -207,6 +216,7 @@ double ConformalEnergy::value(const ComplexVector& z) const {
     const TriangleShape& s = energy_shapes()[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
+  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 
@@ -216,6 +226,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
     const auto& [a, b, c] = triangles_[t];
     sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
+  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 
@@ -237,6 +248,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
     result[c] += towards_c;
     result[a] -= towards_b + towards_c;
   }
+  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 

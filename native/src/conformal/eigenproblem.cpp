@@ -11,6 +11,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/start_vector.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {
@@ -173,6 +174,7 @@ class ShiftedOperator {
       out[form_.vertices[i]] += shift_ * form_.mass[i] * in[form_.vertices[i]];
     }
     Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+    interruption_.guard([&] { still_working(10 * static_cast<double>(matrix_.nonZeros())); });
   }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "conformal/upright.h"
 #include "geometry/signed_area.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 
@@ -14,6 +15,7 @@ double signed_area(const ConformalEnergy& energy, const ComplexVector& z) {
     const auto& [a, b, c] = triangles[t];
     area += energy.triangle_weights()[t] * signed_area(z[a], z[b], z[c]);
   }
+  still_working(15 * static_cast<double>(triangles.size()));
   return area;
 }
 

@@ -9,6 +9,7 @@
 
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {
@@ -49,6 +50,7 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
     const double area = energy.triangle_weights()[t] * std::abs(signed_area(z[a], z[b], z[c]));
     for (const int v : {a, b, c}) mass[v] += area;
   }
+  still_working(25 * static_cast<double>(triangles.size()));
   return mass / mass.sum();
 }
 
@@ -78,6 +80,7 @@ std::vector<Moment> moments_of(const ComplexVector& w, const Eigen::VectorXd& ma
     double power = mass[v] * square;
     for (std::size_t order = 2; order < size.size(); ++order, power *= length) size[order] += power;
   }
+  still_working(50 * static_cast<double>(w.size()));
   std::vector<Moment> moments;
   for (std::size_t k = 0; k < exponents.size(); ++k) {
     const auto [p, q] = exponents[k];
@@ -194,6 +197,7 @@ Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
     gradient[static_cast<std::size_t>(k)] = gradient_of_fit(w, mass, values);
     extent += (mass.array() * values.array().square()).sum();
   }
+  still_working(100 * static_cast<double>(w.size()));
   const auto& [x, y, z] = gradient;
   const double steepest = std::max({std::abs(x), std::abs(y), std::abs(z)});
   const double least = no_gradient * std::sqrt(extent);

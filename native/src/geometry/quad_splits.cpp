@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/signed_area.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {
@@ -38,6 +39,7 @@ std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& tri
       result.push_back(static_cast<int>(t));
       continue;
     }
+    still_working(40);
     const bool second = second_split_is_better({area(t), area(t + 1), area(t + 2), area(t + 3)});
     const int chosen = static_cast<int>(t) + (second ? 2 : 0);
     result.insert(result.end(), {chosen, chosen + 1});
@@ -63,6 +65,7 @@ std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& t
   std::set<std::pair<int, int>> edges;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
+    still_working(3000);  // of a large set
     edges.insert({edge(a, b), edge(b, c)});
     if (!is_first_of_quad(t)) {
       edges.insert(edge(c, a));
@@ -77,6 +80,7 @@ std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& t
       result.push_back(static_cast<int>(t));
       continue;
     }
+    still_working(3000);
     const auto first_diagonal = edge(triangles[t][0], triangles[t][2]);
     const auto second_diagonal = edge(triangles[t][1], triangles[t + 1][2]);
     const bool second = edges.count(first_diagonal) > 0 && edges.count(second_diagonal) == 0;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "graph/helper_threads.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 
@@ -38,6 +39,8 @@ ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector
   std::vector<int> end(first_node_.begin(), first_node_.end() - 1);
   for (int node = 0; node < n; ++node) nodes_[end[task[head[node]]]++] = node;
 
+  task_cost_.assign(below_.size(), 0);
+  for (int node = 0; node < n; ++node) task_cost_[task[head[node]]] += cost[node];
   parent_.assign(below_.size(), -1);
   children_.resize(below_.size());
   way_up_ = below_;
@@ -54,8 +57,8 @@ ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector
 /// One pass through all tasks.
 class ForestRun {
  public:
-  ForestRun(const ForestSchedule& schedule, bool is_up, const std::function<void(int)>& work)
-      : schedule_(schedule), is_up_(is_up), work_(work), n_left_(schedule.n_tasks()) {
+  ForestRun(const ForestSchedule& schedule, bool is_up, const std::function<void(int)>& work, double long_cost)
+      : schedule_(schedule), is_up_(is_up), work_(work), long_cost_(long_cost), n_left_(schedule.n_tasks()) {
     ready_.reserve(schedule.parent_.size());
     waits_for_.reserve(schedule.parent_.size());
     for (int task = 0; task < schedule.n_tasks(); ++task) {
@@ -68,7 +71,7 @@ class ForestRun {
   void take() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
-      changed_.wait(lock, [this] { return !ready_.empty() || n_left_ == 0 || failure_; });
+      wait(lock);
       if (n_left_ == 0 || failure_) return;
       const int task = pop();
       lock.unlock();
@@ -95,6 +98,33 @@ class ForestRun {
   }
 
  private:
+  /// Until there is a task, or none any more.
+  void wait(std::unique_lock<std::mutex>& lock) {
+    const auto is_over = [this] { return n_left_ == 0 || failure_; };
+    if (!Listening::has_listener()) {
+      ++n_waiting_;
+      changed_.wait(lock, [&] { return is_over() || !ready_.empty(); });
+      --n_waiting_;
+      return;
+    }
+    const auto is_left_to_others = [this] {
+      return n_waiting_ > 0 && schedule_.task_cost_[ready_.front()] >= long_cost_;
+    };
+    if (!is_over() && !ready_.empty() && is_left_to_others()) changed_.notify_one();
+    const auto has_news = [&] { return is_over() || (!ready_.empty() && !is_left_to_others()); };
+    while (!changed_.wait_for(lock, Listening::interval, has_news)) {
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        Listening::ask();
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      if (thrown && !failure_) failure_ = thrown;
+      if (thrown) changed_.notify_all();
+    }
+  }
   void run(int task) const {
     const auto first = schedule_.nodes_.begin() + schedule_.first_node_[task];
     const auto last = schedule_.nodes_.begin() + schedule_.first_node_[task + 1];
@@ -129,23 +159,28 @@ class ForestRun {
   std::condition_variable changed_;
   std::vector<int> waits_for_;
   std::vector<int> ready_;  ///< a heap
+  double long_cost_;
   int n_left_;
+  int n_waiting_ = 0;  ///< threads without a listener
   std::exception_ptr failure_;
 };
 
-void ForestSchedule::run_up(unsigned threads, const std::function<void(int)>& work) const { run(true, threads, work); }
-
-void ForestSchedule::run_down(unsigned threads, const std::function<void(int)>& work) const {
-  run(false, threads, work);
+void ForestSchedule::run_up(unsigned threads, const std::function<void(int)>& work, double long_cost) const {
+  run(true, threads, work, long_cost);
 }
 
-void ForestSchedule::run(bool is_up, unsigned threads, const std::function<void(int)>& work) const {
+void ForestSchedule::run_down(unsigned threads, const std::function<void(int)>& work) const {
+  run(false, threads, work, std::numeric_limits<double>::infinity());
+}
+
+void ForestSchedule::run(bool is_up, unsigned threads, const std::function<void(int)>& work, double long_cost) const {
   if (n_tasks() == 0) return;
-  ForestRun all(*this, is_up, work);
+  ForestRun all(*this, is_up, work, long_cost);
   {
     const HelperThreads helpers(std::min(threads, static_cast<unsigned>(n_tasks())) - 1, [&all] { all.take(); });
     all.take();
   }
+  Listening::rethrow();
   all.rethrow();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace spectral_conformal {
@@ -15,8 +16,11 @@ class ForestSchedule {
 
   /// Calls work(node) for every node, after all of its children, in up to `threads` threads at once, the caller's among
   /// them; in fewer where the system gives no more. What a call has written can be read by those that come after it.
-  /// Once a call has thrown no other subtree begins; what it threw is thrown here when all have ended.
-  void run_up(unsigned threads, const std::function<void(int node)>& work) const;
+  /// Once a call has thrown no other subtree begins; what it threw is thrown here when all have ended. The caller's
+  /// Listening is asked while its thread has nothing to do; it leaves tasks of this cost to threads that have nothing
+  /// to do either.
+  void run_up(unsigned threads, const std::function<void(int node)>& work,
+              double long_cost = std::numeric_limits<double>::infinity()) const;
   /// The same, each node after its parent.
   void run_down(unsigned threads, const std::function<void(int node)>& work) const;
 
@@ -24,7 +28,7 @@ class ForestSchedule {
 
  private:
   friend class ForestRun;
-  void run(bool is_up, unsigned threads, const std::function<void(int)>& work) const;
+  void run(bool is_up, unsigned threads, const std::function<void(int)>& work, double long_cost) const;
   int n_tasks() const { return static_cast<int>(parent_.size()); }
 
   double cost_ = 0;
@@ -34,6 +38,7 @@ class ForestSchedule {
   std::vector<std::vector<int>> children_;  ///< of each task, tasks
   std::vector<double> way_up_;              ///< cost of a task, all below it and all on its way to the root
   std::vector<double> below_;               ///< cost of a task and all below it
+  std::vector<double> task_cost_;
 };
 
 }  // namespace spectral_conformal

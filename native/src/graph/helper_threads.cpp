@@ -3,24 +3,29 @@
 #include <new>
 #include <system_error>
 
+#include "graph/listening.h"
 #include "graph/work_counter.h"
 #include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal {
 
-HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) {
+HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) : share_(count) {
+  if (share_.size() == 0) return;
   try {
-    const auto limited = [work, limit = ThreadLimit::current(), counter = WorkCounter::current()] {
+    const auto as_caller = [this, work, limit = ThreadLimit::current(), counter = WorkCounter::current(),
+                            listening = Listening::current()] {
+      const ThreadBudget::Share::Member member(share_);
       const ThreadLimit of_caller(limit);
       const WorkCounter::Share with_caller(counter);
+      const Listening::Overheard overheard(listening);
       work();
     };
-    threads_.reserve(count);
-    while (threads_.size() < count) threads_.emplace_back(limited);
+    threads_.reserve(share_.size());
+    while (threads_.size() < share_.size()) threads_.emplace_back(as_caller);
   } catch (const std::system_error&) {
-    return;  // no more threads
+    share_.shrink(static_cast<unsigned>(threads_.size()));
   } catch (const std::bad_alloc&) {
-    return;
+    share_.shrink(static_cast<unsigned>(threads_.size()));
   }
 }
 

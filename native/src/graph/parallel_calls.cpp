@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -10,13 +9,10 @@
 #include <vector>
 
 #include "graph/helper_threads.h"
-#include "spectral_conformal/thread_limit.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// How often the caller is asked whether to go on, while its thread has nothing left to do.
-constexpr std::chrono::milliseconds poll_interval{30};
 
 /// The calls that are left, and what became of the others.
 class SharedCalls {
@@ -33,6 +29,7 @@ class SharedCalls {
       } catch (...) {
         failures_[static_cast<std::size_t>(i)] = std::current_exception();
         has_failed_ = true;
+        if (Listening::is_cancelled()) cancel();
       }
     }
   }
@@ -59,10 +56,11 @@ class Helpers {
  public:
   Helpers(unsigned count, SharedCalls& calls) : calls_(calls), threads_(count, [this] { run(); }) {}
 
+  bool empty() const { return threads_.size() == 0; }
   /// True when all are done, false after the interval.
   bool wait() {
     std::unique_lock<std::mutex> lock(mutex_);
-    return ended_.wait_for(lock, poll_interval, [this] { return n_ended_ == threads_.size(); });
+    return ended_.wait_for(lock, Listening::interval, [this] { return n_ended_ == threads_.size(); });
   }
 
  private:
@@ -82,34 +80,61 @@ class Helpers {
 
 }  // namespace
 
-void run_in_parallel(int n, unsigned max_threads, const std::function<void(int, const Progress&)>& work,
-                     const Progress& progress, const char* phase_of_waiting) {
+void run_in_parallel(int n, const std::function<void(int, const Progress&)>& work, const Progress& progress,
+                     const char* phase_of_waiting, unsigned max_threads) {
   if (n <= 0) return;
   SharedCalls calls(n, work);
   std::exception_ptr thrown;
   double done = 0;
-  const Progress asking = [&](double fraction, const char* phase) {
-    if (!progress || calls.is_cancelled()) return !calls.is_cancelled();
-    done = std::max(done, fraction);
+  const auto ask = [&](const char* phase) {
+    if (calls.is_cancelled()) return false;
     try {
-      if (!progress(done, phase)) calls.cancel();
+      if (!phase) {
+        Listening::ask();
+      } else if (progress && !progress(done, phase)) {
+        calls.cancel();
+      }
     } catch (...) {
       thrown = std::current_exception();
       calls.cancel();
     }
     return !calls.is_cancelled();
   };
+  const Progress asking = [&](double fraction, const char* phase) {
+    done = std::max(done, fraction);
+    return ask(phase);
+  };
   {
-    const unsigned threads = std::min({max_threads, ThreadLimit::available(), unsigned(n)});
-    // A limit is divided among the threads, whose work may share its own calls; cores without one are not.
-    const unsigned limit = ThreadLimit::current();
-    const ThreadLimit of_each(limit == 0 ? 0 : std::max(1U, limit / threads));
-    Helpers helpers(threads - 1, calls);
+    Helpers helpers(std::min(max_threads, static_cast<unsigned>(n)) - 1, calls);
     calls.take(asking);
-    while (!helpers.wait()) asking(done, phase_of_waiting);
+    while (!helpers.wait()) ask(progress ? phase_of_waiting : nullptr);
   }
   if (thrown) std::rethrow_exception(thrown);
+  Listening::rethrow();
   if (calls.is_cancelled()) throw Cancelled();
+  calls.rethrow_first();
+}
+
+void call_while_listening(double nanoseconds, const std::function<void()>& call) {
+  if (!Listening::has_listener() || nanoseconds < std::chrono::nanoseconds(Listening::interval).count()) {
+    call();
+    still_working(nanoseconds);
+    return;
+  }
+  const std::function<void(int, const Progress&)> work = [&call](int, const Progress&) { call(); };
+  SharedCalls calls(1, work);
+  {
+    Helpers helpers(1, calls);
+    if (helpers.empty()) calls.take({});
+    while (!helpers.wait()) {
+      try {
+        Listening::ask();
+      } catch (...) {
+        // Thrown again below.
+      }
+    }
+  }
+  Listening::rethrow();
   calls.rethrow_first();
 }
 

@@ -1,7 +1,6 @@
 #include "spectral_conformal/thread_limit.h"
 
-#include <algorithm>
-#include <thread>
+#include "graph/thread_budget.h"
 
 namespace spectral_conformal {
 namespace {
@@ -23,9 +22,6 @@ unsigned ThreadLimit::exchange(unsigned limit) {
   return before;
 }
 
-unsigned ThreadLimit::available() {
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  return limit_of_thread == 0 ? cores : std::min(limit_of_thread, cores);
-}
+unsigned ThreadLimit::available() { return ThreadBudget::available(); }
 
 }  // namespace spectral_conformal

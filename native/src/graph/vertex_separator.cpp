@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "graph/listening.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -71,6 +73,7 @@ class DisjointPaths {
     }
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       const int state = queue_[i];
+      still_working(20);
       if (last_level_ != none && level_[state] >= last_level_) break;
       if (is_end(state)) last_level_ = level_[state];
       for (int k = 0; k < n_moves(state); ++k) {
@@ -87,6 +90,7 @@ class DisjointPaths {
     path_.assign(1, start);
     while (!path_.empty()) {
       const int state = path_.back();
+      still_working(20);
       if (level_[state] == last_level_ && is_end(state)) return true;
       int to = none;
       while (to == none && tried_[state] < n_moves(state)) {

@@ -6,10 +6,14 @@
 #include <cmath>
 #include <memory>
 
+#include "graph/parallel_calls.h"
 #include "injective/lbfgs.h"
 
 namespace spectral_conformal {
 namespace {
+
+/// Of an element in one pass through all.
+constexpr double element_nanoseconds = 50;
 
 /// The quadratic form that stands for the Hessian of the energy, one weight each for |f_z|^2 and |f_zbar|^2 per
 /// triangle.
@@ -28,7 +32,9 @@ class QuadraticForm {
       }
     }
     matrix_.resize(n, n);
-    matrix_.setFromTriplets(entries.begin(), entries.end());
+    still_working(element_nanoseconds * static_cast<double>(elements.size()));
+    call_while_listening(3 * element_nanoseconds * static_cast<double>(entries.size()),
+                         [&] { matrix_.setFromTriplets(entries.begin(), entries.end()); });
     for (const DistortionElement& element : elements) {
       std::array<int, 3> entry{};
       for (int k = 0; k < 3; ++k) {
@@ -37,6 +43,7 @@ class QuadraticForm {
       }
       edge_entries_.push_back(entry);
     }
+    still_working(element_nanoseconds * static_cast<double>(elements.size()));
     factorization_->analyze(matrix_);
   }
 
@@ -51,6 +58,7 @@ class QuadraticForm {
       weights.push_back(stiffness(element, measure_, jacobian(element, z)));
       largest = std::max(largest, weights.back().antiholomorphic);
     }
+    still_working(element_nanoseconds * static_cast<double>(elements_.size()));
     // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the last.
     for (; min_weight_ < 1; min_weight_ *= 100) {
       assemble(weights, curvature, min_weight_ * largest);
@@ -97,6 +105,7 @@ class QuadraticForm {
           value[edge_entries_[t][k]] += Complex(-dirichlet, i > j ? area_weight : -area_weight);
       }
     }
+    still_working(element_nanoseconds * static_cast<double>(elements_.size()));
     for (int v = 0; v < static_cast<int>(matrix_.cols()); ++v) {
       value[diagonal[v]] += curvature[v];
       // Vertices without a triangle stay, too.

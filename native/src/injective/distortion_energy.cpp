@@ -5,9 +5,13 @@
 
 #include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {
+
+/// Of one element, where a few numbers are computed of it.
+constexpr double energy_nanoseconds = 40;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
@@ -124,6 +128,7 @@ double energy_and_gradient(const std::vector<DistortionElement>& elements, Disto
     gradient[element.corners[2]] += towards_c;
     gradient[element.corners[0]] -= towards_b + towards_c;
   }
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
   return sum;
 }
 
@@ -140,6 +145,7 @@ double max_step(const std::vector<DistortionElement>& elements, const ComplexVec
     const double linear = cross(d1, change2) + cross(change1, d2);
     largest = std::min(largest, smallest_positive_root(cross(d1, d2), linear, cross(change1, change2)));
   }
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
   return largest;
 }
 
@@ -149,6 +155,7 @@ bool is_flipped(const DistortionElement& element, const ComplexVector& z, const 
 
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
                   const FlipTolerance& tolerance) {
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
     return is_flipped(element, z, tolerance);
   }));
@@ -184,6 +191,7 @@ std::vector<DistortionElement> distortion_elements(const std::vector<std::array<
   const DistortionElements source(triangles, shapes, triangle_weights, n_virtual);
   std::vector<DistortionElement> elements;
   elements.reserve(source.size());
+  still_working(energy_nanoseconds * static_cast<double>(source.size()));
   for (std::size_t t = 0; t < source.size(); ++t) elements.push_back(source[t]);
   return elements;
 }
@@ -197,6 +205,7 @@ double mean_scale_factor(const std::vector<DistortionElement>& elements, const C
     logarithms += element.weight * std::log(j.determinant);
     weight += element.weight;
   }
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
   return weight > 0 ? std::exp(-0.5 * logarithms / weight) : 0;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/quad_splits.h"
+#include "graph/listening.h"
 #include "injective/descent.h"
 #include "injective/grid_embedding.h"
 #include "injective/local_unfolding.h"
@@ -38,6 +39,7 @@ class FoldFree {
       ++next;
     }
     for (; next < elements_.size(); ++next) elements_[next].measured = false;
+    still_working(50 * static_cast<double>(elements_.size()));
   }
 
   FoldFreeMap run(ComplexVector given) {
@@ -127,6 +129,7 @@ class FoldFree {
         const Complex previous = z[triangle[(k + 2) % 3]] - z[triangle[k]];
         angle[triangle[k]] += std::arg(std::conj(next) * previous);
       }
+      still_working(100);
     }
     for (const BoundaryLoop& loop : patch_.loops) {
       for (const int v : loop) angle[v] = 0;
@@ -216,6 +219,7 @@ class FoldFree {
       shape.y2 *= scale;
       element.weight = shape.area() / area;
     }
+    still_working(50 * static_cast<double>(elements_.size()));
     return clamped;
   }
 

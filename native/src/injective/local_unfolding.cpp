@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "graph/listening.h"
 #include "injective/descent.h"
 
 namespace spectral_conformal {
@@ -77,6 +78,7 @@ class Unfolding {
         weight[v] += 1;
       }
     }
+    still_working(50 * static_cast<double>(elements_.size()));
     constexpr int max_passes = 100;  // each reaches one ring further
     for (int pass = 0; pass < max_passes; ++pass) {
       std::vector<int> without;
@@ -92,6 +94,7 @@ class Unfolding {
           }
         }
       }
+      still_working(20 * static_cast<double>(elements_.size()));
       if (without.empty()) break;
       for (std::size_t i = 0; i < without.size(); ++i) {
         sum[without[i]] += value[i];
@@ -138,6 +141,7 @@ class Unfolding {
       while (!open.empty()) {
         const int v = open.back();
         open.pop_back();
+        still_working(100);
         if (!is_held(v)) region.free.push_back(v);
         for (const int* t = star_.begin(v); t != star_.end(v); ++t) {
           if (!taken[*t]) region.elements.push_back(*t);
@@ -182,6 +186,7 @@ class Unfolding {
       element.weight = 1 / static_cast<double>(region.elements.size());
       element.corners = {index(a), index(b), index(c)};
       local.push_back(element);
+      still_working(300);
     }
     ComplexVector z(static_cast<Eigen::Index>(vertices.size()));
     const Complex origin = z_[vertices.front()];

@@ -7,6 +7,7 @@
 
 #include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "injective/distortion_energy.h"
 
@@ -64,8 +65,14 @@ void MeanDistortion::for_each_part(const Work& work) {
     work(parts_.front());
     return;
   }
+  const double nanoseconds = 40 * static_cast<double>(parts_.front().triangles.capacity());
   run_in_parallel(
-      n, max_parts, [&](int i, const Progress&) { work(parts_[static_cast<std::size_t>(i)]); }, {}, "");
+      n,
+      [&](int i, const Progress&) {
+        work(parts_[static_cast<std::size_t>(i)]);
+        still_working(nanoseconds);
+      },
+      {}, "");
 }
 
 MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "graph/adjacency.h"
+#include "graph/parallel_calls.h"
 #include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
 #include "quality/flips.h"
@@ -38,7 +39,7 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
   for (const auto& triangle : triangles) {
     for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangle[k], triangle[(k + 1) % 3]));
   }
-  std::sort(pairs.begin(), pairs.end());
+  call_while_listening(100 * static_cast<double>(pairs.size()), [&] { std::sort(pairs.begin(), pairs.end()); });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size());
@@ -47,6 +48,7 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
     edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
     total += edges.back().length;
   }
+  still_working(50 * static_cast<double>(pairs.size()));
   const double min_length = min_relative_length * total / static_cast<double>(pairs.size());
   for (WeightedEdge& edge : edges) edge.length = std::max(edge.length, min_length);
   int middle = static_cast<int>(positions.rows());
@@ -104,7 +106,8 @@ class TutteSystem {
       if (j >= 0 && i < 0) right_side[j] += edge.weight * z[edge.i];
     }
     HermitianMatrix matrix(n_unknown_, n_unknown_);
-    matrix.setFromTriplets(entries.begin(), entries.end());
+    call_while_listening(150 * static_cast<double>(entries.size()),
+                         [&] { matrix.setFromTriplets(entries.begin(), entries.end()); });
     if (!analyzed_) factorization_->analyze(matrix);
     analyzed_ = true;
     if (!factorization_->factorize(matrix)) return false;
@@ -130,6 +133,7 @@ std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const Co
   constexpr double min_distance = 1e-15;  // rounding leaves no shorter ones in the unit circle
   std::vector<double> result;
   result.reserve(edges.size());
+  still_working(50 * static_cast<double>(edges.size()));
   for (const WeightedEdge& edge : edges) {
     result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), min_distance) / edge.length));
   }
@@ -152,6 +156,7 @@ double variance(const std::vector<double>& values) {
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
   constexpr double max_log = 23;  // the changes of one round span 1e10 at most, which double precision solves
   const double centre = mean(log_stretch);
+  still_working(50 * static_cast<double>(edges.size()));
   for (std::size_t k = 0; k < edges.size(); ++k) {
     edges[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -max_log, max_log));
   }

@@ -101,6 +101,9 @@ struct Holders {
   int before = 0;  ///< the setting that the first of them found
 };
 
+/// How many this thread holds: one within another has nothing to do.
+thread_local int held_by_thread = 0;
+
 Holders& holders() {
   static Holders of_process;
   return of_process;
@@ -118,7 +121,7 @@ void set_blas_thread_setting(int threads) {
 }
 
 BlasThreads::BlasThreads() : is_alone_(!serves_many()) {
-  if (!open_blas().has_threads()) return;
+  if (!open_blas().has_threads() || held_by_thread++ > 0) return;
   Holders& all = holders();
   if (is_alone_) {
     all.gate.lock();
@@ -132,7 +135,7 @@ BlasThreads::BlasThreads() : is_alone_(!serves_many()) {
 }
 
 BlasThreads::~BlasThreads() {
-  if (!open_blas().has_threads()) return;
+  if (!open_blas().has_threads() || --held_by_thread > 0) return;
   Holders& all = holders();
   {
     const std::lock_guard<std::mutex> lock(all.counting);

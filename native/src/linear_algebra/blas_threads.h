@@ -21,7 +21,7 @@ void set_blas_thread_setting(int threads);
 
 /// Fixes OpenBLAS's number of threads at one while the object lives, and puts the process's own number back when the
 /// last of them ends, however it ends; a number that somebody else set in between is kept. May be held by several
-/// threads at once, which wait for each other unless the BLAS serves many. A holder must not construct another one.
+/// threads at once, which wait for each other unless the BLAS serves many. A thread may hold several.
 /// Without effect with another BLAS. A second thread of the BLAS itself would spin while it waits and stall where the
 /// other core is busy; a factorisation works on several subtrees at once instead (supernodal_factor.h).
 class BlasThreads {

@@ -94,8 +94,10 @@ struct SymbolicFactor {
 /// order: of the rows, or null.
 SymbolicFactor analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& workspace) {
   const auto free = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, workspace.get()); };
-  const std::unique_ptr<cholmod_factor, decltype(free)> symbolic(
-      cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get()), free);
+  std::unique_ptr<cholmod_factor, decltype(free)> symbolic(nullptr, free);
+  const double nanoseconds = 150 * static_cast<double>(pattern.nzmax);
+  call_while_listening(nanoseconds,
+                       [&] { symbolic.reset(cholmod_analyze_p(&pattern, order, nullptr, 0, workspace.get())); });
   workspace.check();
   return {structure_of(*symbolic), workspace->fl};
 }
@@ -120,7 +122,7 @@ class LeafOrdering {
     for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
     constexpr int leaves_at_once = 32;
     const int n_leaves = static_cast<int>(dissection.leaves.size());
-    run_blocks_in_parallel(n_leaves, leaves_at_once, max_ordering_threads, [&](int begin, int end) {
+    run_blocks_in_parallel(n_leaves, leaves_at_once, nanoseconds_per_leaf, [&](int begin, int end) {
       Workspace workspace;
       for (int k = begin; k < end; ++k) order(dissection_.leaves[k], workspace);
     });
@@ -146,7 +148,7 @@ class LeafOrdering {
     std::copy(found.begin(), found.end(), dissection_.order.begin() + begin);
   }
 
-  static constexpr int max_ordering_threads = 16;
+  static constexpr double nanoseconds_per_leaf = 1e6;
   const Adjacency& graph_;
   NestedDissection& dissection_;
   std::vector<int> place_;  ///< of each node in the order as given
@@ -186,6 +188,7 @@ class CholmodFactorization final : public Factorization {
   using Factorization::analyze;
   void analyze(const HermitianMatrix& matrix, const Positions* positions) override {
     const Adjacency graph = graph_of(matrix);
+    still_working(30 * static_cast<double>(matrix.nonZeros()));
     factor_.analyze(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure);
     all_ = factor_.whole();
     work_.setZero(factor_.n());
@@ -236,6 +239,7 @@ class CholmodFactorization final : public Factorization {
   void permute_back(ComplexVector& x) const {
     x.resize(work_.size());
     for (Eigen::Index i = 0; i < work_.size(); ++i) x[factor_.order()[i]] = work_[i];
+    still_working(10 * static_cast<double>(work_.size()));
   }
 
   SupernodalFactor factor_;

@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
+#include "graph/parallel_calls.h"
 #include "graph/work_counter.h"
 
 namespace spectral_conformal {
@@ -27,20 +28,21 @@ class EigenFactorization final : public Factorization {
   using Factorization::analyze;
   void analyze(const HermitianMatrix& matrix, const Positions* /*positions*/) override {
     count_analysis();
-    ldlt_.analyzePattern(matrix);
-    check_factor_size(ldlt_.planned_nonzeros());
+    call_while_listening(3000.0 * matrix.rows(), [&] { ldlt_.analyzePattern(matrix); });
+    planned_nonzeros_ = ldlt_.planned_nonzeros();
+    check_factor_size(planned_nonzeros_);
   }
 
   bool factorize(const HermitianMatrix& matrix) override {
     count_factorization(0);
-    ldlt_.factorize(matrix);
+    call_while_listening(100 * planned_nonzeros_, [&] { ldlt_.factorize(matrix); });
     // L D L^H also exists for some indefinite matrices: positive definite means positive pivots.
     return ldlt_.info() == Eigen::Success && (ldlt_.vectorD().real().array() > 0).all();
   }
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
     count_solve(0);
-    x = ldlt_.solve(b);
+    call_while_listening(8 * planned_nonzeros_, [&] { x = ldlt_.solve(b); });
   }
 
   void select(std::vector<int> vertices) override { selected_ = std::move(vertices); }
@@ -64,6 +66,7 @@ class EigenFactorization final : public Factorization {
 
  private:
   SimplicialLdlt ldlt_;
+  double planned_nonzeros_ = 0;
   std::vector<int> selected_;
   // Work space.
   ComplexVector scattered_;

@@ -22,7 +22,6 @@ constexpr int n_halvings = 4;
 /// How many edges a separator may lie from the plane: with 535,000 vertices and triangles, 0, 3 and 12
 /// give 7.4e9, 7.0e9 and 6.7e9 multiplications, in 0.02, 0.14 and 0.68 s.
 constexpr int max_distance = 3;
-constexpr int max_dissecting_threads = 16;
 /// Not in any part.
 constexpr int no_part = -1;
 
@@ -60,7 +59,7 @@ class Dissector {
   std::vector<Part> dissect(const std::vector<Part>& parts) {
     std::vector<Halves> halves(parts.size());
     run_in_parallel(
-        static_cast<int>(parts.size()), max_dissecting_threads,
+        static_cast<int>(parts.size()),
         [&](int i, const Progress&) {
           const auto k = static_cast<std::size_t>(i);
           if (parts[k].size() > max_leaf_size) halves[k] = cut(parts[k]);
@@ -88,11 +87,13 @@ class Dissector {
   /// Orders the part's nodes by their side.
   Halves cut(const Part& part) {
     const Plane plane = this->plane(part);
+    still_working(1e6);
     for (int i = part.begin; i < part.end; ++i) {
       const int node = result_.order[i];
       const bool is_below = positions_.row(node).dot(plane.normal) < plane.height;
       side_[node] = is_below ? SeparatorSide::source : SeparatorSide::sink;
     }
+    still_working(20.0 * part.size());
     separate(part);
     std::array<std::vector<int>, 3> nodes;
     for (int i = part.begin; i < part.end; ++i) {
@@ -100,6 +101,7 @@ class Dissector {
       const SeparatorSide side = side_[node];
       nodes[side == SeparatorSide::source ? 0 : side == SeparatorSide::sink ? 1 : 2].push_back(node);
     }
+    still_working(20.0 * part.size());
     if (nodes[0].empty() || nodes[1].empty()) return {};
     auto at = result_.order.begin() + part.begin;
     for (const std::vector<int>& each : nodes) at = std::copy(each.begin(), each.end(), at);
@@ -230,6 +232,7 @@ class Dissector {
         break;
       }
     }
+    still_working(50.0 * part.size());
     std::size_t begin = 0;
     for (int distance = 0; distance < max_distance && 4 * near.size() < static_cast<std::size_t>(part.size());
          ++distance) {

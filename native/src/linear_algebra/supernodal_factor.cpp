@@ -12,7 +12,6 @@
 #include "graph/parallel_calls.h"
 #include "graph/work_counter.h"
 #include "linear_algebra/blas_threads.h"
-#include "spectral_conformal/thread_limit.h"
 
 // BLAS and LAPACK, Fortran linkage.
 extern "C" {
@@ -43,7 +42,18 @@ constexpr double min_entries_to_share = 1e6;
 constexpr double min_columns_to_share = 20000;
 /// Width times height squared of the largest front, and the columns of the widest, that are small.
 constexpr double max_small_front = 8000;
+/// Multiplications that take a tenth of a second or more: a caller with a listener leaves the front to another thread.
+constexpr double long_front = 3e8;
+/// Of a multiplication in large fronts, and of what else a small one costs for each of its supernode's entries.
+constexpr double nanoseconds_of_multiplication = 0.2;
+constexpr double nanoseconds_of_entry = 5;
+constexpr double nanoseconds_of_solve = 2;
 constexpr int max_small_width = 24;
+
+/// still_working. Not where the BLAS is held alone: a listener may wait for a thread that waits for the BLAS.
+void listen(double nanoseconds) {
+  if (BlasThreads::serves_many()) still_working(nanoseconds);
+}
 
 /// A = L L^H in place, (n, n) lower. False when it is not positive definite.
 bool eliminate_columns(int n, double* a, int stride) {
@@ -227,9 +237,13 @@ void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& g
   std::vector<double> cost(n_super);
   const auto for_each_supernode = [&](const auto& visit) {
     constexpr int supernodes_at_once = 2000;
-    run_blocks_in_parallel(n_super, supernodes_at_once, n_threads(n(), min_columns_to_share), [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) visit(k);
-    });
+    constexpr double nanoseconds = 2000;
+    run_blocks_in_parallel(
+        n_super, supernodes_at_once, nanoseconds,
+        [&](int begin, int end) {
+          for (int k = begin; k < end; ++k) visit(k);
+        },
+        n_threads(n(), min_columns_to_share));
   };
   for_each_supernode([&](int k) {
     const double width = columns(k);
@@ -263,6 +277,7 @@ void SupernodalFactor::analyze(const HermitianMatrix& matrix, const Adjacency& g
     if (parent_[k] >= 0) children_[end[parent_[k]]++] = k;
   }
   schedule_ = ForestSchedule(parent_, cost);
+  listen(100.0 * n_super);
 
   std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
   entries_.resize(static_cast<std::size_t>(matrix.nonZeros()));
@@ -309,6 +324,7 @@ double SupernodalFactor::n_doubles(const Path& path) const {
 
 bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   const int n_super = n_supernodes();
+  listen(5 * static_cast<double>(matrix.nonZeros()));
   is_real_.assign(n_super, 1);
   offset_.assign(n_super + 1, 0);
   for (int k = 0; k < n_super; ++k) {
@@ -328,11 +344,14 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
   std::atomic<bool> is_definite{true};
   count_factorization(multiplications());
   const BlasThreads blas;
-  schedule_.run_up(n_threads(schedule_.cost(), min_multiplications_to_share), [&](int k) {
-    if (!is_definite) return;
-    const bool done = is_real_[k] ? eliminate<double>(k, matrix) : eliminate<Complex>(k, matrix);
-    if (!done) is_definite = false;
-  });
+  schedule_.run_up(
+      n_threads(schedule_.cost(), min_multiplications_to_share),
+      [&](int k) {
+        if (!is_definite) return;
+        const bool done = is_real_[k] ? eliminate<double>(k, matrix) : eliminate<Complex>(k, matrix);
+        if (!done) is_definite = false;
+      },
+      long_front);
   passed_.clear();
   return is_definite;
 }
@@ -340,7 +359,7 @@ bool SupernodalFactor::factorize(const HermitianMatrix& matrix) {
 unsigned SupernodalFactor::n_threads(double work, double min_work) const {
   if (!BlasThreads::serves_many()) return 1;
   if (max_threads_ > 0) return max_threads_;
-  return work < min_work ? 1 : ThreadLimit::available();
+  return work < min_work ? 1 : all_threads;
 }
 
 template <class Scalar>
@@ -357,6 +376,11 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
   }
   for_each_child<Scalar>(k, [&](int child, const auto* from) { add_to_columns(child, from, own, height, width); });
   const bool small = is_small(width, height);
+  const auto worked = [&](double multiplications) {
+    constexpr double real_ones = std::is_same_v<Scalar, double> ? 1 : 4;
+    listen(nanoseconds_of_multiplication * real_ones * multiplications);
+  };
+  listen(nanoseconds_of_entry * width * height);
   if (small) {
     // With the rows below, which are divided by the way.
     if (!eliminate_small_columns<Scalar>({own, height, width, Eigen::OuterStride<>(height)})) return false;
@@ -367,7 +391,11 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
     for (int i = first_child_[k]; i < first_child_[k + 1]; ++i) give_up(passed_[children_[i]]);
     return true;
   }
-  if (!small) divide(below, width, own, own + width, height);
+  if (!small) {
+    worked(static_cast<double>(width) * width * width / 3);
+    divide(below, width, own, own + width, height);
+    worked(static_cast<double>(below) * width * width);
+  }
   constexpr int doubles = std::is_same_v<Scalar, double> ? 1 : 2;
   passed_[k].resize(static_cast<std::size_t>(below) * static_cast<std::size_t>(below * doubles));
   auto* const passed = reinterpret_cast<Scalar*>(passed_[k].data());
@@ -376,11 +404,13 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
                            {passed, below, below, Eigen::OuterStride<>(below)});
   } else {
     multiply(below, width, own + width, height, passed);
+    worked(0.5 * below * below * width);
   }
   for_each_child<Scalar>(k, [&](int child, const auto* from) {
     add_below(child, from, passed, below, width);
     give_up(passed_[child]);
   });
+  listen(nanoseconds_of_entry * below * below);
   return true;
 }
 
@@ -473,6 +503,7 @@ void SupernodalFactor::forward(const Path& path, ComplexVector& work) {
     const int width = columns(k);
     const int height = rows(k);
     const int below = height - width;
+    listen(nanoseconds_of_solve * width * height);
     Complex* const own = work.data() + first_column(k);
     Complex* const passed = below_.data() + structure_.first_row[k] + width;
     std::fill(passed, passed + below, Complex(0));
@@ -508,6 +539,7 @@ void SupernodalFactor::backward(const Path& path, ComplexVector& work) {
     const int width = columns(k);
     const int height = rows(k);
     const int below = height - width;
+    listen(nanoseconds_of_solve * width * height);
     Complex* const own = work.data() + first_column(k);
     Complex* const above = below_.data() + structure_.first_row[k] + width;
     for (int i = 0; i < below; ++i) above[i] = work[row_indices(k)[width + i]];

@@ -7,6 +7,7 @@
 
 #include "geometry/polygon_triangulation.h"
 #include "graph/disjoint_sets.h"
+#include "graph/listening.h"
 #include "mesh/half_edges.h"
 
 namespace spectral_conformal {
@@ -37,6 +38,7 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
     while (!open.empty()) {
       const int face = open.back();
       open.pop_back();
+      still_working(80);
       ++n_faces;
       n_reversed += result.reversed[face];
       for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
@@ -109,6 +111,7 @@ class ChartBuilder {
     for (std::size_t i = 0; i < chart.faces.size(); ++i) {
       const int face = chart.faces[i];
       const bool reversed = reversed_[face] != 0;
+      still_working(mesh_.n_corners(face) < 4 ? 60 : 200.0 * mesh_.n_corners(face));
       chart.reversed_faces += reversed ? 1 : 0;
       for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
         ++n_half_edges;
@@ -196,6 +199,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     const bool opposed = half_edges.is_opposed(c);
     fans.unite(c, opposed ? half_edges.next(other) : other);
     fans.unite(half_edges.next(c), opposed ? other : half_edges.next(other));
+    still_working(80);
   }
 
   // Number the fans chart by chart in the order of the mesh's vertices: first sort the fans' roots by vertex.
@@ -204,6 +208,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
   for (int c = 0; c < half_edges.n_corners(); ++c) {
     if (is_root(c)) ++roots_start[mesh.corner_vertices[c] + 1];
   }
+  still_working(10.0 * half_edges.n_corners());
   std::partial_sum(roots_start.begin(), roots_start.end(), roots_start.begin());
   std::vector<int> roots(static_cast<std::size_t>(roots_start.back()));
   {
@@ -211,6 +216,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     for (int c = 0; c < half_edges.n_corners(); ++c) {
       if (is_root(c)) roots[fill[mesh.corner_vertices[c]]++] = c;
     }
+    still_working(10.0 * half_edges.n_corners());
   }
   result.charts.resize(components.faces.size());
   for (std::size_t i = 0; i < result.charts.size(); ++i) {
@@ -225,11 +231,13 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     result.chart_vertex_of_corner[root] = chart.n_vertices();
     chart.vertices.push_back(vertex);
   }
+  still_working(30.0 * mesh.n_vertices);
   for (int c = 0; c < half_edges.n_corners(); ++c) {
     if (half_edges.is_used(half_edges.face(c))) {
       result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[fans.find(c)];
     }
   }
+  still_working(15.0 * half_edges.n_corners());
 
   ChartBuilder builder(mesh, half_edges, components.reversed, result.chart_vertex_of_corner);
   for (Chart& chart : result.charts) builder.complete(chart);

@@ -13,7 +13,7 @@ namespace {
 
 /// Faces that a thread takes at once.
 constexpr int faces_at_once = 8192;
-constexpr unsigned max_triangulating_threads = 16;
+constexpr double triangulating_nanoseconds = 50;
 
 class FaceSplitter {
  public:
@@ -72,7 +72,7 @@ FaceTriangles triangulate_faces(const PolygonMesh& mesh) {
   FaceTriangles result;
   result.corners.resize(static_cast<std::size_t>(first_triangle.back()));
   result.face.resize(result.corners.size());
-  run_blocks_in_parallel(mesh.n_faces, faces_at_once, max_triangulating_threads, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, faces_at_once, triangulating_nanoseconds, [&](int begin, int end) {
     FaceSplitter splitter(mesh);
     for (int face = begin; face < end; ++face) {
       const int first = first_triangle[face];

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/listening.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -45,12 +47,15 @@ class EdgeTable {
       }
     };
     each([&](int smaller, const Entry&) { ++start_[smaller + 1]; });
+    still_working(5.0 * half_edges.n_corners());
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     entries_.resize(static_cast<std::size_t>(start_.back()));
     std::vector<int> fill(start_.begin(), start_.end() - 1);
     each([&](int smaller, const Entry& entry) { entries_[fill[smaller]++] = entry; });
+    still_working(10.0 * half_edges.n_corners());
     for (int v = 0; v < mesh.n_vertices; ++v) {
       std::sort(entries_.begin() + start_[v], entries_.begin() + start_[v + 1]);
+      still_working(30.0 * (start_[v + 1] - start_[v]));
     }
   }
 
@@ -66,6 +71,7 @@ class EdgeTable {
         visit(entry, last);
         entry = last;
       }
+      still_working(100);
     }
   }
 
@@ -82,6 +88,7 @@ HalfEdges::HalfEdges(const PolygonMesh& mesh) : mesh_(mesh) {
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) face_of_corner_[c] = face;
   }
   classify_faces();
+  still_working(15.0 * mesh.n_corners());
   find_twins();
 }
 

@@ -322,7 +322,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   std::array<MirrorSymmetry, 3> candidates;
   std::array<int, 3> matched{};
   run_in_parallel(
-      3, 3,
+      3,
       [&](int axis, const Progress&) {
         candidates[axis] = {axis, {}, no_image(static_cast<std::size_t>(mesh.n_faces)), {}};
         match_vertices(mesh, points, used, nearby, faces, candidates[axis]);

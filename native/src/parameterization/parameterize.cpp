@@ -7,6 +7,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/pin_attraction.h"
+#include "graph/listening.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "parameterization/area_blend.h"
@@ -354,12 +355,16 @@ Solver::~Solver() = default;
 Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 
-void Solver::factorize(const Progress& progress) {
+void Solver::factorize(const Progress& given) {
+  const Listening listening(given);
+  const Progress& progress = listening.progress();
   const SpectralMap outcome = state_->factorize(progress);
   if (outcome.rejection != Rejection::none) throw failure_of(outcome, {});
 }
 
-Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& progress) {
+Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& given) {
+  const Listening listening(given);
+  const Progress& progress = listening.progress();
   const std::vector<int>& vertices = state_->vertices;
   if (vertices.empty()) return state_->solve(options, pins, progress);
   SolveOptions in_chart = options;

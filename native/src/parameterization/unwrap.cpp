@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "conformal/conformal_energy.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
@@ -326,7 +327,7 @@ class ChartLoop {
       const int last = end_of_batch(first);
       std::vector<std::optional<ChartUnwrapper::Solution>> solutions(static_cast<std::size_t>(last - first));
       run_in_parallel(
-          last - first, n_faces_of(first, last) < min_faces_to_share ? 1 : max_threads,
+          last - first,
           [&](int k, const Progress& going_on) {
             const int i = first + k;
             try {
@@ -335,7 +336,7 @@ class ChartLoop {
               // It has none, then.
             }
           },
-          progress, "eigenproblem");
+          progress, "eigenproblem", n_faces_of(first, last) < min_faces_to_share ? 1 : all_threads);
       const bool were_others = last - first > 1;
       // The fraction done only rises.
       const Progress rest = [&](double, const char* phase) { return !progress || progress(end_[last], phase); };
@@ -362,7 +363,6 @@ class ChartLoop {
   static constexpr int max_charts_in_batch = 20000;
   /// Fewer are done before a second thread has begun.
   static constexpr std::size_t min_faces_to_share = 2000;
-  static constexpr unsigned max_threads = 64;
 
   template <class Solve>
   static std::optional<ChartUnwrapper::Solution> solved_alone(int i, const Progress& progress, const Solve& solve) {
@@ -393,7 +393,9 @@ class ChartLoop {
 
 }  // namespace
 
-Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& progress, KeptMaps* kept) {
+Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& given, KeptMaps* kept) {
+  const Listening listening(given);
+  const Progress& progress = listening.progress();
   report(progress, 0.0, "charts");
   Timings timings;
   Stopwatch watch(timings);
@@ -438,7 +440,9 @@ Unwrapper::Unwrapper(const PolygonMesh& mesh, const UnwrapOptions& options)
 Unwrapper::~Unwrapper() = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
-                        double tolerance, const Progress& progress) {
+                        double tolerance, const Progress& given) {
+  const Listening listening(given);
+  const Progress& progress = listening.progress();
   Unwrap result = empty_result(state_->cut, extenders.size());
   const ExtendersOfCharts extenders_of_charts(state_->cut, extenders);
   state_->loop.run(

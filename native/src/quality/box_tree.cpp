@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graph/listening.h"
 namespace spectral_conformal {
 namespace {
 
@@ -36,6 +37,7 @@ int BoxTree::build(int first, int last) {
   for (int i = first + 1; i < last; ++i) box.include(leaves_[static_cast<std::size_t>(i)].box);
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({box, first, last, 0});
+  still_working(10.0 * (last - first));
   if (last - first <= max_leaves) return node;
   const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
   const int middle = first + (last - first) / 2;

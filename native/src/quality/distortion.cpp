@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "geometry/binary_unit.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
 #include "geometry/triangle_shape.h"
+#include "graph/listening.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"
@@ -37,6 +39,7 @@ std::vector<TriangleShape> frames_of(const Eigen::Ref<const Positions>& position
   for (const auto& [a, b, c] : triangles) {
     result.push_back(local_isometric_frame(positions.row(a), positions.row(b), positions.row(c)));
   }
+  still_working(40 * static_cast<double>(triangles.size()));
   return result;
 }
 
@@ -50,6 +53,7 @@ Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std
   for (Eigen::Index t = 0; t < n; ++t) {
     const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
     const TriangleShape& shape = shapes[static_cast<std::size_t>(t)];
+    still_working(60);
     if (shape.clamped) continue;
     result.qc[t] = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
     result.area[t] = shape.area();
@@ -78,14 +82,17 @@ void summarize(Distortion& d) {
       mean_scale += d.area[t] / total * d.log2_scale[t];
     }
     double variance = 0;
+    still_working(20 * static_cast<double>(d.triangulation.size()));
     for (const int t : d.triangulation) {
       if (d.area[t] > 0) variance += d.area[t] / total * std::pow(d.log2_scale[t] - mean_scale, 2);
     }
     d.log2_scale_deviation = std::isnan(variance) ? std::numeric_limits<double>::infinity() : std::sqrt(variance);
   }
   d.max_qc = *std::max_element(qc.begin(), qc.end());
-  d.p95_qc = percentile(qc, 0.95);
-  d.p99_qc = percentile(qc, 0.99);
+  for (const auto& [fraction, value] : {std::pair<double, double*>{0.95, &d.p95_qc}, {0.99, &d.p99_qc}}) {
+    *value = percentile(qc, fraction);
+    still_working(20 * static_cast<double>(qc.size()));
+  }
 }
 
 /// A mesh and a map in units of their own.
@@ -143,6 +150,7 @@ Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     result.flipped[t] = !shapes[t].clamped && is_flipped(triangles[t], oriented);
   }
+  still_working(30 * static_cast<double>(triangles.size()));
   return result;
 }
 
@@ -180,6 +188,7 @@ double mean_quasi_conformal_distortion(const std::vector<TriangleShape>& shapes,
     count(chosen + 1);
     t += 3;
   }
+  still_working(30 * static_cast<double>(n_triangles));
   return total > 0 ? sum / total : 1;
 }
 

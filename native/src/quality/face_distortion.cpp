@@ -18,7 +18,7 @@ namespace {
 
 /// Faces that a thread takes at once.
 constexpr int block_size = 8192;
-constexpr unsigned max_measuring_threads = 16;
+constexpr double measuring_nanoseconds = 200;
 
 /// Squares of lengths between these bounds, whose squares neither overflow nor vanish, need no unit.
 constexpr double least_square = 0x1p-400;
@@ -201,7 +201,7 @@ FaceDistortion measured(const PolygonMesh& mesh, const Real* corner_uv) {
   FaceDistortion result;
   result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  run_blocks_in_parallel(mesh.n_faces, block_size, max_measuring_threads, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, block_size, measuring_nanoseconds, [&](int begin, int end) {
     FaceMeasure<Real> measure(mesh, corner_uv);
     for (int face = begin; face < end; ++face) measure.measure(face, result);
   });

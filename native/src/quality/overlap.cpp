@@ -19,7 +19,7 @@ namespace {
 
 /// Triangles that a thread tests at a time.
 constexpr std::size_t tested_at_once = 4096;
-constexpr unsigned max_testing_threads = 16;
+constexpr double testing_nanoseconds = 1000;
 
 /// A triangle in the plane, with what every pair of triangles needs.
 struct PlaneTriangle {
@@ -175,7 +175,7 @@ class OverlapTest {
 
   template <class Work>
   void for_each_triangle(const Work& work) const {
-    run_blocks_in_parallel(triangles_.size(), tested_at_once, max_testing_threads,
+    run_blocks_in_parallel(triangles_.size(), tested_at_once, testing_nanoseconds,
                            [&](std::size_t begin, std::size_t end) {
                              for (std::size_t t = begin; t < end; ++t) {
                                if (is_left_out_.empty() || is_left_out_[t] == 0) work(t);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/listening.h"
+
 namespace spectral_conformal {
 
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
@@ -28,6 +30,7 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
       if (angle < 0) flipped[index] = 1;
     }
   }
+  still_working(20 * static_cast<double>(triangles.size()));
   double turning = 0;
   Complex last = 0;  // the last edge with a length
   for (std::size_t i = loop.size(); i-- > 0 && last == 0.0;) last = z[loop[(i + 1) % loop.size()]] - z[loop[i]];

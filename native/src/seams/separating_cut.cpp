@@ -127,9 +127,9 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   std::vector<double> level;
   std::vector<double> from_sinks;
   run_in_parallel(
-      2, faces.size() > faces_worth_a_thread ? 2 : 1,
+      2,
       [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
-      {}, "");
+      {}, "", faces.size() > faces_worth_a_thread ? 2 : 1);
   double low = -infinite;
   double high = infinite;
   for (std::size_t f = 0; f < level.size(); ++f) {

@@ -3,9 +3,12 @@
 #include <atomic>
 #include <random>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "graph/forest_schedule.h"
+#include "graph/listening.h"
+#include "graph/thread_budget.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -46,6 +49,7 @@ struct Places {
 TEST_SUITE_BEGIN("forest_schedule");
 
 TEST_CASE("each node once, after its children on the way up and after its parent on the way down") {
+  const ThreadBudget::Pretended cores(8);
   for (const int n : {1, 2, 10, 3000}) {
     for (unsigned seed = 0; seed < 4; ++seed) {
       const std::vector<int> parent = random_forest(n, seed);
@@ -68,6 +72,7 @@ TEST_CASE("each node once, after its children on the way up and after its parent
 }
 
 TEST_CASE("a parent sees what its children wrote in other threads, and a child its parent") {
+  const ThreadBudget::Pretended cores(8);
   constexpr int n = 2000;
   const std::vector<int> parent = random_forest(n, 9);
   const ForestSchedule schedule(parent, std::vector<double>(n, 1.0));
@@ -94,6 +99,7 @@ TEST_CASE("a parent sees what its children wrote in other threads, and a child i
 }
 
 TEST_CASE("what a call throws arrives, and its parent is not called") {
+  const ThreadBudget::Pretended cores(8);
   constexpr int n = 500;
   const std::vector<int> parent = random_forest(n, 3);
   const ForestSchedule schedule(parent, std::vector<double>(n, 1.0));
@@ -111,10 +117,34 @@ TEST_CASE("what a call throws arrives, and its parent is not called") {
 }
 
 TEST_CASE("a forest without nodes calls nothing") {
+  const ThreadBudget::Pretended cores(8);
   int calls = 0;
   ForestSchedule({}, {}).run_up(2, [&calls](int) { ++calls; });
   ForestSchedule().run_down(2, [&calls](int) { ++calls; });
   CHECK(calls == 0);
+}
+
+TEST_CASE("a listener is asked while its thread waits, and leaves long tasks to threads that have nothing to do") {
+  const ThreadBudget::Pretended cores(2);
+  const std::thread::id own = std::this_thread::get_id();
+  std::atomic<int> asked{0};
+  const Progress progress = [&](double, const char*) { return ++asked < 3; };
+  const Listening listening(progress);
+  // Two leaves under a root: one is done by each thread, the root then by the other one.
+  const ForestSchedule schedule({2, 2, -1}, {2, 2, 2});
+  std::atomic<int> begun{0};
+  bool is_own = false;
+  const auto work = [&](int node) {
+    ++begun;
+    if (node < 2) {
+      while (begun < 2) std::this_thread::yield();
+      return;
+    }
+    is_own = std::this_thread::get_id() == own;
+    while (!is_own && asked < 3) std::this_thread::yield();
+  };
+  CHECK_THROWS_AS(schedule.run_up(2, work, 1), Cancelled);
+  CHECK_FALSE(is_own);
 }
 
 TEST_SUITE_END();

@@ -8,6 +8,7 @@
 
 #include "graph/helper_threads.h"
 #include "graph/parallel_calls.h"
+#include "graph/thread_budget.h"
 #include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal::test {
@@ -36,6 +37,7 @@ TEST_CASE("limits nest, and are of one thread") {
 }
 
 TEST_CASE("helpers have the limit of the thread they work for") {
+  const ThreadBudget::Pretended cores(8);
   const ThreadLimit limit(5);
   std::atomic<int> others{0};
   {
@@ -45,7 +47,8 @@ TEST_CASE("helpers have the limit of the thread they work for") {
 }
 
 TEST_CASE("calls within calls stay under the limit together") {
-  for (const unsigned most : {1U, 2U}) {
+  const ThreadBudget::Pretended cores(16);
+  for (const unsigned most : {1U, 2U, 6U}) {
     const ThreadLimit limit(most);
     std::mutex mutex;
     std::set<std::thread::id> threads;
@@ -61,8 +64,8 @@ TEST_CASE("calls within calls stay under the limit together") {
       const std::lock_guard<std::mutex> lock(mutex);
       --running;
     };
-    const auto outer = [&](int, const Progress& progress) { run_in_parallel(20, 64, inner, progress, "work"); };
-    run_in_parallel(20, 64, outer, {}, "work");
+    const auto outer = [&](int, const Progress& progress) { run_in_parallel(20, inner, progress, "work"); };
+    run_in_parallel(20, outer, {}, "work");
     CHECK(largest <= most);
     CHECK((most > 1 || threads == std::set<std::thread::id>{std::this_thread::get_id()}));
     CHECK(ThreadLimit::current() == most);
