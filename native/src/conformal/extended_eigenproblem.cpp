@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "conformal/correction.h"
 
 namespace spectral_conformal {
 namespace {
@@ -129,6 +128,11 @@ bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progre
 
 }  // namespace
 
+QuotientForm quotient_form(const ExtendedForm& form) {
+  return {[&form](const ComplexVector& z) { return form.value(form.restrict(z)); },
+          [&form](const ComplexVector& z, double factor, ComplexVector& sum) { form.add_applied(z, factor, sum); }};
+}
+
 Eigenpair solve_extended_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
                                       const ExtendedForm& form, const EigenproblemOptions& options,
                                       const std::vector<ComplexVector>& starts, RitzBasis& basis,
@@ -156,14 +160,11 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
   space.restart(options.krylov_dimension);
   basis = space.basis();
 
-  const QuotientForm quotient{
-      [&form](const ComplexVector& z) { return form.value(form.restrict(z)); },
-      [&form](const ComplexVector& z, double factor, ComplexVector& sum) { form.add_applied(z, factor, sum); }};
   CorrectionOptions corrections;
   corrections.max_corrections = 12;  // a bound: exact steps end by themselves where rounding is reached
   corrections.negligible = 0.1 * options.tolerance;
   corrections.exact_step = true;
-  const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
+  const Correction correction = correct(factorization, energy, quotient_form(form), corrections, result.vector);
   result.solves += correction.solves;
   result.residual = correction.change;
   result.converged =

@@ -1,12 +1,16 @@
 #pragma once
 
 #include "conformal/conformal_energy.h"
+#include "conformal/correction.h"
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_form.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
+
+/// `form` must outlive the result.
+QuotientForm quotient_form(const ExtendedForm& form);
 
 /// Approximate eigenvectors of an earlier solve with the same factor, from which the next one starts.
 /// With G = S^T (L + s M)^-1 S on the support S of the form: W^H G W = I and images = G W up to constants.

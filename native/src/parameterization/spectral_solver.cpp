@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "conformal/correction.h"
+#include "conformal/davidson.h"
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_form.h"
 #include "conformal/pin_attraction.h"
@@ -28,6 +29,9 @@ constexpr double eigenproblem_residual_limit = 1e-3;
 /// patch of a million vertices.
 constexpr double first_relative_shift = 1e-12;
 
+/// Ends whole corrections: where the rounding of the residual begins.
+constexpr double negligible_change = 1e-10;
+
 /// Ends steps of exact length: a tenth of what counts as resolved, since each leaves up to 0.9 of the error, and above
 /// the 1e-9 where rounding ends them.
 constexpr double negligible_exact_step = 0.1 * resolved_change;
@@ -47,6 +51,7 @@ struct SpectralSolver::Attempt {
   double relative_shift;  ///< see factor_shifted
   unsigned start;
   int krylov_dimension;
+  int max_restarts;  ///< of Lanczos on the boundary
   double tolerance_factor;
   bool exact_steps;  ///< corrections of exact length where whole ones do not converge
 };
@@ -86,7 +91,7 @@ SpectralMap SpectralSolver::solve(const SolveOptions& options, const Pins& attra
                                   Timings& timings) {
   // The first passes nearly always. The second gives way to rounding: it begins with a hundred times the shift, a start
   // without preferred shape, four times the directions, asks for a tenth of the error, and measures its corrections.
-  constexpr Attempt attempts[] = {{first_relative_shift, 0, 6, 1.0, false}, {1e-10, 1, 24, 0.1, true}};
+  constexpr Attempt attempts[] = {{first_relative_shift, 0, 6, 20, 1.0, false}, {1e-10, 1, 24, 200, 0.1, true}};
   SpectralMap map;
   int made = 0;
   for (const Attempt& attempt : attempts) {
@@ -179,6 +184,17 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     result.converged = pair.converged && pair.residual < eigenproblem_residual_limit;
     return result.converged;
   };
+  // Where eigenvalues smaller than the shift lie close together, as on long strips.
+  const auto tell_apart = [&](const QuotientForm& quotient) {
+    if (attempt.exact_steps || (result.converged && result.change < result.change_limit)) return;
+    DavidsonResult resolved =
+        solve_by_davidson(factorization, *energy_, form, factor.shift, quotient, negligible_change, progress);
+    result.solves += resolved.solves;
+    if (!(resolved.change < result.change_limit)) return;
+    result.z = std::move(resolved.z);
+    result.change = resolved.change;
+    result.converged = true;
+  };
 
   if (options.has_extenders_or_rigidity() || !attractors.empty()) {
     // B with soft constraints (section 4.2).
@@ -192,7 +208,9 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     RitzBasis fresh;
     RitzBasis& basis = kept ? ritz_basis_ : fresh;
     result.change_limit = std::max(resolved_change, iteration.tolerance);
-    if (take(solve_extended_eigenproblem(factorization, *energy_, extended, iteration, starts, basis, progress))) {
+    take(solve_extended_eigenproblem(factorization, *energy_, extended, iteration, starts, basis, progress));
+    tell_apart(quotient_form(extended));
+    if (result.converged) {
       result.lambda = energy_->value(result.z) / extended.value(extended.restrict(result.z));
     }
   } else if (options.method == Method::area) {
@@ -200,30 +218,36 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     if (take(solve_area_eigenproblem(factorization, *energy_, form, factor.shift, iteration, progress))) {
       result.lambda = energy_->value(result.z) / energy_->area_form(result.z);
     }
-  } else if (take(solve_eigenproblem(factorization, form, iteration, progress))) {
-    // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
+  } else {
     const QuotientForm quotient = quotient_form(form);
-    CorrectionOptions corrections;
-    // Each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 being the next eigenvalue.
-    corrections.max_corrections = 40;
-    corrections.negligible = 1e-10;
-    const ComplexVector uncorrected = attempt.exact_steps ? result.z : ComplexVector{};
-    Correction correction = correct(factorization, *energy_, quotient, corrections, result.z);
-    result.solves += correction.solves;
-    if (attempt.exact_steps && !(correction.change < resolved_change)) {
-      // Entries near 1e12, next to which the rounding of the factor is as large as lambda: whole corrections then move
-      // away from z, by a rate that differs between BLAS kernels, while a measured step always lowers the quotient.
-      result.z = uncorrected;
-      corrections.max_corrections = 100;  // measured: up to 72
-      corrections.negligible = negligible_exact_step;
-      corrections.exact_step = true;
-      correction = correct(factorization, *energy_, quotient, corrections, result.z);
+    if (take(solve_eigenproblem(factorization, form, iteration, progress))) {
+      // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
+      CorrectionOptions corrections;
+      // Each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 being the next eigenvalue.
+      corrections.max_corrections = 40;
+      corrections.negligible = negligible_change;
+      const ComplexVector uncorrected = attempt.exact_steps ? result.z : ComplexVector{};
+      Correction correction = correct(factorization, *energy_, quotient, corrections, result.z);
       result.solves += correction.solves;
+      if (attempt.exact_steps && !(correction.change < resolved_change)) {
+        // Entries near 1e12, next to which the rounding of the factor is as large as lambda: whole corrections then
+        // move away from z, by a rate that differs between BLAS kernels, while a measured step always lowers the
+        // quotient.
+        result.z = uncorrected;
+        corrections.max_corrections = 100;  // measured: up to 72
+        corrections.negligible = negligible_exact_step;
+        corrections.exact_step = true;
+        correction = correct(factorization, *energy_, quotient, corrections, result.z);
+        result.solves += correction.solves;
+      }
+      result.change = correction.change;
     }
-    result.change = correction.change;
-    ComplexVector r;
-    result.lambda = eigen_residual(*energy_, quotient, result.z, r);  // Eq. 5
-    result.residual = r.norm() / (max_diagonal() * result.z.norm());
+    tell_apart(quotient);
+    if (result.converged) {
+      ComplexVector r;
+      result.lambda = eigen_residual(*energy_, quotient, result.z, r);  // Eq. 5
+      result.residual = r.norm() / (max_diagonal() * result.z.norm());
+    }
   }
   return result;
 }
