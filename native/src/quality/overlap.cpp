@@ -10,7 +10,7 @@
 
 #include "geometry/quad_splits.h"
 #include "graph/parallel_calls.h"
-#include "quality/box_tree.h"
+#include "geometry/box_tree.h"
 #include "quality/map_degree.h"
 
 namespace spectral_conformal {

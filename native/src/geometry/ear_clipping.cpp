@@ -1,0 +1,182 @@
+#include "geometry/ear_clipping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <utility>
+
+#include "geometry/box_tree.h"
+#include "geometry/orientation.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+BoxTree tree_of(const std::vector<Complex>& points) {
+  std::vector<PlaneBox> boxes;
+  boxes.reserve(points.size());
+  for (const Complex p : points) boxes.push_back(PlaneBox::of({p}));
+  return BoxTree(boxes);
+}
+
+class EarClipping {
+ public:
+  explicit EarClipping(const std::vector<Complex>& outline)
+      : points_(outline), n_left_(static_cast<int>(outline.size())), tree_(tree_of(outline)), waiting_(outline.size()) {
+    for (int i = 0; i < n_left_; ++i) {
+      previous_.push_back(i == 0 ? n_left_ - 1 : i - 1);
+      next_.push_back(i + 1 == n_left_ ? 0 : i + 1);
+      candidates_.push_back(i);
+    }
+  }
+
+  std::vector<std::array<int, 3>> run() {
+    while (n_left_ > 2) {
+      if (candidates_.empty()) {
+        clip(forced_ear());
+        continue;
+      }
+      const int corner = candidates_.front();
+      candidates_.pop_front();
+      if (is_clipped(corner)) continue;
+      if (has_no_edge(corner)) {
+        clip(corner);
+        continue;
+      }
+      if (turn(corner) <= 0) continue;  // until a neighbour is clipped
+      const int blocker = find_blocker(corner, Contact::blocks);
+      if (blocker < 0) {
+        clip(corner);
+      } else {
+        waiting_[blocker].push_back(corner);
+      }
+    }
+    return std::move(triangles_);
+  }
+
+ private:
+  /// What a corner does that lies on the sides of an ear: diagonals through corners are for want of others.
+  enum class Contact { blocks, is_allowed };
+
+  Complex point(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
+  int turn(int corner) const {
+    return orientation(point(previous_[corner]), point(corner), point(next_[corner]));
+  }
+  bool is_clipped(int corner) const { return next_[corner] < 0; }
+  bool has_no_edge(int corner) const {
+    return point(corner) == point(previous_[corner]) || point(corner) == point(next_[corner]);
+  }
+
+  /// A corner that is not convex and keeps a convex one from being an ear, or -1.
+  int find_blocker(int corner, Contact contact) const {
+    const int before = previous_[corner];
+    const int after = next_[corner];
+    const Complex a = point(before);
+    const Complex b = point(corner);
+    const Complex c = point(after);
+    const auto is_between = [&](Complex p) { return orientation(b, c, p) > 0 && orientation(b, p, a) > 0; };
+    int found = -1;
+    tree_.for_each_meeting(PlaneBox::of({a, b, c}), [&](int other) {
+      if (is_clipped(other) || other == before || other == corner || other == after) return true;
+      const Complex p = point(other);
+      if (p == a || p == c || turn(other) > 0) return true;
+      bool blocks = false;
+      if (p == b) {
+        // Edges that leave the same place within the ear.
+        blocks = is_between(point(next_[other])) || is_between(point(previous_[other]));
+      } else {
+        const int least = std::min({orientation(a, b, p), orientation(b, c, p), orientation(c, a, p)});
+        blocks = contact == Contact::blocks ? least >= 0 : least > 0;
+      }
+      if (blocks) found = other;
+      return !blocks;
+    });
+    return found;
+  }
+
+  /// Where no corner is an ear beyond doubt: one whose diagonal touches others, or without area, or any.
+  int forced_ear() {
+    while (is_clipped(start_)) ++start_;
+    int flat = -1;
+    int corner = start_;
+    do {
+      const int turned = turn(corner);
+      if (turned > 0 && find_blocker(corner, Contact::is_allowed) < 0) return corner;
+      if (turned == 0 && flat < 0) flat = corner;
+      corner = next_[corner];
+    } while (corner != start_);
+    return flat < 0 ? start_ : flat;
+  }
+
+  void clip(int corner) {
+    const int before = previous_[corner];
+    const int after = next_[corner];
+    triangles_.push_back({before, corner, after});
+    next_[before] = after;
+    previous_[after] = before;
+    next_[corner] = -1;
+    --n_left_;
+    for (const int changed : {corner, before, after}) {
+      if (changed != corner) candidates_.push_back(changed);
+      if (changed != corner && turn(changed) <= 0) continue;
+      candidates_.insert(candidates_.end(), waiting_[changed].begin(), waiting_[changed].end());
+      waiting_[changed].clear();
+    }
+  }
+
+  const std::vector<Complex>& points_;
+  int n_left_;
+  BoxTree tree_;
+  std::vector<int> previous_;
+  std::vector<int> next_;  ///< -1: clipped
+  std::deque<int> candidates_;
+  std::vector<std::vector<int>> waiting_;  ///< per corner, for it to be clipped or to become convex
+  int start_ = 0;                          ///< of forced_ear
+  std::vector<std::array<int, 3>> triangles_;
+};
+
+/// Whether all of `other` lies beyond one side of a counter-clockwise triangle.
+bool is_beyond_a_side(const std::array<Complex, 3>& triangle, const std::array<Complex, 3>& other, double tolerance) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Complex side = triangle[(k + 1) % 3] - triangle[k];
+    const double limit = tolerance * std::abs(side);
+    const auto is_beyond = [&](Complex p) { return cross(side, p - triangle[k]) <= limit; };
+    if (std::all_of(other.begin(), other.end(), is_beyond)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 3>> clip_ears(const std::vector<Complex>& outline) { return EarClipping(outline).run(); }
+
+bool covers_once(const std::vector<Complex>& points, const std::vector<std::array<int, 3>>& triangles,
+                 double tolerance) {
+  std::vector<std::array<Complex, 3>> placed;
+  std::vector<PlaneBox> boxes;
+  for (const auto& [a, b, c] : triangles) {
+    const std::array<Complex, 3> corners{points[a], points[b], points[c]};
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, std::abs(corners[(k + 1) % 3] - corners[k]));
+    const double twice_area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    if (twice_area < -tolerance * longest) return false;
+    if (twice_area <= tolerance * longest) continue;  // covers nothing
+    placed.push_back(corners);
+    boxes.push_back(PlaneBox::of({corners[0], corners[1], corners[2]}));
+  }
+  const BoxTree tree(boxes);
+  for (std::size_t t = 0; t < placed.size(); ++t) {
+    bool overlaps = false;
+    tree.for_each_meeting(boxes[t], [&](int k) {
+      const auto other = static_cast<std::size_t>(k);
+      overlaps = other > t && !is_beyond_a_side(placed[t], placed[other], tolerance) &&
+                 !is_beyond_a_side(placed[other], placed[t], tolerance);
+      return !overlaps;
+    });
+    if (overlaps) return false;
+  }
+  return true;
+}
+
+}  // namespace spectral_conformal
