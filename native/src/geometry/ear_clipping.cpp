@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
+#include <queue>
 #include <utility>
 
 #include "geometry/box_tree.h"
@@ -13,22 +13,36 @@
 namespace spectral_conformal {
 namespace {
 
-BoxTree tree_of(const std::vector<Complex>& points) {
+/// The corners that are not convex, in a tree. Clipping ears makes no corner that is convex another kind.
+struct Obstacles {
+  std::vector<int> corners;
+  BoxTree tree;
+};
+
+Obstacles obstacles_of(const std::vector<Complex>& outline) {
+  std::vector<int> corners;
   std::vector<PlaneBox> boxes;
-  boxes.reserve(points.size());
-  for (const Complex p : points) boxes.push_back(PlaneBox::of({p}));
-  return BoxTree(boxes);
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (orientation(outline[(i + n - 1) % n], outline[i], outline[(i + 1) % n]) > 0) continue;
+    corners.push_back(static_cast<int>(i));
+    boxes.push_back(PlaneBox::of({outline[i]}));
+  }
+  return {std::move(corners), BoxTree(boxes)};
 }
 
 class EarClipping {
  public:
   explicit EarClipping(const std::vector<Complex>& outline)
-      : points_(outline), n_left_(static_cast<int>(outline.size())), tree_(tree_of(outline)), waiting_(outline.size()) {
+      : points_(outline),
+        n_left_(static_cast<int>(outline.size())),
+        obstacles_(obstacles_of(outline)),
+        waiting_(outline.size()) {
     for (int i = 0; i < n_left_; ++i) {
       previous_.push_back(i == 0 ? n_left_ - 1 : i - 1);
       next_.push_back(i + 1 == n_left_ ? 0 : i + 1);
-      candidates_.push_back(i);
     }
+    for (int i = 0; i < n_left_; ++i) add_candidate(i);
   }
 
   std::vector<std::array<int, 3>> run() {
@@ -37,10 +51,10 @@ class EarClipping {
         clip(forced_ear());
         continue;
       }
-      const int corner = candidates_.front();
-      candidates_.pop_front();
+      const int corner = candidates_.top().second;
+      candidates_.pop();
       if (is_clipped(corner)) continue;
-      if (has_no_edge(corner)) {
+      if (is_spike(corner)) {
         clip(corner);
         continue;
       }
@@ -60,12 +74,17 @@ class EarClipping {
   enum class Contact { blocks, is_allowed };
 
   Complex point(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
-  int turn(int corner) const {
-    return orientation(point(previous_[corner]), point(corner), point(next_[corner]));
-  }
+  int turn(int corner) const { return orientation(point(previous_[corner]), point(corner), point(next_[corner])); }
   bool is_clipped(int corner) const { return next_[corner] < 0; }
-  bool has_no_edge(int corner) const {
-    return point(corner) == point(previous_[corner]) || point(corner) == point(next_[corner]);
+  /// An edge without length begins or ends there, or the outline turns back on itself.
+  bool is_spike(int corner) const {
+    const Complex back = point(previous_[corner]) - point(corner);
+    const Complex on = point(next_[corner]) - point(corner);
+    return back == 0.0 || on == 0.0 || (turn(corner) == 0 && dot(back, on) > 0);
+  }
+
+  void add_candidate(int corner) {
+    if (!is_clipped(corner)) candidates_.emplace(-std::norm(point(next_[corner]) - point(previous_[corner])), corner);
   }
 
   /// A corner that is not convex and keeps a convex one from being an ear, or -1.
@@ -77,7 +96,8 @@ class EarClipping {
     const Complex c = point(after);
     const auto is_between = [&](Complex p) { return orientation(b, c, p) > 0 && orientation(b, p, a) > 0; };
     int found = -1;
-    tree_.for_each_meeting(PlaneBox::of({a, b, c}), [&](int other) {
+    obstacles_.tree.for_each_meeting(PlaneBox::of({a, b, c}), [&](int k) {
+      const int other = obstacles_.corners[static_cast<std::size_t>(k)];
       if (is_clipped(other) || other == before || other == corner || other == after) return true;
       const Complex p = point(other);
       if (p == a || p == c || turn(other) > 0) return true;
@@ -118,21 +138,21 @@ class EarClipping {
     next_[corner] = -1;
     --n_left_;
     for (const int changed : {corner, before, after}) {
-      if (changed != corner) candidates_.push_back(changed);
+      if (changed != corner) add_candidate(changed);
       if (changed != corner && turn(changed) <= 0) continue;
-      candidates_.insert(candidates_.end(), waiting_[changed].begin(), waiting_[changed].end());
+      for (const int other : waiting_[changed]) add_candidate(other);
       waiting_[changed].clear();
     }
   }
 
   const std::vector<Complex>& points_;
   int n_left_;
-  BoxTree tree_;
+  Obstacles obstacles_;
   std::vector<int> previous_;
-  std::vector<int> next_;  ///< -1: clipped
-  std::deque<int> candidates_;
-  std::vector<std::vector<int>> waiting_;  ///< per corner, for it to be clipped or to become convex
-  int start_ = 0;                          ///< of forced_ear
+  std::vector<int> next_;                                   ///< -1: clipped
+  std::priority_queue<std::pair<double, int>> candidates_;  ///< the shortest diagonal first: few corners are near it
+  std::vector<std::vector<int>> waiting_;                   ///< per corner, for it to be clipped or to become convex
+  int start_ = 0;                                           ///< of forced_ear
   std::vector<std::array<int, 3>> triangles_;
 };
 
