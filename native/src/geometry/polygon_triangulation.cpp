@@ -32,23 +32,42 @@ std::pair<Vector, Vector> plane_axes(const Vector& normal) {
   return {first, normal.normalized().cross(first)};
 }
 
+/// Whether the corners lie on one line, up to rounding.
+bool has_no_area(const Eigen::Ref<const Positions>& corners) {
+  if (!corners.allFinite()) return false;
+  Eigen::Index farthest;
+  (corners.rowwise() - corners.row(0)).rowwise().squaredNorm().maxCoeff(&farthest);
+  const Vector line = (corners.row(farthest) - corners.row(0)).transpose();
+  constexpr double rounding = 1e-12;
+  for (Eigen::Index i = 0; i < corners.rows(); ++i) {
+    const Vector p = (corners.row(i) - corners.row(0)).transpose();
+    if (line.cross(p).norm() > rounding * line.squaredNorm()) return false;
+  }
+  return true;
+}
+
 void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   const auto point = [&](int i) -> Vector { return corners.row(i).transpose(); };
   const Vector normal = (point(2) - point(0)).cross(point(3) - point(1));  // Newell's, in closed form
   // A triangle lies inside when it is oriented like the quad, with an area above this fraction of the quad's: less is
   // rounding of a corner on the diagonal.
   constexpr double min_fraction = 1e-9;
-  const auto inside = [&](const std::array<int, 3>& triangle) {
+  const auto is_above = [&](const std::array<int, 3>& triangle, double fraction) {
     const auto& [a, b, c] = triangle;
-    return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > min_fraction * normal.squaredNorm();
+    return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > fraction * normal.squaredNorm();
   };
-  const bool along_02 = inside(quad_splits[0]) && inside(quad_splits[1]);
-  const bool along_13 = inside(quad_splits[2]) && inside(quad_splits[3]);
+  const auto are_above = [&](std::size_t first, double fraction) {
+    return is_above(quad_splits[first], fraction) && is_above(quad_splits[first + 1], fraction);
+  };
+  const bool along_02 = are_above(0, min_fraction);
+  const bool along_13 = are_above(2, min_fraction);
   const bool both = along_02 == along_13;
   if (both || along_02) result.triangles.insert(result.triangles.end(), quad_splits.begin(), quad_splits.begin() + 2);
   if (both || along_13) result.triangles.insert(result.triangles.end(), quad_splits.begin() + 2, quad_splits.end());
   result.triangle_weights.assign(result.triangles.size(), both ? quad_split_weight : 1.0);
-  result.simple = along_02 || along_13;
+  // Two corners may coincide, or all lie on one line.
+  result.simple =
+      along_02 || along_13 || are_above(0, -min_fraction) || are_above(2, -min_fraction) || has_no_area(corners);
 }
 
 struct FaceInfo {
@@ -276,7 +295,7 @@ void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTria
   }
   if (!corners.allFinite() || !triangulate_outline(corners, result.triangles)) {
     fan(corners, result);
-    result.simple = false;
+    result.simple = has_no_area(corners);
   }
   result.triangle_weights.assign(result.triangles.size(), 1.0);
 }
