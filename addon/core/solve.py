@@ -94,7 +94,9 @@ def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.
         order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
     if not len(order):
         return order
-    image = _part_of_chart(uv, mesh, chart, order)
+    # A chart without area is a point, of which no face is a part.
+    with np.errstate(invalid="ignore"):
+        image = _part_of_chart(uv, mesh, chart, order)
     small = image < 2.0**-21
     if small.any():
         small &= image < _part_of_chart(mesh.vertices[mesh.corner_vertices], mesh, chart, order) / 16

@@ -54,38 +54,66 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
   return mass / mass.sum();
 }
 
-/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the map moved and scaled to E[w] = 0 and
-/// E[|w|^2] = 1, each over E[|w|^(p + q)]: a mirror image has the conjugates, a turn by t multiplies by
-/// exp(i (p - q) t).
+/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the region that an outline encloses, moved
+/// and scaled to E[w] = 0 and E[|w|^2] = 1, each over a bound of E[|w|^(p + q)]: a mirror image has the conjugates, a
+/// turn by t multiplies by exp(i (p - q) t).
 struct Moment {
   int harmonic = 0;  ///< p - q
   Complex value;
 };
 
-std::vector<Moment> moments_of(const ComplexVector& w, const Eigen::VectorXd& mass) {
+constexpr int max_order = 6;
+
+/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline, by Green's theorem: those of
+/// -i/2 w^p conj(w)^(q + 1) / (q + 1) dw along it, by the Gauss rule that is exact for each edge.
+class RegionIntegrals {
+ public:
+  RegionIntegrals(const std::vector<Complex>& outline, Complex centre) {
+    // Exact to the degree 7: p + q + 1 <= 7.
+    constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
+                                          0.9305681557970263};
+    constexpr std::array<double, 4> weights{0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
+                                            0.17392742256872692};
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Complex start = outline[i] - centre;
+      const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Complex w = start + nodes[k] * edge;
+        // Times conj(w)^(q + 1) w^q, then once more by w for each p.
+        Complex base = weights[k] * Complex(0, -0.5) * edge * std::conj(w);
+        for (int q = 0; 2 * q <= max_order; ++q, base *= std::norm(w)) {
+          Complex term = base / (q + 1.0);
+          for (int p = q; p + q <= max_order; ++p, term *= w) sum(p, q) += term;
+        }
+      }
+    }
+  }
+  Complex operator()(int p, int q) const { return sums_[static_cast<std::size_t>(p)][static_cast<std::size_t>(q)]; }
+
+ private:
+  Complex& sum(int p, int q) { return sums_[static_cast<std::size_t>(p)][static_cast<std::size_t>(q)]; }
+  std::array<std::array<Complex, max_order / 2 + 1>, max_order + 1> sums_{};
+};
+
+/// Of the region within an outline, counter-clockwise, so that they do not depend on how the inside is triangulated.
+/// None where it runs round as much backwards.
+std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   constexpr std::array<std::array<int, 2>, 8> exponents = {
       {{2, 0}, {2, 1}, {3, 0}, {3, 1}, {4, 0}, {3, 2}, {4, 1}, {5, 0}}};
-  std::array<Complex, 8> sums{};
-  std::array<double, 6> size{};
-  for (Eigen::Index v = 0; v < w.size(); ++v) {
-    const double square = std::norm(w[v]);
-    const double length = std::sqrt(square);
-    const Complex w1 = mass[v] * w[v];
-    const Complex w2 = w1 * w[v];
-    const Complex w3 = w2 * w[v];
-    const Complex w4 = w3 * w[v];
-    const std::array<Complex, 8> terms = {w2,          w1 * square, w3, w2 * square, w4, w1 * (square * square),
-                                          w3 * square, w4 * w[v]};
-    for (std::size_t k = 0; k < terms.size(); ++k) sums[k] += terms[k];
-    double power = mass[v] * square;
-    for (std::size_t order = 2; order < size.size(); ++order, power *= length) size[order] += power;
+  const RegionIntegrals about_origin(outline, 0);
+  const double area = about_origin(0, 0).real();
+  if (!(area > 0)) return {};
+  const RegionIntegrals integrals(outline, about_origin(1, 0) / area);
+  // E[|w|^n], for odd n a bound by those beside it.
+  std::array<double, max_order + 1> size{};
+  for (int n = 2; n <= max_order; n += 2) {
+    size[static_cast<std::size_t>(n)] = integrals(n / 2, n / 2).real() / area;
+    if (!(size[static_cast<std::size_t>(n)] > 0)) return {};
   }
-  still_working(50 * static_cast<double>(w.size()));
+  for (std::size_t n = 3; n < max_order; n += 2) size[n] = std::sqrt(size[n - 1] * size[n + 1]);
   std::vector<Moment> moments;
-  for (std::size_t k = 0; k < exponents.size(); ++k) {
-    const auto [p, q] = exponents[k];
-    const auto order = static_cast<std::size_t>(p) + static_cast<std::size_t>(q);
-    moments.push_back({p - q, sums[k] / size[order]});
+  for (const auto& [p, q] : exponents) {
+    moments.push_back({p - q, integrals(p, q) / area / size[static_cast<std::size_t>(p + q)]});
   }
   return moments;
 }
@@ -227,7 +255,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   boundary.reserve(outer_loop.size());
   for (const int vertex : outer_loop) boundary.push_back(w[vertex]);
   const std::vector<Complex> hull = convex_hull(boundary);
-  const std::vector<Moment> moments = moments_of(w, mass);
+  const std::vector<Moment> moments = moments_of(boundary);
   Preferences preferred = preferences(w, mass, positions);
 
   const std::vector<Complex> axes = mirror_axes(moments);

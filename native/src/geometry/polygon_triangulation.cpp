@@ -2,14 +2,20 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "geometry/ear_clipping.h"
 #include "geometry/polygon_normal.h"
 #include "geometry/quad_splits.h"
 
@@ -26,28 +32,48 @@ std::pair<Vector, Vector> plane_axes(const Vector& normal) {
   return {first, normal.normalized().cross(first)};
 }
 
+/// Whether the corners lie on one line, up to rounding.
+bool has_no_area(const Eigen::Ref<const Positions>& corners) {
+  if (!corners.allFinite()) return false;
+  Eigen::Index farthest;
+  (corners.rowwise() - corners.row(0)).rowwise().squaredNorm().maxCoeff(&farthest);
+  const Vector line = (corners.row(farthest) - corners.row(0)).transpose();
+  constexpr double rounding = 1e-12;
+  for (Eigen::Index i = 0; i < corners.rows(); ++i) {
+    const Vector p = (corners.row(i) - corners.row(0)).transpose();
+    if (line.cross(p).norm() > rounding * line.squaredNorm()) return false;
+  }
+  return true;
+}
+
 void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   const auto point = [&](int i) -> Vector { return corners.row(i).transpose(); };
   const Vector normal = (point(2) - point(0)).cross(point(3) - point(1));  // Newell's, in closed form
   // A triangle lies inside when it is oriented like the quad, with an area above this fraction of the quad's: less is
   // rounding of a corner on the diagonal.
   constexpr double min_fraction = 1e-9;
-  const auto inside = [&](const std::array<int, 3>& triangle) {
+  const auto is_above = [&](const std::array<int, 3>& triangle, double fraction) {
     const auto& [a, b, c] = triangle;
-    return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > min_fraction * normal.squaredNorm();
+    return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > fraction * normal.squaredNorm();
   };
-  const bool along_02 = inside(quad_splits[0]) && inside(quad_splits[1]);
-  const bool along_13 = inside(quad_splits[2]) && inside(quad_splits[3]);
+  const auto are_above = [&](std::size_t first, double fraction) {
+    return is_above(quad_splits[first], fraction) && is_above(quad_splits[first + 1], fraction);
+  };
+  const bool along_02 = are_above(0, min_fraction);
+  const bool along_13 = are_above(2, min_fraction);
   const bool both = along_02 == along_13;
   if (both || along_02) result.triangles.insert(result.triangles.end(), quad_splits.begin(), quad_splits.begin() + 2);
   if (both || along_13) result.triangles.insert(result.triangles.end(), quad_splits.begin() + 2, quad_splits.end());
   result.triangle_weights.assign(result.triangles.size(), both ? quad_split_weight : 1.0);
-  result.simple = along_02 || along_13;
+  // Two corners may coincide, or all lie on one line.
+  result.simple =
+      along_02 || along_13 || are_above(0, -min_fraction) || are_above(2, -min_fraction) || has_no_area(corners);
 }
 
 struct FaceInfo {
-  bool visited = false;
-  bool inside = false;
+  bool is_visited = false;
+  int winding = 0;                         ///< how often the outline goes round it
+  std::array<int, 3> corners{-1, -1, -1};  ///< the corner of the polygon at each vertex
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -58,60 +84,190 @@ using ConstrainedDelaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
-/// Marks the faces inside the constraints by crossing parity, from the infinite face inwards.
-void mark_inside(ConstrainedDelaunay& triangulation) {
-  std::vector<std::pair<ConstrainedDelaunay::Face_handle, bool>> stack{{triangulation.infinite_face(), false}};
-  while (!stack.empty()) {
-    const auto [face, inside] = stack.back();
-    stack.pop_back();
-    if (face->info().visited) continue;
-    face->info() = {true, inside};
-    for (int side = 0; side < 3; ++side) {
-      const auto neighbour = face->neighbor(side);
-      if (!neighbour->info().visited) stack.emplace_back(neighbour, inside != face->is_constrained(side));
+/// The constrained Delaunay triangulation of a polygon whose outline may touch itself at corners and run along itself
+/// in the other direction, as bridges to holes do. Corners at one place are one vertex; which of them a triangle has is
+/// told by the edges between which it lies there.
+class OutlineTriangulation {
+ public:
+  explicit OutlineTriangulation(const std::vector<Complex>& outline) : outline_(outline) {}
+
+  /// Returns false where the outline crosses itself, an edge passes through another corner, or corners are joined by
+  /// nothing but a place that they share.
+  bool triangulate(std::vector<std::array<int, 3>>& triangles) {
+    insert_corners();
+    list_edges();
+    try {
+      for (int i = 0; i < size(); ++i) {
+        if (handles_[i] == handles_[next(i)]) return false;
+        triangulation_.insert_constraint(handles_[i], handles_[next(i)]);
+      }
+    } catch (const ConstrainedDelaunay::Intersection_of_constraints_exception&) {
+      return false;
+    }
+    return find_windings() && assign_corners() && collect(triangles);
+  }
+
+ private:
+  using Face = ConstrainedDelaunay::Face_handle;  // a pointer
+  /// Of the outline: from the vertex of one corner to that of the next.
+  struct Edge {
+    int from;
+    int to;
+    int corner;
+    bool operator<(const Edge& other) const {
+      return std::tie(from, to, corner) < std::tie(other.from, other.to, other.corner);
+    }
+  };
+
+  int size() const { return static_cast<int>(outline_.size()); }
+  int next(int corner) const { return corner + 1 == size() ? 0 : corner + 1; }
+
+  void insert_corners() {
+    std::vector<std::size_t> order(outline_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<Kernel::Point_2> points;
+    points.reserve(outline_.size());
+    for (const Complex p : outline_) points.emplace_back(p.real(), p.imag());
+    // Which of the Delaunay triangulations of corners on a circle is found depends on their order. Fewer come as they
+    // are, for many that would be quadratic.
+    constexpr int sorted_from = 1024;
+    if (size() >= sorted_from) {
+      const CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<Kernel::Point_2>::type> traits(
+          CGAL::make_property_map(points));
+      CGAL::spatial_sort(order.begin(), order.end(), traits);
+    }
+    handles_.resize(outline_.size());
+    Face near;
+    for (const std::size_t i : order) {
+      const std::size_t before = triangulation_.number_of_vertices();
+      handles_[i] = size() >= sorted_from ? triangulation_.insert(points[i], near) : triangulation_.insert(points[i]);
+      near = handles_[i]->face();
+      if (triangulation_.number_of_vertices() > before) handles_[i]->info() = static_cast<int>(i);
     }
   }
-}
 
-/// Returns false when the projected polygon is not simple.
-bool constrained_delaunay(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
-  const int n = static_cast<int>(corners.rows());
+  void list_edges() {
+    edges_.reserve(outline_.size());
+    for (int i = 0; i < size(); ++i) edges_.push_back({handles_[i]->info(), handles_[next(i)]->info(), i});
+    std::sort(edges_.begin(), edges_.end());
+  }
+
+  /// The corners at which edges from one vertex to another begin.
+  std::pair<const Edge*, const Edge*> edges_between(int from, int to) const {
+    const Edge* const begin = edges_.data();
+    const Edge* const end = begin + edges_.size();
+    return {std::lower_bound(begin, end, Edge{from, to, -1}), std::lower_bound(begin, end, Edge{from, to + 1, -1})};
+  }
+  /// The only corner at which such an edge begins, or -1.
+  int corner_of_edge(int from, int to) const {
+    const auto [first, last] = edges_between(from, to);
+    return last - first == 1 ? first->corner : -1;
+  }
+  std::ptrdiff_t count(int from, int to) const {
+    const auto [first, last] = edges_between(from, to);
+    return last - first;
+  }
+  static int start_of_side(Face face, int side) { return face->vertex(face->ccw(side))->info(); }
+  static int end_of_side(Face face, int side) { return face->vertex(face->cw(side))->info(); }
+
+  /// Counts from the infinite face inwards; false unless the outline goes round everything once or not at all.
+  bool find_windings() {
+    std::vector<Face> stack{triangulation_.infinite_face()};
+    stack.front()->info().is_visited = true;
+    while (!stack.empty()) {
+      const Face face = stack.back();
+      stack.pop_back();
+      const int winding = face->info().winding;
+      if (winding != 0 && winding != 1) return false;
+      for (int side = 0; side < 3; ++side) {
+        const Face neighbour = face->neighbor(side);
+        if (neighbour->info().is_visited) continue;
+        int change = 0;
+        if (face->is_constrained(side)) {
+          const int from = start_of_side(face, side);
+          const int to = end_of_side(face, side);
+          const std::ptrdiff_t left = count(from, to);
+          const std::ptrdiff_t right = count(to, from);
+          if (left + right == 0) return false;  // part of an edge that passes through a corner
+          change = static_cast<int>(right - left);
+        }
+        neighbour->info().is_visited = true;
+        neighbour->info().winding = winding + change;
+        stack.push_back(neighbour);
+      }
+    }
+    return true;
+  }
+
+  /// Gives the triangles around a vertex, from the edge that leaves a corner to that which arrives, this corner.
+  bool assign_corners() {
+    for (const Face face : triangulation_.finite_face_handles()) {
+      if (face->info().winding == 0) continue;
+      for (int side = 0; side < 3; ++side) {
+        if (!face->is_constrained(side)) continue;
+        const int corner = corner_of_edge(start_of_side(face, side), end_of_side(face, side));
+        if (corner < 0 || !assign_around(face, face->ccw(side), corner)) return false;
+      }
+    }
+    return true;
+  }
+  bool assign_around(Face face, int at, int corner) {
+    const auto vertex = face->vertex(at);
+    for (;;) {
+      face->info().corners[static_cast<std::size_t>(at)] = corner;
+      const int opposite = face->ccw(at);
+      if (face->is_constrained(opposite)) {
+        return next(corner_of_edge(start_of_side(face, opposite), end_of_side(face, opposite))) == corner;
+      }
+      face = face->neighbor(opposite);
+      at = face->index(vertex);
+    }
+  }
+
+  bool collect(std::vector<std::array<int, 3>>& triangles) const {
+    for (const Face face : triangulation_.finite_face_handles()) {
+      if (face->info().winding == 0) continue;
+      const std::array<int, 3>& corners = face->info().corners;
+      if (std::find(corners.begin(), corners.end(), -1) != corners.end()) return false;
+      triangles.push_back(corners);
+    }
+    return static_cast<int>(triangles.size()) == size() - 2;
+  }
+
+  const std::vector<Complex>& outline_;
+  ConstrainedDelaunay triangulation_;
+  std::vector<ConstrainedDelaunay::Vertex_handle> handles_;
+  std::vector<Edge> edges_;  ///< sorted
+};
+
+/// The polygon along Newell's normal, counter-clockwise; empty where it has none.
+std::vector<Complex> projected(const Eigen::Ref<const Positions>& corners) {
   const Vector centre = corners.colwise().mean().transpose();
   const Vector normal = polygon_normal(corners, centre);
-  if (!(normal.squaredNorm() > 0) || !normal.allFinite()) return false;
+  if (!(normal.squaredNorm() > 0) || !normal.allFinite()) return {};
   const auto [first, second] = plane_axes(normal);
-
-  ConstrainedDelaunay triangulation;
-  std::vector<ConstrainedDelaunay::Vertex_handle> handles;
-  handles.reserve(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
+  std::vector<Complex> outline;
+  outline.reserve(static_cast<std::size_t>(corners.rows()));
+  for (Eigen::Index i = 0; i < corners.rows(); ++i) {
     const Vector p = corners.row(i).transpose() - centre;
-    const auto handle = triangulation.insert(Kernel::Point_2(p.dot(first), p.dot(second)));
-    handle->info() = i;
-    handles.push_back(handle);
+    outline.emplace_back(p.dot(first), p.dot(second));
   }
-  if (static_cast<int>(triangulation.number_of_vertices()) != n) return false;
-  try {
-    for (int i = 0; i < n; ++i) triangulation.insert_constraint(handles[i], handles[(i + 1) % n]);
-  } catch (const ConstrainedDelaunay::Intersection_of_constraints_exception&) {
-    return false;
-  }
-  mark_inside(triangulation);
-  for (const auto& face : triangulation.finite_face_handles()) {
-    if (!face->info().inside) continue;
-    result.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-  }
-  // Where an edge passes through another corner, the number of triangles can be right although one has none.
-  std::vector<char> is_covered(static_cast<std::size_t>(n), 0);
-  for (const auto& triangle : result.triangles) {
-    for (const int corner : triangle) is_covered[static_cast<std::size_t>(corner)] = 1;
-  }
-  const bool covers_all = std::find(is_covered.begin(), is_covered.end(), 0) == is_covered.end();
-  if (static_cast<int>(result.triangles.size()) != n - 2 || !covers_all) {
-    result.triangles.clear();
-    return false;
-  }
-  return true;
+  return outline;
+}
+
+/// Returns false when the projected polygon is not weakly simple.
+bool triangulate_outline(const Eigen::Ref<const Positions>& corners, std::vector<std::array<int, 3>>& triangles) {
+  const std::vector<Complex> outline = projected(corners);
+  if (outline.empty()) return false;
+  if (OutlineTriangulation(outline).triangulate(triangles)) return true;
+  triangles = clip_ears(outline);
+  // Corners that lie on an edge do so up to rounding, to single precision where they come from a file.
+  constexpr double rounding = 1e-6;
+  double extent = 0;
+  for (const Complex p : outline) extent = std::max(extent, std::abs(p));
+  if (covers_once(outline, triangles, rounding * extent)) return true;
+  triangles.clear();
+  return false;
 }
 
 void fan(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
@@ -137,9 +293,9 @@ void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTria
     triangulate_quad(corners, result);
     return;
   }
-  if (!corners.allFinite() || !constrained_delaunay(corners, result)) {
+  if (!corners.allFinite() || !triangulate_outline(corners, result.triangles)) {
     fan(corners, result);
-    result.simple = false;
+    result.simple = has_no_area(corners);
   }
   result.triangle_weights.assign(result.triangles.size(), 1.0);
 }

@@ -7,7 +7,7 @@
 
 #include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
-#include "quality/box_tree.h"
+#include "geometry/box_tree.h"
 
 namespace spectral_conformal {
 namespace {

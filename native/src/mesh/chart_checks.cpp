@@ -11,7 +11,32 @@ namespace {
 
 std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
 
+// Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal numbers
+// too.
+constexpr double least_extent = 1e-100;
+constexpr double largest_extent = 1e100;
+
+double extent_of(const Eigen::Ref<const Positions>& positions) {
+  return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
+}
+
 }  // namespace
+
+bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
+  if (!positions.allFinite()) return false;
+  const double extent = extent_of(positions);
+  if (!(extent > least_extent)) return true;
+  if (!(extent < largest_extent)) return false;
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  double area = 0;
+  for (const auto& [a, b, c] : chart.triangles) {
+    const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
+    area += triangle_area(corner(a), corner(b), corner(c));
+  }
+  // Rounding alone gives collinear points an area of this size relative to the extent.
+  constexpr double min_area = 1e-14;
+  return !(area > min_area);
+}
 
 std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
@@ -29,12 +54,8 @@ std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const P
     return "The island has " + handles(chart.genus()) +
            " and cannot lie flat without overlap; mark seams that cut the handles open.";
   }
-  const Eigen::RowVector3d low = positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = positions.colwise().maxCoeff();
-  const double extent = (high - low).maxCoeff();
-  // Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal
-  // numbers too.
-  if (!(extent > 1e-100 && extent < 1e100)) {
+  const double extent = extent_of(positions);
+  if (!(extent > least_extent && extent < largest_extent)) {
     return "The island has no extent that double precision can hold: all of its vertices coincide or lie too far "
            "apart; "
            "delete or rescale it.";
@@ -42,14 +63,9 @@ std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const P
   if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
     return "The island's boundary has two vertices only, between which no map can open; mark more seams.";
   }
-  double area = 0;
-  for (const auto& [a, b, c] : chart.triangles) {
-    const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
-    area += triangle_area(corner(a), corner(b), corner(c));
+  if (has_no_area(chart, positions)) {
+    return "The island has no area: its vertices lie on one line; delete it or move them apart.";
   }
-  // Rounding alone gives collinear points an area of this size relative to the extent.
-  constexpr double min_area = 1e-14;
-  if (!(area > min_area)) return "The island has no area: its vertices lie on one line; delete it or move them apart.";
   return "";
 }
 

@@ -12,6 +12,7 @@
 #include "conformal/conformal_energy.h"
 #include "graph/listening.h"
 #include "graph/parallel_calls.h"
+#include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
 #include "parameterization/chart_description.h"
@@ -161,6 +162,7 @@ class ChartUnwrapper {
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
       result.report.message = problem.what();
+      if (has_no_area(chart_, chart_.positions(cut_.mesh))) collapse(result);
     } catch (const SolveFailure& problem) {
       result.report.message = problem.what();
     } catch (const std::bad_alloc&) {
@@ -236,6 +238,17 @@ class ChartUnwrapper {
     watch.lap("quality");
     report.solved = true;
     result.z = std::move(solution.z);
+  }
+
+  /// The map of a chart without area: one point, so that it covers nothing, where its pins are.
+  void collapse(Solution& result) const {
+    Complex point = 0;
+    for (const auto& [vertex, pin] : pins_) point += pin / static_cast<double>(pins_.size());
+    result.acting.clear();
+    result.z = ComplexVector::Constant(chart_.n_vertices(), point);
+    result.report.solved = true;
+    result.report.mean_qc = result.report.max_qc = 1;
+    result.report.message = "The island has no area: its map is a point.";
   }
 
   const Cut& cut_;

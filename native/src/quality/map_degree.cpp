@@ -6,7 +6,7 @@
 #include "geometry/orientation.h"
 #include "graph/disjoint_sets.h"
 #include "graph/parallel_calls.h"
-#include "quality/box_tree.h"
+#include "geometry/box_tree.h"
 #include "quality/flips.h"
 
 namespace spectral_conformal {

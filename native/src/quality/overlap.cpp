@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/box_tree.h"
 #include "geometry/quad_splits.h"
 #include "graph/parallel_calls.h"
-#include "quality/box_tree.h"
 #include "quality/flips.h"
 #include "quality/map_degree.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "meshes.h"
-#include "quality/box_tree.h"
+#include "geometry/box_tree.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/thread_limit.h"
 

@@ -1,4 +1,4 @@
-#include "quality/box_tree.h"
+#include "geometry/box_tree.h"
 
 #include <algorithm>
 

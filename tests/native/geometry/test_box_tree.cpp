@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "meshes.h"
-#include "quality/box_tree.h"
+#include "geometry/box_tree.h"
 
 namespace spectral_conformal::test {
 namespace {
