@@ -53,6 +53,8 @@ APT: dict[str, list[str]] = {
         "doctest-dev",
         "imagemagick",
         "libgl1-mesa-dri",
+        # For bare CHOLMOD, beside which the benchmarks measure the solver.
+        "libopenblas0-pthread",
         "make",
         # For other releases of Debian (systems.py).
         "mmdebstrap",
