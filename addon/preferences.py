@@ -55,7 +55,7 @@ class SpectralPreferences(AddonPreferences):
     size_high: _color(texts.SIZE_HIGH_PROPERTY, color_ramp.SMALL_TO_LARGE[2])
 
     def draw(self, _context: Context) -> None:
-        """Draw the defaults, the limits and both scales of colours."""
+        """Draw the defaults, the limits, what maps are solved with, and both scales of colours."""
         box = _part(self.layout, text=texts.DEFAULTS_LABEL)
         unwrap_settings.draw_common(box, self.defaults)
         unwrap_settings.draw_fold(box, self.defaults)
@@ -64,11 +64,20 @@ class SpectralPreferences(AddonPreferences):
         box = _part(self.layout, text=texts.LIMITS_LABEL)
         for name in ("threads", "overlay_max_faces", "live_max_faces"):
             box.prop(self, name)
+        _part(self.layout, text=texts.SOLVER_LABEL).label(text=_solver(), translate=False)
         box = _part(self.layout, text=texts.OVERLAY_COLORS_LABEL)
         for scale in ("angle", "size"):
             column = box.column(align=True)
             for place in ("low", "middle", "high"):
                 column.prop(self, f"{scale}_{place}")
+
+
+def _solver() -> str:
+    try:
+        build = native.spectral_conformal().build_info()
+    except native.NativeModuleError as error:
+        return str(error)
+    return texts.solver(build["factorization"], build["kernel"])
 
 
 def _part(layout: UILayout, text: str) -> UILayout:

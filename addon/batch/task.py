@@ -113,6 +113,7 @@ def versions() -> dict[str, str]:
         "spectral_unwrap": version(),
         "factorization": str(build["factorization"]),
         "blas": str(build["blas"]),
+        "kernel": str(build["kernel"]),
         "python": platform.python_version(),
         "numpy": np.__version__,
         "platform": f"{sys.platform}-{platform.machine()}",

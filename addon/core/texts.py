@@ -248,6 +248,7 @@ LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colours mean,
 
 DEFAULTS_LABEL = "Spectral Unwrap Begins With"
 LIMITS_LABEL = "Limits"
+SOLVER_LABEL = "Solver"
 THREADS_PROPERTY = {
     "name": "Threads",
     "description": "How many processor cores a solve may use at once, 0 for all; the map is the same",
@@ -819,6 +820,13 @@ def no_module(reason: object) -> str:
         "this platform and this version of Blender ({reason})"
     )
     return sentence.format(reason=reason)
+
+
+def solver(factorization: str, kernel: str) -> str:
+    """Return what maps are solved with; `kernel` is the processor whose kernels OpenBLAS runs, empty without it."""
+    if not kernel:
+        return factorization
+    return translate("{name}, OpenBLAS's kernels for {kernel}").format(name=factorization, kernel=kernel)
 
 
 def not_packed(reason: str) -> str:

@@ -274,6 +274,8 @@ TEXTS = {
     ),
     "Spectral Unwrap Begins With": "„Spektral abwickeln“ beginnt mit",
     "Limits": "Grenzen",
+    "Solver": "Löser",
+    "{name}, OpenBLAS's kernels for {kernel}": "{name}, OpenBLAS mit den Kernen für {kernel}",
     "Threads": "Threads",
     "How many processor cores a solve may use at once, 0 for all; the map is the same": (
         "Wie viele Prozessorkerne eine Lösung gleichzeitig nutzen darf, 0 für alle; die Map ist dieselbe"

@@ -13,7 +13,8 @@ namespace py = pybind11;
 
 py::dict info() {
   const BuildInfo build = build_info();
-  return py::dict(py::arg("factorization") = build.factorization, py::arg("blas") = build.blas);
+  return py::dict(py::arg("factorization") = build.factorization, py::arg("blas") = build.blas,
+                  py::arg("kernel") = build.kernel);
 }
 
 /// What a call of a function costs, which the benchmarks' tests hold speed to; no part of the Python interface.

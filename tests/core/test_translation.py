@@ -160,6 +160,7 @@ CALLS = {
     "island_failed": [(1,)],
     "selected_worst": [(1,), (2,)],
     "face_numbers": [(1.5, 1.0, 2.0, *flags) for flags in ((True, True), (True, False), (False, True))],
+    "solver": [("E", ""), ("E", "K")],
     "stored": [("A",)],
     "comparison_header": [()],
     "comparison_row": [*((label, numbers(), 1.0) for label in texts.COMPARED_METHODS.values()), (LABEL, None, 1.0)],

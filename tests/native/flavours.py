@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pybind11
 
-from tools import environment
+from tools import environment, solver_libraries
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = Path(sys.executable).parent  # pip installs cmake and ninja here
@@ -68,7 +68,8 @@ def configure(flavour):
     folder = ROOT / "build" / "tests-native" / flavour
     if "SPECTRAL_CONFORMAL_CORE" in FLAVOURS[flavour]:
         assert environment.is_native_module_built(), "the built library is older than its sources: run build_addon.py"
-    definitions = [f"-D{name}={value}" for name, value in {**COMMON, **FLAVOURS[flavour]}.items()]
+    settings = {**COMMON, **solver_libraries.settings(), **FLAVOURS[flavour]}
+    definitions = [f"-D{name}={value}" for name, value in settings.items()]
     with _LOCKS[flavour]:
         run(TOOLS / "cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", *definitions)
     return folder

@@ -17,6 +17,7 @@ import bpy
 import numpy  # noqa: F401 - with the libraries that are its own, not the package's
 
 NAME = "spectral_unwrap"
+NATIVE = "spectral_conformal"
 *packages, result_file = (Path(argument) for argument in sys.argv[sys.argv.index("--") + 1 :])
 legacy = any("legacy" in path.name for path in packages)
 module = NAME if legacy else f"bl_ext.user_default.{NAME}"
@@ -94,6 +95,7 @@ def install_and_remove(package: Path) -> dict:
     seen["installed"] = traces()
     seen["first"] = unwrap_cylinder()
     seen["libraries"] = sorted(loaded_libraries() - libraries)
+    seen["build"] = next(found.build_info() for name, found in sys.modules.items() if name.endswith(NATIVE))
     bpy.ops.preferences.addon_disable(module=module)
     seen["disabled"] = traces()
     enable()

@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from tests.blender import blenders
-from tools import environment, other_pythons, packaging, systems
+from tests.module import processor
+from tools import environment, other_pythons, packaging, solver_libraries, systems
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = Path(__file__).with_name("installation.py")
@@ -81,11 +82,13 @@ def without_module(version, tmp_path):
 
 
 def libraries_of_built_module():
-    """Return the files, by name, of all shared libraries that the module needs before any are put into its wheel."""
+    """Return the files, by name, of all shared libraries of the system that the module needs until it is packaged."""
     (module,) = environment.site_packages(environment.VENV).glob("spectral_conformal/_native*.so")
+    beside = {path.name for path in module.parent.glob("*.so")}
     listed = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout
     found = (line.split() for line in listed.splitlines() if "=>" in line)
-    return {words[0]: Path(words[2]).resolve() for words in found if not SYSTEM_LIBRARIES.fullmatch(words[0])}
+    files = {words[0]: Path(words[2]).resolve() for words in found if not SYSTEM_LIBRARIES.fullmatch(words[0])}
+    return {name: path for name, path in files.items() if name not in beside}
 
 
 def hide_libraries(folder, names):
@@ -119,11 +122,11 @@ def install(blender, package, profile, tmp_path):
         # Its Blender needs its own libraries, which may have the names of those that were built with here. That the
         # package's are loaded beside them is what check sees.
         return run(package, seen)
-    # What Blender and NumPy load by themselves stays, Debian's BLAS for instance.
+    # What Blender loads by itself stays.
     present = {Path(path) for path in run(seen)["libraries"]}
     seen.unlink()
     hidden = [name for name, file in libraries_of_built_module().items() if file not in present]
-    assert any("cholmod" in name for name in hidden)
+    assert any("colamd" in name for name in hidden)
     return run(package, seen, **hide_libraries(tmp_path / "hidden", hidden))
 
 
@@ -151,6 +154,7 @@ def check_unwrapped(seen):
         assert unwrapped["finite"]
         # A cylinder is developable: its 32 sides of height 2 become a rectangle, whatever its place in the tile.
         assert unwrapped["aspect"] == pytest.approx(32 * math.sin(math.pi / 32), rel=1e-4)
+    assert processor.fits(seen["build"]["kernel"]), seen["build"]
     assert seen["disabled"] == seen["before"]
     assert seen["after"] == seen["before"]
 
@@ -204,6 +208,23 @@ def test_packaged_libraries_need_each_other_and_the_bare_system_only(packages, t
         )
 
 
+def test_module_solves_with_the_openblas_that_it_brings_along():
+    """The system's may be the reference BLAS, or older than the processor."""
+    show = "import spectral_conformal as sc; print(sc.__file__); print(sc.build_info()['blas'])"
+    told = subprocess.run([environment.PYTHON, "-c", show], cwd="/", capture_output=True, text=True, check=True).stdout
+    package, blas = told.splitlines()
+    beside = Path(package).with_name(solver_libraries.OPENBLAS.name)
+    assert blas.startswith(f"{beside} (OpenBLAS {environment.OPENBLAS} ")
+
+
+def test_module_loads_no_blas_of_the_system():
+    show = "import spectral_conformal; print(open('/proc/self/maps').read())"
+    told = subprocess.run([environment.PYTHON, "-c", show], cwd="/", capture_output=True, text=True, check=True).stdout
+    files = {Path(line.split(maxsplit=5)[5]) for line in told.splitlines() if ".so" in line}
+    systems = [path for path in files if solver_libraries.SYSTEMS_BLAS.fullmatch(path.name)]
+    assert systems == []
+
+
 def test_module_that_was_not_packaged_stops_at_hidden_libraries(tmp_path):
     environ = {**os.environ, **hide_libraries(tmp_path / "hidden", libraries_of_built_module())}
     command = [environment.PYTHON, "-c", "import spectral_conformal"]
@@ -215,7 +236,7 @@ def test_module_that_was_not_packaged_stops_at_hidden_libraries(tmp_path):
 def test_packaged_module_takes_no_function_of_another_library(tmp_path):
     """Debian's Blender 5.2 has a CHOLMOD of another version, before ours in the dynamic linker's order."""
     other = tmp_path / "other.cpp"
-    names = ("cholmod_start", "cholmod_analyze", "cholmod_factorize", "SuiteSparse_malloc", "zpotrf_", "zgemm_")
+    names = ("cholmod_start", "cholmod_analyze", "cholmod_amd", "SuiteSparse_malloc", "scipy_dpotrf_", "scipy_dsyrk_")
     functions = (
         f'extern "C" void {name}() {{ std::fputs("{name} of another library", stderr); std::abort(); }}'
         for name in names

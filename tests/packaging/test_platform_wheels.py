@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.module import meshes
+from tests.module import meshes, processor
 from tests.packaging.test_packages import SCRIPT, check_unwrapped
 from tools import environment, packaging
 from tools.cross import command, native, notes, qemu, targets, wheels, wine
@@ -240,6 +240,12 @@ def check_equal(found, examples):
             np.testing.assert_allclose(results[name], expected[name], rtol=1e-9, atol=1e-9, err_msg=name)
 
 
+def kernel_in(printed):
+    """Return the kernels that OpenBLAS ran, from what EXAMPLES prints."""
+    (kernel,) = re.findall(r"'kernel': '(.*?)'", printed)
+    return kernel
+
+
 def module_path(folder):
     """Return the environment of a Python on this machine that imports the module of an unpacked wheel."""
     return {**os.environ, "PYTHONPATH": str(folder)}
@@ -252,6 +258,7 @@ def test_linux_module_solves_as_the_one_built_here(unpacked, examples, tmp_path)
     result = subprocess.run(call, env=module_path(folder), capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr
     assert str(folder / "spectral_conformal" / target.blas_name) in result.stdout
+    assert processor.fits(kernel_in(result.stdout)), result.stdout
     check_equal(tmp_path / "found.npz", examples)
 
 
@@ -286,6 +293,8 @@ def test_arm_module_solves_as_the_one_built_here(linux_on_arm, unpacked, example
     result = qemu.run(words, environ={"PYTHONPATH": str(folder)}, timeout=1800)
     assert result.returncode == 0, result.stdout
     assert str(folder / "spectral_conformal" / linux_on_arm.blas_name) in result.stdout
+    # The emulator's processor has NEON.
+    assert not processor.is_below(kernel_in(result.stdout), {"asimd"}), result.stdout
     check_equal(tmp_path / "found.npz", examples)
 
 
@@ -335,6 +344,7 @@ def test_windows_module_solves_as_the_one_built_here(windows, python, unpacked, 
     result = wine.run([wine.python(python), *files], environ=windows_module(folder), timeout=900)
     assert result.returncode == 0, result.stdout
     assert windows.blas_name in result.stdout
+    assert processor.fits(kernel_in(result.stdout)), result.stdout
     check_equal(tmp_path / "found.npz", examples)
 
 

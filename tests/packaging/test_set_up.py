@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The set-up behind build_addon.py: what it asks for, and that a failed or changed step runs again."""
 
+import ctypes
+import subprocess
 import sys
 
 import pytest
 
 import build_addon
-from tools import environment, steps
+from tools import environment, solver_libraries, steps
+from tools.cross import notes, targets
 
 
 @pytest.fixture
@@ -68,6 +71,7 @@ def test_quick_sets_up_no_blender_and_leaves_its_tests_out(arguments, monkeypatc
     groups, passed_on = [], []
     monkeypatch.setattr(sys, "argv", ["build_addon.py", "test", *arguments])
     monkeypatch.setattr(environment, "set_up", lambda *names: groups.extend(names))
+    monkeypatch.setattr(build_addon.other_pythons, "set_up", lambda: None)
     monkeypatch.setattr(environment, "run_pytest", lambda words: passed_on.extend(words) or 0)
     assert build_addon.main() == 0
     needed = [name for group in groups for name in (*environment.APT[group], *environment.PIP[group])]
@@ -75,3 +79,49 @@ def test_quick_sets_up_no_blender_and_leaves_its_tests_out(arguments, monkeypatc
     assert any("blender" in name or "bpy" in name for name in needed) != is_quick
     assert {"pytest", "ruff", "clang-format==14.0.6", "git"} <= set(needed)
     assert passed_on == (["-m", environment.QUICK, "-x"] if is_quick else arguments)
+
+
+def test_one_release_of_openblas_is_named_everywhere():
+    workflow = (steps.ROOT / ".github" / "workflows" / "wheels.yml").read_text()
+    assert f"scipy-openblas32=={environment.OPENBLAS} " in workflow
+    assert f"scipy-openblas32=={environment.OPENBLAS}" in environment.PIP["build"]
+    assert f"OpenBLAS {environment.OPENBLAS} " in " ".join(notes.text(targets.TARGETS[0], "1.0").split())
+
+
+@pytest.fixture
+def solver_folder(tmp_path, monkeypatch):
+    for name, file in (("FOLDER", ""), ("OPENBLAS", "libopen.so"), ("CHOLMOD", "libchol.so")):
+        monkeypatch.setattr(solver_libraries, name, tmp_path / "libraries" / file)
+    monkeypatch.setattr(steps, "STAMPS", tmp_path / "stamps")
+    return tmp_path
+
+
+def test_without_cholmod_there_are_no_solver_libraries(solver_folder, monkeypatch):
+    monkeypatch.setattr(solver_libraries, "cholmod_of_system", lambda: None)
+    solver_libraries.make(environment.PYTHON)
+    assert solver_libraries.settings() == {}
+
+
+def test_cholmod_is_bound_to_openblas(solver_folder, monkeypatch):
+    """Small libraries of the same shape: what calls the plain names calls the other's prefixed ones, and no third."""
+    systems = compiled(solver_folder, "blas", "int dgemm_(void) { return 1; }", "-Wl,-soname,libblas.so.3")
+    ours = compiled(solver_folder, "openblas", "int scipy_dgemm_(void) { return 2; }")
+    code = "int dgemm_(void); int solve(void) { return dgemm_(); }"
+    cholmod = compiled(solver_folder, "cholmod", code, systems)
+    monkeypatch.setattr(solver_libraries, "cholmod_of_system", lambda: cholmod)
+    monkeypatch.setattr(solver_libraries, "openblas_of", lambda _python: ours)
+    solver_libraries.make(environment.PYTHON)
+    systems.unlink()
+    assert ctypes.CDLL(str(solver_libraries.CHOLMOD)).solve() == 2
+    before = solver_libraries.CHOLMOD.stat().st_mtime_ns
+    solver_libraries.make(environment.PYTHON)
+    assert solver_libraries.CHOLMOD.stat().st_mtime_ns == before
+
+
+def compiled(folder, name, code, *options):
+    """Return a shared library made of some C."""
+    source = folder / f"{name}.c"
+    source.write_text(code)
+    path = source.with_suffix(".so")
+    subprocess.run(["gcc", "-shared", "-fPIC", source, "-o", path, *options], check=True)
+    return path

@@ -14,14 +14,13 @@ from pathlib import Path
 
 from tools import steps
 from tools.cross.targets import CROSS, PYTHONS, Target
-from tools.environment import PYTHON
+from tools.environment import OPENBLAS, PYTHON
 from tools.steps import StepError
 from tools.wheels import python_tag
 
 DOWNLOADS = CROSS / "downloads"
 PARTS = CROSS / "parts"
 LOG = "cross-parts"
-OPENBLAS = "0.3.34.481.3"
 PYBIND11 = "3.1.0"
 PYBIND11_HASH = "b8488090f8acffbcb6b5d6a85571a6827a0a2981ffb75e5a0b27b87c4a6b7dd0"
 # Whole Pythons for Windows: headers, import libraries, and what the tests under Wine run. By Python: the release of

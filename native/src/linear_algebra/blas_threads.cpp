@@ -70,12 +70,14 @@ struct OpenBlas {
   int (*get_num_threads)() = nullptr;
   void (*set_num_threads)(int) = nullptr;
   const char* (*get_config)() = nullptr;
+  const char* (*get_corename)() = nullptr;
 
   explicit OpenBlas(const BlasFile& file) {
     find(file, "openblas_get_parallel", get_parallel);
     find(file, "openblas_get_num_threads", get_num_threads);
     find(file, "openblas_set_num_threads", set_num_threads);
     find(file, "openblas_get_config", get_config);
+    find(file, "openblas_get_corename", get_corename);
   }
   bool has_threads() const { return get_num_threads != nullptr && set_num_threads != nullptr; }
 
@@ -161,6 +163,8 @@ std::string blas_library() {
   return open_blas().get_config == nullptr ? file : file + " (" + open_blas().get_config() + ")";
 }
 
+std::string blas_kernel() { return open_blas().get_corename == nullptr ? "" : open_blas().get_corename(); }
+
 }  // namespace spectral_conformal
 
 #else
@@ -173,6 +177,7 @@ BlasThreads::BlasThreads() : is_alone_(false) {}
 BlasThreads::~BlasThreads() = default;
 bool BlasThreads::serves_many() { return true; }
 std::string blas_library() { return ""; }
+std::string blas_kernel() { return ""; }
 
 }  // namespace spectral_conformal
 

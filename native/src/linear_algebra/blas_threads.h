@@ -39,5 +39,8 @@ class BlasThreads {
 
 /// The file of the BLAS that the factorisation's calls are bound to and what it says of itself, or "" without CHOLMOD.
 std::string blas_library();
+/// The kernels that OpenBLAS runs, by the processor that they are written for, such as "SkylakeX" for AVX-512; "" with
+/// another BLAS. Releases older than a processor may run those of a much older one.
+std::string blas_kernel();
 
 }  // namespace spectral_conformal

@@ -5,6 +5,6 @@
 
 namespace spectral_conformal {
 
-BuildInfo build_info() { return {factorization_library(), blas_library()}; }
+BuildInfo build_info() { return {factorization_library(), blas_library(), blas_kernel()}; }
 
 }  // namespace spectral_conformal

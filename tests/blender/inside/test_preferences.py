@@ -3,6 +3,7 @@
 
 import importlib
 import sys
+import types
 
 import addon_utils
 import bpy
@@ -93,6 +94,51 @@ def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
     finally:
         map_overlay.forget()
     assert texts.too_many_faces(["Grid"])[1] == "Grid"
+
+
+class _Layout:
+    """Stands for Blender's in drawing, and keeps the labels."""
+
+    def __init__(self, labels):
+        self.labels = labels
+
+    def label(self, text="", **_arguments):
+        self.labels.append(text)
+
+    def prop(self, *_arguments, **_keywords):
+        pass
+
+    def __getattr__(self, _name):
+        return lambda *_arguments, **_keywords: self
+
+
+def drawn(preferences):
+    """Return the labels that the preferences draw."""
+    labels = []
+    module = importlib.import_module(f"{ADDON}.preferences")
+    drawn_on = types.SimpleNamespace(layout=_Layout(labels), defaults=preferences.defaults)
+    module.SpectralPreferences.draw(drawn_on, bpy.context)
+    return labels
+
+
+def test_preferences_say_for_which_processor_the_solver_works(preferences, monkeypatch):
+    native = importlib.import_module(f"{ADDON}.core.native")
+    build = native.spectral_conformal().build_info()
+    assert build["kernel"]
+    assert f"{build['factorization']}, OpenBLAS's kernels for {build['kernel']}" in drawn(preferences)
+    only_eigen = types.SimpleNamespace(build_info=lambda: {"factorization": "Eigen 3.4.0", "blas": "", "kernel": ""})
+    monkeypatch.setattr(native, "spectral_conformal", lambda: only_eigen)
+    assert "Eigen 3.4.0" in drawn(preferences)
+
+
+def test_preferences_are_drawn_without_the_module(preferences, monkeypatch):
+    native = importlib.import_module(f"{ADDON}.core.native")
+
+    def missing():
+        raise native.NativeModuleError("for another Python")
+
+    monkeypatch.setattr(native, "spectral_conformal", missing)
+    assert "for another Python" in drawn(preferences)
 
 
 def test_without_preferences_everything_has_its_default():

@@ -11,6 +11,7 @@ TEST_CASE("a build names its factorisation, and the BLAS where that calls one") 
   const BuildInfo info = build_info();
   CHECK(info.factorization == factorization_library());
   CHECK(info.blas.empty() == (info.factorization.find("CHOLMOD") == std::string::npos));
+  CHECK(info.kernel.empty() == (info.blas.find("OpenBLAS") == std::string::npos));
 }
 
 TEST_SUITE_END();

