@@ -10,6 +10,9 @@ import numpy as np
 
 from .solve import Solution
 
+# A texture's squares become rectangles of twice their width there: seen at once, whatever the average.
+STRAINED_QC = 2.0
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -19,6 +22,7 @@ class Summary:
         solved: number of solved charts.
         mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
         max_qc: largest quasi-conformal distortion of a triangle.
+        strained: number of solved charts with a triangle beyond STRAINED_QC.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that cover others of their chart.
         unfolded: number of flipped triangles that were unfolded on request.
@@ -33,6 +37,7 @@ class Summary:
     solved: int
     mean_qc: float
     max_qc: float
+    strained: int
     flipped: int
     overlapping: int
     unfolded: int
@@ -64,6 +69,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         solved=len(solved),
         mean_qc=sum(chart.mean_qc * (chart.area / area) for chart in solved) if area > 0.0 else float("nan"),
         max_qc=max((chart.max_qc for chart in solved), default=float("nan")),
+        strained=sum(chart.max_qc > STRAINED_QC for chart in solved),
         flipped=sum(chart.flipped for chart in solved),
         overlapping=sum(chart.overlapping for chart in solved),
         unfolded=sum(chart.unfolded for chart in changed),
