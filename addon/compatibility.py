@@ -316,3 +316,10 @@ def packing_options(margin_method: str) -> dict[str, str]:
     known = bpy.ops.uv.pack_islands.get_rna_type().properties
     options = {"shape_method": "AABB", "margin_method": margin_method}
     return {name: value for name, value in options.items() if name in known}
+
+
+def shader_nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
+    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 will know no `use_nodes`."""
+    if data.node_tree is None:
+        data.use_nodes = True
+    return data.node_tree.nodes

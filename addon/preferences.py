@@ -46,7 +46,7 @@ class SpectralPreferences(AddonPreferences):
     overlay_max_faces: IntProperty(
         **texts.OVERLAY_MAX_FACES_PROPERTY, default=user_preferences.MAX_FACES, min=0, update=_on_limit
     )
-    live_max_faces: IntProperty(**texts.LIVE_MAX_FACES_PROPERTY, default=user_preferences.MAX_FACES, min=0)
+    live_max_faces: IntProperty(**texts.LIVE_MAX_FACES_PROPERTY, default=user_preferences.LIVE_MAX_FACES, min=0)
     angle_low: _color(texts.ANGLE_LOW_PROPERTY, color_ramp.GOOD_TO_BAD[0])
     angle_middle: _color(texts.ANGLE_MIDDLE_PROPERTY, color_ramp.GOOD_TO_BAD[1])
     angle_high: _color(texts.ANGLE_HIGH_PROPERTY, color_ramp.GOOD_TO_BAD[2])

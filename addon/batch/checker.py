@@ -8,6 +8,8 @@ from pathlib import Path
 import bpy
 from mathutils import Vector
 
+from .. import compatibility
+
 _CHECKS = 40.0
 _SAMPLES = 16
 _LENS_DISTANCE = 2.4
@@ -67,8 +69,8 @@ def _bounds() -> tuple[Vector, Vector]:
 
 def _material(towards_camera: Vector) -> bpy.types.Material:
     material = bpy.data.materials.new("checker")
-    material.use_nodes = True
-    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes = compatibility.shader_nodes(material)
+    links = material.node_tree.links
     nodes.clear()
     output, light = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeEmission")
     facing, both_sides = nodes.new("ShaderNodeVectorMath"), nodes.new("ShaderNodeMath")
@@ -91,8 +93,7 @@ def _material(towards_camera: Vector) -> bpy.types.Material:
 
 
 def _set_up(scene: bpy.types.Scene, world: bpy.types.World, path: Path, size: int) -> None:
-    world.use_nodes = True
-    for node in world.node_tree.nodes:
+    for node in compatibility.shader_nodes(world):
         if node.type == "BACKGROUND":
             node.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     scene.render.engine = "CYCLES"

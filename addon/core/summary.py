@@ -10,6 +10,9 @@ import numpy as np
 from .solve import Solution, are_solved, column_of_all
 from .translation import translate
 
+# A texture's squares become rectangles of twice their width there: seen at once, whatever the average.
+STRAINED_QC = 2.0
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -19,6 +22,7 @@ class Summary:
         solved: number of solved charts.
         mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
         max_qc: largest quasi-conformal distortion of a triangle.
+        strained: number of solved charts with a triangle beyond STRAINED_QC.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that cover others of their chart.
         unfolded: number of flipped triangles that were unfolded on request.
@@ -33,6 +37,7 @@ class Summary:
     solved: int
     mean_qc: float
     max_qc: float
+    strained: int
     flipped: int
     overlapping: int
     unfolded: int
@@ -67,6 +72,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         solved=int(np.count_nonzero(solved)),
         mean_qc=_average(of("mean_qc")[solved], of("area")[solved]),
         max_qc=max(of("max_qc")[solved].tolist(), default=float("nan")),
+        strained=int(np.count_nonzero(of("max_qc")[solved] > STRAINED_QC)),
         flipped=sum(of("flipped")[solved].tolist()),
         overlapping=sum(of("overlapping")[solved].tolist()),
         unfolded=sum(of("unfolded")[unfolded].tolist()),

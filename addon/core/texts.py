@@ -259,7 +259,8 @@ OVERLAY_MAX_FACES_PROPERTY = {
 }
 LIVE_MAX_FACES_PROPERTY = {
     "name": "Live Unwrap: Faces",
-    "description": "Meshes with more faces are left alone by Live Spectral Unwrap",
+    "description": "Meshes with more faces are left alone by Live Spectral Unwrap, which cannot be canceled while it "
+    "solves",
 }
 TOO_MANY_FACES_TO_COLOR = "Too many faces to color:"
 LIMIT_IN_PREFERENCES = "The add-on's preferences set the limit"
@@ -357,6 +358,7 @@ NO_SUCH_EXTENDER = "No such extender; choose one in the list"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
+NOTHING_SELECTED_MEANS_ALL = "Nothing is selected, so all visible faces are unwrapped"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 OUT_OF_MEMORY = (
@@ -591,6 +593,17 @@ def unfolded(summary: Summary) -> str:
     before, after = summary.mean_qc_change
     sentence = translate("No Flip: {changes}; their angle distortion {before} before, {after} after")
     return sentence.format(changes=changes, before=_qc(before), after=_qc(after))
+
+
+def strained(summary: Summary) -> str:
+    """Return the warning for islands with a face whose angles are far off; empty for none."""
+    if not summary.strained:
+        return ""
+    forms = (
+        "{n} island has faces stretched to more than twice their width, {worst} at worst; add seams there",
+        "{n} islands have faces stretched to more than twice their width, {worst} at worst; add seams there",
+    )
+    return _count(summary.strained, forms, worst=_qc(summary.max_qc))
 
 
 def too_small(faces: int) -> str:

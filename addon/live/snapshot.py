@@ -94,7 +94,7 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
     mesh = edit_object.data
     bm = bmesh.from_edit_mesh(mesh)
     layer = bm.loops.layers.uv.active
-    if layer is None or len(bm.faces) > user_preferences.read("live_max_faces", user_preferences.MAX_FACES):
+    if layer is None or len(bm.faces) > user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES):
         return None
     # The pinned map first: reading makes and frees wrappers.
     pinned = _pinned_map(edit_object) if compatibility.has_pins(bm, layer) else None

@@ -285,8 +285,9 @@ TEXTS = {
         "Meshes mit mehr Flächen werden nicht gefärbt, da das Overlay jeder Bearbeitung folgt"
     ),
     "Live Unwrap: Faces": "Echtzeit: Flächen",
-    "Meshes with more faces are left alone by Live Spectral Unwrap": (
-        "Meshes mit mehr Flächen werden beim Abwickeln in Echtzeit nicht beachtet"
+    "Meshes with more faces are left alone by Live Spectral Unwrap, which cannot be canceled while it solves": (
+        "Meshes mit mehr Flächen werden beim Abwickeln in Echtzeit nicht beachtet, das sich nicht abbrechen lässt, "
+        "während es rechnet"
     ),
     "Too many faces to color:": "Zu viele Flächen zum Färben:",
     "The add-on's preferences set the limit": "Grenze: Einstellungen des Add-ons",
@@ -443,6 +444,9 @@ TEXTS = {
     "The meshes changed while they were solved, so nothing was written; unwrap again": (
         "Die Meshes haben sich während der Berechnung geändert, darum wurde nichts geschrieben; neu abwickeln"
     ),
+    "Nothing is selected, so all visible faces are unwrapped": (
+        "Nichts ist ausgewählt, darum werden alle sichtbaren Flächen abgewickelt"
+    ),
     "No visible faces to cut": "Keine sichtbaren Flächen zum Aufschneiden",
     "The meshes changed meanwhile, so nothing was marked; suggest seams again": (
         "Die Meshes haben sich inzwischen geändert, darum wurde nichts markiert; Nähte neu vorschlagen lassen"
@@ -549,6 +553,14 @@ TEXTS = {
     "No Flip: {changes}": "Umdrehen verhindern: {changes}",
     "No Flip: {changes}; their angle distortion {before} before, {after} after": (
         "Umdrehen verhindern: {changes}; Winkelverzerrung dort vorher {before}, nachher {after}"
+    ),
+    "{n} island has faces stretched to more than twice their width, {worst} at worst; add seams there": (
+        "{n} Insel hat Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens {worst}; dort "
+        "Nähte hinzufügen"
+    ),
+    "{n} islands have faces stretched to more than twice their width, {worst} at worst; add seams there": (
+        "{n} Inseln haben Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens {worst}; dort "
+        "Nähte hinzufügen"
     ),
     "{n} face shrinks below what Blender's UV coordinates resolve; add seams that make the island flatter, or raise "
     "Angle to Area": (

@@ -8,6 +8,7 @@ import bpy
 from .. import names
 from ..core import texts
 from ..core.translation import translate
+from ..edit_mesh import selection
 from ..live import following
 from ..ui import unwrap_settings
 from ..unwrapping import island_list, steps
@@ -35,19 +36,24 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
         """Read, solve, place, write and pack; report the outcome."""
         start = time.perf_counter()
         settings = settings_of(self)
-        edit_meshes = steps.read(context, settings)
+        edit_meshes, all_visible = steps.read(context, settings), False
+        # As Suggest Seams does. An editor that shows selected UVs shows none of what is not selected.
+        if not edit_meshes and not selection.selects_uvs(context):
+            edit_meshes, all_visible = steps.read(context, settings, all_visible=True), True
         if not edit_meshes:
             self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
             return {"CANCELLED"}
         read = edit_meshes
         done = yield lambda report_progress: steps.solve(read, settings, report_progress)
         if done.is_late:
-            edit_meshes = steps.read_again(done.context, settings, edit_meshes)
+            edit_meshes = steps.read_again(done.context, settings, edit_meshes, all_visible)
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
         outcome = steps.write(settings, edit_meshes, done.result, following.not_following)
         reports = steps.reports(outcome, time.perf_counter() - start)
+        if all_visible:
+            reports.insert(0, ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL)))
         island_list.show(edit_meshes, done.result, reports)
         for level, text in reports:
             self.report({level}, text)

@@ -209,7 +209,7 @@ class _ComparisonPanel(_Panel):
 
 def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
     """Return whether live unwrapping leaves a mesh in edit mode alone."""
-    most = user_preferences.read("live_max_faces", user_preferences.MAX_FACES)
+    most = user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES)
     return len(bmesh.from_edit_mesh(edit_object.data).faces) > most
 
 

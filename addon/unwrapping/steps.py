@@ -145,15 +145,16 @@ def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ..
 def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
     """Return what to tell the user of an unwrap that took `seconds`, as (level, text) pairs.
 
-    Blender shows the last one in the status bar, all of them in the Info editor.
+    Blender shows the last one in the status bar, all of them in the Info editor: what asks for something comes last.
     """
     summary = outcome.summary
     pairs = (
-        *(("INFO", note) for note in outcome.notes),
         ("INFO", texts.repairs(summary)),
         ("INFO", texts.unfolded(summary)),
         ("INFO", texts.pinned(summary)),
         ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
+        *(("INFO", note) for note in outcome.notes),
+        ("WARNING", texts.strained(summary)),
         *(("WARNING", warning) for warning in outcome.warnings),
         ("WARNING", texts.without_bounds(outcome.without_bounds)),
         ("WARNING", texts.failures(summary)),

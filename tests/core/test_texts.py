@@ -216,3 +216,10 @@ def test_where_seams_are_missing_suggest_seams_is_named():
 def test_what_is_infinite_is_said_in_words():
     text = texts.information(summary(solved(mean_qc=float("inf"), max_qc=float("inf"))), 0.5, "There")
     assert text.startswith("Unwrapped 1 island: angle distortion beyond measure, as faces shrink to nothing; ")
+
+
+@pytest.mark.parametrize(("worst", "said"), [((1.9, 1.2), False), ((12.4, 1.2), True)])
+def test_islands_with_faces_that_are_bent_far_are_a_warning(worst, said):
+    warning = texts.strained(summary(*(solved(max_qc=qc) for qc in worst)))
+    assert ("1 island has faces stretched" in warning and "12.4" in warning) is said
+    assert bool(warning) is said

@@ -128,6 +128,7 @@ def looked_up():
 def summary(count=0, **changed):
     """Return a summary in which everything that is counted has happened so often."""
     once = {"solved": count, "flipped": count, "overlapping": count, "unfolded": count, "embedded": count}
+    once["strained"] = count
     reasons = {"failures": Counter(A=count), "repairs": Counter(A=count), "pinned": Counter(lscm=count, spectral=1)}
     rest = {"mean_qc": 1.5, "max_qc": 2.0, "mean_qc_change": (1.5, 1.25), "refused": ("A: B",)}
     return Summary(**{**once, **reasons, **rest, **changed})
@@ -169,6 +170,7 @@ CALLS = {
     "too_small": [(0,), (1,), (2,)],
     "failures": [(summary(1),), (summary(2),), (summary(failures=Counter({"; MARK SEAMS": 1})),)],
     "repairs": [(summary(1),), (summary(2),)],
+    "strained": [(summary(0),), (summary(1),), (summary(2),)],
     "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
     "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],
     "broken_extenders": [(["A"],), (["A", "B"],)],

@@ -46,6 +46,8 @@ def test_solvable_mesh_is_solved(name, reports):
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     told = [text for level, text in reports() if level in {"Error", "Warning"}]
     # The tube's one end shrinks beyond single precision.
+    about_quality = "stretched to more than twice their width"
+    told = [text for text in told if about_quality not in text]
     assert [text for text in told if "shrink below" not in text] == []
     assert not told or "tube" in name
     assert digest.changes(before, digest.digest()) == []
@@ -60,13 +62,18 @@ def test_solvable_mesh_is_solved(name, reports):
         assert deviation(uv[corners], solution.uv[corners]) < 1e-4
 
 
+def unwrapped(told):
+    """Return the sentence of what was unwrapped, after which warnings may come."""
+    return next(text for _, text in told if text.startswith("Unwrapped "))
+
+
 @pytest.mark.parametrize("name", [name for name in SOLVED if hard_meshes.CASES[name].expect == "solve_flips"])
 def test_flips_are_reported(name, reports):
     edited(*hard_meshes.CASES[name].make())
     flips = sum(chart.flipped for chart in solved_charts().charts)
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert (f"; {flips} flipped face" if flips else "; no flipped faces") in reports()[-1][1]
+    assert (f"; {flips} flipped face" if flips else "; no flipped faces") in unwrapped(reports())
 
 
 @pytest.mark.parametrize("name", REJECTED)

@@ -67,12 +67,59 @@ def test_a_margin_that_is_no_number_is_an_error_and_changes_nothing():
     assert not bare.data.uv_layers
 
 
-def test_nothing_selected(reports):
-    grid = scenes.grid(1, 1)
-    scenes.edit(grid, select=False)
+def test_nothing_selected_means_all_that_is_visible(reports):
+    grid = scenes.grid(2, 2)
+    scenes.edit(grid)
+    scenes.select_faces(grid, [0])
+    bpy.ops.mesh.hide()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    before = scenes.read_uv(grid)
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    (level, text), (_, result) = reports()
+    assert (level, text) == ("Info", "Nothing is selected, so all visible faces are unwrapped")
+    assert result.startswith("Unwrapped 1 island")
+    changed = (scenes.read_uv(grid) != before).any(axis=1)
+    assert not changed[:4].any()
+    assert changed[4:].any()
+    assert not any(face.select for face in scenes.edit_mesh(grid).faces)
+
+
+def test_nothing_visible(reports):
+    scenes.edit(scenes.grid(1, 1))
+    bpy.ops.mesh.hide()
     reports()
     bpy.ops.uv.spectral_unwrap()
     assert reports() == [("Warning", "No faces selected")]
+
+
+def test_unwrapping_after_suggested_seams_needs_no_selection():
+    scenes.edit(scenes.cube(), select=False)
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+
+
+def test_faces_that_are_bent_far_more_than_the_rest_are_a_warning_and_the_last_line(reports):
+    spike = scenes.grid(8, 8)
+    scenes.edit(spike)
+    bm = scenes.edit_mesh(spike)
+    bm.verts.ensure_lookup_table()
+    bm.verts[40].co.z = 3.0
+    reports()
+    bpy.ops.uv.spectral_unwrap()
+    *_, (level, text) = reports()
+    assert level == "Warning"
+    assert "stretched to more than twice their width" in text
+
+
+def test_the_notice_on_scale_is_the_last_line(reports):
+    grid = scenes.grid(2, 2)
+    grid.scale = 1.0, 2.0, 1.0
+    scenes.edit(grid)
+    reports()
+    bpy.ops.uv.spectral_unwrap()
+    *_, (level, text) = reports()
+    assert (level, "non-uniform scale" in text) == ("Info", True)
 
 
 def test_non_finite_coordinates_are_named(reports):

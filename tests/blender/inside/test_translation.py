@@ -56,7 +56,8 @@ def test_reports_come_in_the_language_of_the_user(in_german, capfd):
 
 
 def test_constants_in_reports_do_too(in_german, capfd):
-    scenes.edit(scenes.grid(1, 1), select=False)
+    scenes.edit(scenes.grid(1, 1))
+    bpy.ops.mesh.hide()
     capfd.readouterr()
     bpy.ops.uv.spectral_unwrap()
     assert ("Keine Flächen ausgewählt" if in_german else "No faces selected") in capfd.readouterr().out

@@ -59,9 +59,10 @@ def test_closed_mesh_without_a_uv_map_gets_none():
     assert len(cube.data.uv_layers) == 0
 
 
-def test_nothing_selected_is_cancelled_and_unchanged():
+def test_nothing_visible_is_cancelled_and_unchanged():
     grid = scenes.grid(2, 2)
-    scenes.edit(grid, select=False)
+    scenes.edit(grid)
+    bpy.ops.mesh.hide()
     before, state = scenes.read_uv(grid), scenes.state(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"CANCELLED"}
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
