@@ -18,7 +18,7 @@ class Summary:
     Attributes:
         solved: number of solved charts.
         mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
-        max_qc: largest quasi-conformal distortion of a triangle.
+        max_qc: largest quasi-conformal distortion of a face.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that cover others of their chart.
         unfolded: number of flipped triangles that were unfolded on request.
