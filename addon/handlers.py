@@ -28,6 +28,12 @@ def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
 
 
 @persistent
+def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    # Blender tells of what a frame changes by this event only.
+    map_overlay.on_update(depsgraph)
+
+
+@persistent
 def _before_undo(*_arguments: object) -> None:
     # What is dragged is in no undo step; undoing would leave half of it.
     adjusted_map.give_up()
@@ -55,6 +61,8 @@ def _before_load(*_arguments: object) -> None:
 def _after_load(*_arguments: object) -> None:
     tracking.follow(_edited())
     following.see()
+    # The switch is of the file that is open now.
+    map_overlay.follow_switch()
 
 
 def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
@@ -73,19 +81,23 @@ def _edited() -> list[bpy.types.Mesh]:
 
 
 def _begin() -> None:
-    """Take up the meshes that are in edit mode already, where the add-on is enabled in the middle of it."""
+    """Take up the meshes in edit mode, and the overlay, where the add-on is enabled in the middle of it."""
     tracking.follow(_edited())
     following.see()
+    map_overlay.follow_switch()
 
 
 _HANDLERS = (
     ("depsgraph_update_post", _on_depsgraph_update),
+    ("frame_change_post", _on_frame_change),
     ("undo_pre", _before_undo),
     ("redo_pre", _before_undo),
     ("undo_post", _after_undo),
     ("redo_post", _after_undo),
     ("load_pre", _before_load),
     ("load_post", _after_load),
+    # A file that cannot be read leaves the one that was open.
+    *([("load_post_fail", _after_load)] if hasattr(bpy.app.handlers, "load_post_fail") else []),
 )
 
 

@@ -52,7 +52,7 @@ class SpectralExtender(PropertyGroup):
 
 
 def _on_map_toggle(_overlay: PropertyGroup, _context: Context) -> None:
-    map_overlay.toggled()
+    map_overlay.follow_switch()
 
 
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:

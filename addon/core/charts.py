@@ -54,3 +54,28 @@ def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
 def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
     ends = np.sort(np.asarray(edges, dtype=np.int64).reshape(-1, 2), axis=1)
     return ends[:, 0] * len(mesh.vertices) + ends[:, 1]
+
+
+def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:
+    """Return whether `faces`, indices, are an island still, of those that were unwrapped, `domain` (F,) bool.
+
+    They are one chart; or, where seams have changed since, one island of the map, which no face outside joins.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    if _is_part(chart_of_face(mesh, domain), faces):
+        return True
+    if mesh.uv is None or not np.isfinite(mesh.uv).all():
+        return False
+    defects = native.spectral_conformal().map_defects
+    found = defects(mesh.face_offsets, mesh.corner_vertices, mesh.uv.astype(np.float32), selected_faces=domain)
+    return _is_part(found.island_of_face, faces)
+
+
+def _is_part(part_of_face: np.ndarray, faces: np.ndarray) -> bool:
+    """Return whether `faces` are all that have one number of `part_of_face`, (F,), and no others."""
+    first = part_of_face[faces[0]]
+    return bool(
+        first >= 0 and (part_of_face[faces] == first).all() and np.count_nonzero(part_of_face == first) == len(faces)
+    )

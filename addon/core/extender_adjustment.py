@@ -3,6 +3,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +29,7 @@ class ExtenderAdjustment:
     Attributes:
         corners: (N,) intp, the corners of the charts that the extenders act on, whole faces.
         unused: how many of the extenders had no effect on the last map.
+        charts: the records of the charts in the last map.
     """
 
     def __init__(self, mesh: PolygonMesh, options: Options, pairs: Sequence[tuple[int, int]]) -> None:
@@ -52,6 +54,7 @@ class ExtenderAdjustment:
         self._others = [extender for extender in mesh.extenders if frozenset(extender[:2]) not in adjusted]
         self.corners = np.flatnonzero(faces[mesh.face_of_corner()])
         self.unused = 0
+        self.charts: Sequence[Any] = ()
         try:
             self._unwrapper = native.spectral_conformal().Unwrapper(
                 mesh.vertices,
@@ -84,6 +87,7 @@ class ExtenderAdjustment:
         self.unused = int(np.count_nonzero(result.unused_extenders[len(self._others) :]))
         if self.unused == len(self._pairs):
             raise AdjustmentError(translate(texts.HELD_BY_PINS))
+        self.charts = result.charts
         if self._shown is None:
             self._chart = result.chart_of_face[self._mesh.face_of_corner()]
             self._shown, self._scale = self._start(result.uv, self._chart, result.charts.column("area"))

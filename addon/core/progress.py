@@ -18,9 +18,9 @@ def parts(groups: Sequence[Sequence[PolygonMesh]], progress: Progress | None) ->
     faces = [sum(max(1, np.count_nonzero(mesh.selected_faces)) for mesh in group) for group in groups]
     sizes = np.array(faces, dtype=np.float64) / sum(faces)
     ends = np.cumsum(sizes)
-    return [_part(progress, end - size, size) for end, size in zip(ends.tolist(), sizes.tolist())]
+    return [part(progress, end - size, size) for end, size in zip(ends.tolist(), sizes.tolist())]
 
 
-def _part(progress: Progress, start: float, length: float) -> Progress:
+def part(progress: Progress, start: float, length: float) -> Progress:
     """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
     return lambda fraction, phase: progress(start + length * fraction, phase)

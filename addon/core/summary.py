@@ -21,8 +21,8 @@ class Summary:
     Attributes:
         solved: number of solved charts.
         mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
-        max_qc: largest quasi-conformal distortion of a triangle.
-        strained: number of solved charts with a triangle beyond STRAINED_QC.
+        max_qc: largest quasi-conformal distortion of a face.
+        strained: number of solved charts with a face beyond STRAINED_QC.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that cover others of their chart.
         unfolded: number of flipped triangles that were unfolded on request.

@@ -16,10 +16,11 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem
 
-from .. import names
+from .. import editors, names
 from ..core import extender_pairs as core
 from ..core import texts
 from ..core.extender_pairs import Extender
+from ..identity import ByMesh
 from .strength import STRENGTH_LIMIT
 
 
@@ -28,7 +29,7 @@ class _Session:
     """Lists seen since the file was loaded, by the name of their layer, and lists of meshes before they had a layer."""
 
     lists: dict[str, list[Extender]] = field(default_factory=dict)
-    without_layer: dict[str, list[Extender]] = field(default_factory=dict)
+    without_layer: ByMesh[list[Extender]] = field(default_factory=ByMesh)
     is_writing: bool = False
 
 
@@ -55,6 +56,7 @@ def active(mesh: bpy.types.Mesh) -> bpy.types.PropertyGroup | None:
 def set_active(mesh: bpy.types.Mesh, index: int) -> None:
     """Make an extender the active one."""
     setattr(mesh, names.ACTIVE_EXTENDER_PROPERTY, index)
+    editors.redraw(bpy.context)
 
 
 def set_strength(mesh: bpy.types.Mesh, index: int, strength: float) -> None:
@@ -184,8 +186,8 @@ def restore(mesh: bpy.types.Mesh) -> None:
     known = [name for name in layers if name in _session.lists]
     if known:
         extenders, name = _session.lists[known[0]], known[0]
-    elif not layers and mesh.name_full in _session.without_layer:
-        extenders, name = _session.without_layer[mesh.name_full], ""
+    elif not layers and (without_layer := _session.without_layer.get(mesh)) is not None:
+        extenders, name = without_layer, ""
     else:
         return
     index = getattr(mesh, names.ACTIVE_EXTENDER_PROPERTY)
@@ -204,7 +206,7 @@ def _identify(bm: BMesh, mesh: bpy.types.Mesh, vertices: Sequence[int]) -> dict[
     """Return the identifiers of vertices, given by index; those without one get one."""
     layer = _layer(bm, mesh)
     if layer is None:
-        _session.without_layer[mesh.name_full] = _read(mesh)
+        _session.without_layer.set(mesh, _read(mesh))
         name = core.layer_name(names.EXTENDER_LAYER_PREFIX, _read(mesh))
         layer = bm.verts.layers.int.new(name)
         setattr(mesh, names.EXTENDER_LAYER_PROPERTY, name)
@@ -229,8 +231,10 @@ def _ids_of_vertices(bm: BMesh, layer: BMLayerItem) -> np.ndarray:
 
 
 def _mark(mesh: bpy.types.Mesh) -> None:
-    """Rename the layer of a mesh after its list, which has changed."""
+    """Rename the layer of a mesh after its list, which has changed, and let what is drawn of it follow."""
     remember(mesh)
+    # Blender draws again where a property changes, but not where one goes.
+    editors.redraw(bpy.context)
     attribute = _attribute(mesh)
     if attribute is None:
         return

@@ -17,6 +17,7 @@ from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_loops
 from ..extenders import storage
 from ..extenders.strength import STRENGTH_LIMIT
+from ..unwrapping import island_list
 from ..unwrapping.last_settings import last_settings
 from . import following
 from .extenders import note_on_subsurf
@@ -73,7 +74,8 @@ class AdjustedMap:
         settings = last_settings()
         self.note = note_on_subsurf(settings, edit_object)
         for all_visible in (False, True):
-            polygons = read_mesh(edit_object, False, all_visible, settings.correct_aspect).polygons
+            self._edit_mesh = read_mesh(edit_object, False, all_visible, settings.correct_aspect)
+            polygons = self._edit_mesh.polygons
             unwrapped = polygons.corner_vertices[polygons.selected_faces[polygons.face_of_corner()]]
             if np.isin(ends, unwrapped).all():
                 break
@@ -102,6 +104,7 @@ class AdjustedMap:
         # Before, so that the change counts as one.
         storage.show_strength(self.mesh, self.index, self._strength_before)
         storage.set_strength(self.mesh, self.index, strength)
+        island_list.update(self._edit_mesh, self._adjustment.charts)
         self._end()
 
     def restore(self) -> None:

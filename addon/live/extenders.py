@@ -13,6 +13,7 @@ from ..core.translation import translate
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import write_uv
+from ..unwrapping import island_list
 from ..unwrapping.last_settings import last_settings
 
 
@@ -38,6 +39,7 @@ def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], fl
     uv = np.zeros((len(corners), 2))
     uv[corners] = adjustment.map(list(strengths.values()), is_final=True)
     write_uv(edit_mesh, uv, corners)
+    island_list.update(edit_mesh, adjustment.charts)
     return note_on_subsurf(settings, edit_object) or texts.unused_extenders(adjustment.unused)
 
 

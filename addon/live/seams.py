@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The meshes in edit mode are unwrapped again after seams were marked or cleared."""
 
+import time
 from collections.abc import Mapping
 
 import bpy
 import numpy as np
 
 from ..core.charts import faces_of_charts_at
-from ..unwrapping import steps
+from ..unwrapping import island_list, steps
 from ..unwrapping.last_settings import last_settings
 
 
@@ -20,7 +21,7 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
         NativeModuleError: `spectral_conformal` cannot be imported.
         MarginError: the margin is not finite; nothing changed.
     """
-    settings = last_settings()
+    start, settings = time.perf_counter(), last_settings()
     edit_meshes = steps.read(context, settings, all_visible=True)
     if settings.keep_in_place:
         edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.mesh in changed]
@@ -28,4 +29,6 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
             visible = edit_mesh.polygons.selected_faces
             visible &= faces_of_charts_at(edit_mesh.polygons, visible, changed[edit_mesh.mesh])
     solutions = steps.solve(edit_meshes, settings)
-    return steps.write(settings, edit_meshes, solutions).summary.solved > 0
+    outcome = steps.write(settings, edit_meshes, solutions)
+    island_list.show(edit_meshes, solutions, steps.reports(outcome, time.perf_counter() - start), others_stay=True)
+    return outcome.summary.solved > 0

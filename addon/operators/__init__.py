@@ -4,7 +4,7 @@
 import bpy
 
 from ..unwrapping import comparison, island_list, last_result
-from . import extender_adjust, job_operator
+from . import extender_adjust, inspect_map, job_operator
 from .compare import UV_OT_spectral_compare
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
@@ -39,8 +39,10 @@ _CLASSES = (
 
 
 def before_load() -> None:
-    """End the job that is under way, and forget what the file that is about to be left has to do with."""
+    """End what is under way, and forget what the file that is about to be left has to do with."""
     job_operator.end_all()
+    extender_adjust.end_running()
+    inspect_map.end_running(bpy.context)
     last_result.forget()
     island_list.forget()
     comparison.forget()
@@ -58,6 +60,5 @@ def unregister() -> None:
     Blender drops running operators whose class goes without calling `cancel`.
     """
     before_load()
-    extender_adjust.end_running()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

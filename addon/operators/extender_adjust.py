@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
-from .. import names
+from .. import editors, names
 from ..core import texts
 from ..core.extender_adjustment import AdjustmentError
 from ..core.translation import translate
@@ -130,10 +130,8 @@ class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
             self._problem = str(error)
         number = f"[{self._typed.text}|]" if self._typed.text else f"{self.strength:.3f}"
         note = self._problem or translate(texts.ADJUST_EXTENDER_KEYS)
-        context.workspace.status_text_set(texts.adjusting(number, note))
-        for area in context.screen.areas:
-            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
-                area.tag_redraw()
+        progress.show_status(context, texts.adjusting(number, note))
+        editors.redraw(context)
 
     def _keep(self, adjusted: AdjustedMap) -> set[str]:
         """Write the map of the strength in full precision and store the strength.

@@ -34,7 +34,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         if not overlay.show:
             overlay.show = True
         context.window_manager.modal_handler_add(self)
-        context.workspace.status_text_set(translate(texts.INSPECT_KEYS))
+        progress.show_status(context, translate(texts.INSPECT_KEYS))
         self._follow(context, event)
         return {"RUNNING_MODAL"}
 
@@ -72,10 +72,15 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         map_overlay.point_at(context, None if found is None else (found.shown.name_full, found.face))
 
     def _end(self, context: bpy.types.Context) -> set[str]:
-        map_overlay.point_at(context, None)
-        under_mouse.forget()
-        progress.clear_status(context)
+        end_running(context)
         return {"FINISHED"}
+
+
+def end_running(context: bpy.types.Context) -> None:
+    """Leave nothing shown and nothing kept, from anywhere."""
+    map_overlay.point_at(context, None)
+    under_mouse.forget()
+    progress.clear_status(context)
 
 
 def _select_island(context: bpy.types.Context, found: FaceBelow, extend: bool) -> None:

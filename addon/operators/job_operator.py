@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators that wait for work in a thread: timer, progress, cancelling, and cleaning up, whatever ends the job."""
 
+import time
 from collections.abc import Callable, Generator
 from contextlib import closing
 from dataclasses import dataclass
@@ -86,7 +87,7 @@ class _Running:
     def wait(self, context: bpy.types.Context, worker: Worker) -> None:
         """Show the worker's progress, and let a timer wake the operator."""
         self.worker = worker
-        self._progress = WindowProgress(context, self.label)
+        self._progress = WindowProgress(context, self.label, worker.fraction, worker.phase)
         self._keep_awake(context)
 
     def ask(self, context: bpy.types.Context, choice: Choice) -> None:
@@ -229,7 +230,7 @@ class JobOperator(ReportingOperator):
 
     def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:
         """Let the job go on, at its start with None, until it ends or a window has to wait."""
-        running = self._job
+        running, start = self._job, None if done is None else time.monotonic()
         while True:
             try:
                 step = running.job.send(done)
@@ -239,7 +240,10 @@ class JobOperator(ReportingOperator):
                 running.ask(context, step)
                 return {"RUNNING_MODAL"}
             worker = Worker(step, user_preferences.read("threads", 0))
-            if not worker.wait(_SECONDS_BEFORE_MODAL):
+            # What the job did itself since its first step counts, too: meanwhile Blender did not hear the artist.
+            start = time.monotonic() if start is None else start
+            left = _SECONDS_BEFORE_MODAL - (time.monotonic() - start)
+            if not worker.wait(max(left, _TIMER_SECONDS)) or left <= 0.0:
                 running.wait(context, worker)
                 return {"RUNNING_MODAL"}
             done = Done(context, worker.result(), running.is_late)

@@ -17,7 +17,7 @@ from ..core.translation import translate
 from ..core.worker import Worker
 from ..overlay import map_overlay
 from ..overlay.seam_lines import SeamLines
-from ..ui.progress import HeaderText, clear_status
+from ..ui.progress import HeaderText, clear_status, show_status
 from ..unwrapping.seams import Target
 
 # Keys that change the number of cuts, as in Blender's Loop Cut, by one or by a tenth of all.
@@ -118,7 +118,7 @@ class SeamPreview:
         parts = [texts.preview(self.count, len(self._suggestion.cuts), length, total)]
         if not missing:
             parts.append(texts.expected(self._measured[0], self._measured[self.count], self._factor))
-        context.workspace.status_text_set(texts.preview_status("; ".join(parts)))
+        show_status(context, texts.preview_status("; ".join(parts)))
 
     def end(self, context: bpy.types.Context) -> None:
         """Remove everything shown."""

@@ -8,11 +8,12 @@ import gpu
 import numpy as np
 from mathutils import Matrix
 
-from ..core import texts
+from .. import editors
+from ..core import free_room, texts
 from ..core.errors import PrintOnce
 from ..core.map_view import MapView, automatic_range
-from . import colored_triangles, legend
-from .screen_text import LINE, draw_line, fill_box
+from . import colored_triangles, covers, legend
+from .screen_text import LINE, draw_line, fill_box, fitting_scale, text_width
 
 _BACKGROUND = (0.08, 0.08, 0.08, 1.0)
 _TILE = (0.17, 0.17, 0.17, 1.0)
@@ -20,9 +21,8 @@ _BEST = (0.55, 0.85, 1.0, 1.0)
 _TEXT = (0.92, 0.92, 0.92, 1.0)
 # Pixels at a scale of 1.
 _PADDING = 14.0
-# Columns of the table, as parts of its width; the first has names.
-_COLUMNS = (0.0, 0.25, 0.37, 0.49, 0.62, 0.74, 0.88)
-_TABLE_WIDTH = 560.0
+# Between the columns of the table.
+_GAP = 18.0
 
 
 class ComparisonView:
@@ -53,7 +53,8 @@ class ComparisonView:
         if self._handle is not None:
             self._space.draw_handler_remove(self._handle, "WINDOW")
             self._handle = None
-            self._area.tag_redraw()
+            # The editor itself may be gone.
+            editors.redraw(bpy.context)
 
     def _draw(self) -> None:
         if bpy.context.area != self._area:
@@ -65,19 +66,29 @@ class ComparisonView:
 
     def _fill(self, context: bpy.types.Context) -> None:
         region, scale = context.region, context.preferences.system.ui_scale
-        left, right, top = _free(context.area, region)
-        fill_box((0.0, 0.0, float(region.width), float(region.height)), (_BACKGROUND,) * 4)
+        size = (float(region.width), float(region.height))
+        fill_box((0.0, 0.0, *size), (_BACKGROUND,) * 4)
+        room = free_room.largest(size, covers.of(context.area, region))
         padding = _PADDING * scale
-        y = self._table(left + padding, top - padding, min(_TABLE_WIDTH * scale, right - left - 2 * padding), scale)
-        self._draw_maps((left + padding, padding, right - padding, y - padding), scale)
+        if room is None or min(room[2] - room[0], room[3] - room[1]) <= 2.0 * padding:
+            return
+        left, bottom, right, top = room[0] + padding, room[1] + padding, room[2] - padding, room[3] - padding
+        y = self._table((left, bottom, right, top), scale)
+        self._draw_maps((left, bottom, right, y - padding), scale)
 
-    def _table(self, left: float, top: float, width: float, scale: float) -> float:
-        """Draw the table and return where it ends."""
-        for index, row in enumerate((texts.comparison_header(), *self._rows)):
+    def _table(self, box: tuple[float, float, float, float], scale: float) -> float:
+        """Draw the table from the top of a box, no wider or higher than that, and return where it ends."""
+        left, bottom, right, top = box
+        rows = (texts.comparison_header(), *self._rows)
+        widths = [max(text_width(row[k], scale) for row in rows) for k in range(len(rows[0]))]
+        width, height = sum(widths) + _GAP * scale * (len(widths) - 1), LINE * scale * len(rows)
+        fit = min(1.0, (right - left) / width, (top - bottom) / height)
+        places = [left + fit * (sum(widths[:k]) + k * _GAP * scale) for k in range(len(widths))]
+        for index, row in enumerate(rows):
             color = _BEST if index == self._best + 1 else _TEXT
-            for place, cell in zip(_COLUMNS, row):
-                draw_line(cell, left + place * width, top, scale, color)
-            top -= LINE * scale
+            for place, cell in zip(places, row):
+                draw_line(cell, place, top, fit * scale, color)
+            top -= LINE * fit * scale
         return top
 
     def _draw_maps(self, box: tuple[float, float, float, float], scale: float) -> None:
@@ -96,7 +107,7 @@ class ComparisonView:
         for index, row in enumerate(self._rows):
             x = left + (index % columns) * sizes[columns]
             y = top - (index // columns) * (sizes[columns] + line)
-            draw_line(row[0], x, y, scale, _BEST if index == self._best else _TEXT)
+            draw_line(row[0], x, y, fitting_scale(row[0], size, scale), _BEST if index == self._best else _TEXT)
             y -= line + size
             fill_box((x, y, x + size, y + size), (_TILE,) * 4)
             self._draw_map(index, x, y, size)
@@ -128,19 +139,3 @@ def _bounds(views: Sequence[MapView]) -> tuple[np.ndarray, float]:
         if len(uv):
             low, high = np.minimum(low, uv.min(axis=0)), np.maximum(high, uv.max(axis=0))
     return low, float((high - low).max())
-
-
-def _free(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, float, float]:
-    """Return the left, right and upper end of what toolbar, sidebar and header leave free of the main region."""
-    left, right, top = 0.0, float(region.width), float(region.height)
-    if bpy.context.preferences.system.use_region_overlap:
-        for other in area.regions:
-            if other.width <= 1 or other.height <= 1:
-                continue
-            if other.type == "TOOLS":
-                left = max(left, float(other.x - region.x + other.width))
-            elif other.type == "UI":
-                right = min(right, float(other.x - region.x))
-            elif other.type in {"HEADER", "TOOL_HEADER"} and other.y > region.y + region.height // 2:
-                top = min(top, float(other.y - region.y))
-    return left, right, top

@@ -13,6 +13,7 @@ import numpy as np
 from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 
+from .. import editors
 from ..core import arrow_shapes, texts
 from ..core.arrow_shapes import ArrowSize
 from ..core.errors import PrintOnce
@@ -144,8 +145,9 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove the draw handlers."""
+    """Remove the draw handlers, and what they have drawn."""
     for space, handle in _handles:
         space.draw_handler_remove(handle, "WINDOW")
     _handles.clear()
+    editors.redraw(bpy.context)
     _print_once.forget()

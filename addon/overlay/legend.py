@@ -6,7 +6,8 @@ from collections.abc import Sequence
 import bpy
 
 from .. import user_preferences
-from ..core import color_ramp, texts
+from ..core import color_ramp, free_room, texts
+from . import covers
 from .colored_triangles import Colors
 from .screen_text import LINE, draw_line, fill_box, text_width
 
@@ -21,7 +22,10 @@ _CHOSEN = {
 }
 # Pixels at a scale of 1.
 _WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
+_LABELS = 1.3 * LINE
 _BACKGROUND = (0.08, 0.08, 0.08, 0.72)
+# Where letters are smaller than four pixels nobody reads them.
+_LEAST_SCALE = 0.4
 
 
 def colors_of(kind: str, opacity: float) -> Colors:
@@ -37,37 +41,49 @@ def colors_of(kind: str, opacity: float) -> Colors:
 def draw(
     context: bpy.types.Context, kind: str, colors: Colors, low_high: tuple[float, float], lines: Sequence[str]
 ) -> None:
-    """Draw the legend in the lower right corner of the region, left of the sidebar."""
+    """Draw the legend in the lower right corner that other regions leave free, smaller where it does not fit."""
+    low, high = low_high
+    labels = () if kind == texts.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
+    lines = (texts.look(kind), *lines)
     scale = context.preferences.system.ui_scale
-    has_bar = kind != texts.LOOK_CHECKER
-    height = (LINE * (1 + len(lines)) + (_BAR_HEIGHT + 1.3 * LINE if has_bar else 0.0) + 2 * _PADDING) * scale
-    width = _WIDTH * scale
-    right = context.region.width - _sidebar_width(context.area) - _DISTANCE * scale
-    bottom = _DISTANCE * scale
-    left, top = right - width, bottom + height
-    if left < 0.0:
-        return
+    width, height = _size(lines, labels, scale)
+    region = context.region
+    size = (float(region.width), float(region.height))
+    room = free_room.lower_right(size, covers.of(context.area, region), width, height)
+    if room is None or scale * (room[2] - room[0]) / width < _LEAST_SCALE:
+        # Below what covers everything: sidebars are seen through beside their panels.
+        room = free_room.lower_right(size, (), width, height)
+    scale *= (room[2] - room[0]) / width
+    distance, padding = _DISTANCE * scale, _PADDING * scale
+    left, bottom, right, top = room[0] + distance, room[1] + distance, room[2] - distance, room[3] - distance
     fill_box((left, bottom, right, top), (_BACKGROUND,) * 4)
-    inner, y = left + _PADDING * scale, top - _PADDING * scale
-    y = draw_line(texts.look(kind), inner, y, scale)
-    if has_bar:
-        inner_right = right - _PADDING * scale
-        middle, bar_bottom = 0.5 * (inner + inner_right), y - _BAR_HEIGHT * scale
-        ends = [(*color, 1.0) for color in (colors.low, colors.middle, colors.high)]
-        fill_box((inner, bar_bottom, middle, y), (ends[0], ends[1], ends[1], ends[0]))
-        fill_box((middle, bar_bottom, inner_right, y), (ends[1], ends[2], ends[2], ends[1]))
-        low, high = low_high
-        labels = texts.legend_ends(kind, low, 0.5 * (low + high), high)
-        for place, label in zip((0.0, 0.5, 1.0), labels):
-            x = inner + place * (inner_right - inner - text_width(label, scale))
-            draw_line(label, x, bar_bottom - 0.1 * LINE * scale, scale)
-        y = bar_bottom - 1.3 * LINE * scale
-    for line in lines:
-        y = draw_line(line, inner, y, scale)
+    y = draw_line(lines[0], left + padding, top - padding, scale)
+    if labels:
+        y = _draw_bar(colors, labels, (left + padding, right - padding), y, scale)
+    for line in lines[1:]:
+        y = draw_line(line, left + padding, y, scale)
 
 
-def _sidebar_width(area: bpy.types.Area) -> float:
-    """Return how much of the main region the sidebar covers."""
-    if not bpy.context.preferences.system.use_region_overlap:
-        return 0.0
-    return max((region.width for region in area.regions if region.type == "UI" and region.width > 1), default=0.0)
+def _size(lines: Sequence[str], labels: Sequence[str], scale: float) -> tuple[float, float]:
+    """Return width and height in pixels that the legend takes, with its distance from what is around it."""
+    widths = [text_width(line, scale) for line in lines]
+    if labels:
+        # One stands at either end, one in the middle.
+        ends = max(text_width(label, scale) for label in (labels[0], labels[-1]))
+        widths.append(2.0 * ends + text_width(labels[1], scale) + 2.0 * _PADDING * scale)
+    around = 2.0 * _DISTANCE + 2.0 * _PADDING
+    rows = LINE * len(lines) + (_BAR_HEIGHT + _LABELS if labels else 0.0)
+    return max(_WIDTH * scale, max(widths) + 2.0 * _PADDING * scale) + 2.0 * _DISTANCE * scale, (rows + around) * scale
+
+
+def _draw_bar(colors: Colors, labels: Sequence[str], ends: tuple[float, float], top: float, scale: float) -> float:
+    """Draw the bar with the colours between its two `ends`, its labels below it; return where the next line begins."""
+    left, right = ends
+    middle, bottom = 0.5 * (left + right), top - _BAR_HEIGHT * scale
+    low, between, high = ((*color, 1.0) for color in (colors.low, colors.middle, colors.high))
+    fill_box((left, bottom, middle, top), (low, between, between, low))
+    fill_box((middle, bottom, right, top), (between, high, high, between))
+    for place, label in zip((0.0, 0.5, 1.0), labels):
+        x = left + place * (right - left - text_width(label, scale))
+        draw_line(label, x, bottom - 0.1 * LINE * scale, scale)
+    return bottom - _LABELS * scale

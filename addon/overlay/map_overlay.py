@@ -7,16 +7,16 @@ the islands, which take longer, come when the mesh has been left alone for a mom
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import bpy
 import gpu
 import numpy as np
 
-from .. import names, user_preferences
+from .. import editors, names, user_preferences
 from ..core import texts
 from ..core.errors import PrintOnce
-from ..core.map_view import IslandNumbers, MapArrays, MapView, automatic_range
+from ..core.map_view import IslandNumbers, MapArrays, MapView, automatic_range, joined_numbers
 from ..edit_mesh import read_map
 from . import colored_triangles, legend
 from .colored_triangles import Colors
@@ -40,7 +40,6 @@ class _ShownMesh:
         self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
         self._places: gpu.types.GPUVertBuf | None = None
         self.is_too_large = False
-        self.numbers: IslandNumbers | None = None
         self.islands_known = False
 
     def edited(self) -> None:
@@ -80,7 +79,7 @@ class _ShownMesh:
         self._view = None if arrays is None else MapView(arrays, before if has_mesh else None)
         self._batches.clear()
         self._in_editor.clear()
-        self.numbers, self.islands_known = None, False
+        self.islands_known = False
         if not has_mesh:
             self._places = None
 
@@ -109,6 +108,8 @@ class _ShownMesh:
 _shown: dict[str, _ShownMesh] = {}
 # The automatic range, kept while the mesh is edited: colours that change all the time tell nothing.
 _range: dict[tuple, tuple[float, float]] = {}
+# The numbers of the maps shown last, together.
+_numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
 _handles: list[tuple[type, object]] = []
 # UVs shown in place of those of objects, by their full names: a map that an artist may choose.
 _preview: dict[str, np.ndarray] = {}
@@ -128,14 +129,13 @@ def is_on() -> bool:
     return settings().show
 
 
-def toggled() -> None:
-    """Take up drawing, or end it and forget everything."""
-    context = bpy.context
+def follow_switch() -> None:
+    """Take up drawing, or end it and forget everything, as the switch says, whoever has turned it."""
     if is_on():
         _add_handlers()
     else:
         _remove_handlers()
-    redraw(context)
+    redraw(bpy.context)
 
 
 def edited() -> None:
@@ -161,6 +161,7 @@ def forget() -> None:
     _preview.clear()
     _shown.clear()
     _range.clear()
+    _numbers.clear()
 
 
 def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
@@ -182,10 +183,7 @@ def point_at(context: bpy.types.Context, face: tuple[str, int] | None) -> None:
 
 def redraw(context: bpy.types.Context) -> None:
     """Draw all editors that show the overlay again."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
-                area.tag_redraw()
+    editors.redraw(context)
 
 
 def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -313,17 +311,36 @@ def _draw_legend(context: bpy.types.Context) -> None:
         return
     chosen = settings()
     lines = texts.too_many_faces(too_large)
-    if len(found) == 1 and found[0][1].islands_known:
-        shown, view = found[0][1:]
-        lines.extend(texts.legend_numbers(texts.LEGEND_MESH, shown.numbers))
-        face = read_map.active_face(found[0][0])
-        if 0 <= face < len(view.island_of_face) and view.island_of_face[face] >= 0:
-            island = view.numbers([int(view.island_of_face[face])])
-            lines.extend(texts.legend_numbers(texts.LEGEND_ISLAND, island))
+    if found and all(shown.islands_known for _, shown, _ in found):
+        lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
+        lines.extend(_active_island_lines(context, found))
     for each, shown, view in found:
         if _pointed_at is not None and each.name_full == _pointed_at[0] and _pointed_at[1] < len(view.qc):
             lines.extend(_face_lines(shown, view, _pointed_at[1], chosen.image_size))
     legend.draw(context, chosen.kind, colors(), shown_range(context), lines)
+
+
+def _joined_numbers(shown: Sequence[MapView]) -> IslandNumbers:
+    """Return the numbers of all shown maps together."""
+    key = tuple(shown)
+    if key not in _numbers:
+        _numbers.clear()
+        _numbers[key] = joined_numbers(shown)
+    return _numbers[key]
+
+
+def _active_island_lines(
+    context: bpy.types.Context, found: Sequence[tuple[bpy.types.Object, _ShownMesh, MapView]]
+) -> Sequence[str]:
+    """Return the lines on the island of the active object's active face; none without one."""
+    for each, _, view in found:
+        if each != context.object:
+            continue
+        face = read_map.active_face(each)
+        if 0 <= face < len(view.island_of_face) and view.island_of_face[face] >= 0:
+            island = view.numbers([int(view.island_of_face[face])])
+            return texts.legend_numbers(texts.LEGEND_ISLAND, island)
+    return ()
 
 
 def _face_lines(shown: _ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:
@@ -347,14 +364,16 @@ def _look_at_islands() -> float | None:
     if left > 0.0:
         return left
     try:
-        for each, shown, _view in views(bpy.context):
+        found = views(bpy.context)
+        for each, shown, _view in found:
             if not shown.islands_known:
                 view = shown.confirm(bpy.context, each)
-                if view is None:
-                    continue
-                shown.numbers, shown.islands_known = view.numbers(), True
+                # Looked at here, and not while drawing.
+                shown.islands_known = view is not None and len(view.island_of_face) > 0
                 _range.clear()
                 redraw(bpy.context)
+        if found and all(shown.islands_known for _, shown, _ in found):
+            _joined_numbers([view for *_, view in views(bpy.context)])
     except Exception as error:  # noqa: BLE001 - a timer that fails is lost without a word
         _print_once(error)
     return None
@@ -380,12 +399,13 @@ def _remove_handlers() -> None:
 
 
 def register() -> None:
-    """Nothing is drawn before the overlay is turned on."""
+    """Nothing is drawn before `follow_switch`."""
 
 
 def unregister() -> None:
     """Draw nothing any more and forget everything."""
     _remove_handlers()
+    redraw(bpy.context)
     if bpy.app.timers.is_registered(_look_at_islands):
         bpy.app.timers.unregister(_look_at_islands)
     colored_triangles.shader.cache_clear()

@@ -8,7 +8,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from .. import compatibility
+from .. import compatibility, editors
 from ..core import seam_suggestion, texts
 from ..core.errors import PrintOnce
 from ..core.seam_suggestion import Suggestion
@@ -41,14 +41,14 @@ class SeamLines:
         # In background mode nothing is drawn.
         if self._handle is None and not bpy.app.background:
             self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
-        _redraw(context)
+        editors.redraw(context, "VIEW_3D")
 
     def remove(self, context: bpy.types.Context) -> None:
         """Draw nothing any more."""
         if self._handle is not None:
             bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
             self._handle = None
-        _redraw(context)
+        editors.redraw(context, "VIEW_3D")
 
     def points(self, start: int, end: int) -> np.ndarray:
         """Return the ends of the edges of cuts `start` to `end` - 1 in world space, (2 n, 3), edge after edge."""
@@ -86,10 +86,3 @@ class SeamLines:
                     shader.uniform_float("lineWidth", width * scale)
                     shader.uniform_float("color", (*_COLOR, opacity * visibility))
                     batch.draw(shader)
-
-
-def _redraw(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()

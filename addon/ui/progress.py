@@ -3,7 +3,7 @@
 
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 import bpy
 
@@ -30,18 +30,18 @@ def moves_view(event: bpy.types.Event) -> bool:
 class WindowProgress:
     """Progress at the mouse cursor and in the status bar."""
 
-    def __init__(self, context: bpy.types.Context, label: str) -> None:
-        """Show 0 % of what the operator with this label does."""
+    def __init__(self, context: bpy.types.Context, label: str, fraction: float, phase: str) -> None:
+        """Show how far the operator with this label is."""
         self._label = label
         self._window_manager = context.window_manager
         self._window_manager.progress_begin(0, 100)
-        self.update(context, 0.0, "")
+        self.update(context, fraction, phase)
 
     def update(self, context: bpy.types.Context, fraction: float, phase: str) -> None:
         """Show the fraction done and the phase."""
         percent = _percent(fraction)
         self._window_manager.progress_update(percent)
-        context.workspace.status_text_set(texts.progress(self._label, percent, phase))
+        show_status(context, texts.progress(self._label, percent, phase))
 
     def end(self, context: bpy.types.Context) -> None:
         """Remove everything shown."""
@@ -49,14 +49,36 @@ class WindowProgress:
         clear_status(context)
 
 
+# The workspaces whose status bar has a text of the add-on: one may be left for another while it is there.
+_workspaces: list[bpy.types.WorkSpace] = []
+
+
+def show_status(context: bpy.types.Context, text: str) -> None:
+    """Show a text in the status bar, in place of Blender's, until `clear_status`."""
+    context.workspace.status_text_set(text)
+    if context.workspace not in _workspaces:
+        _workspaces.append(context.workspace)
+
+
 def clear_status(context: bpy.types.Context) -> None:
-    """Give the status bar back to Blender, in all windows where the context has none, as in handlers and timers."""
-    if context.workspace is not None:
-        context.workspace.status_text_set(None)
-        return
-    for window in context.window_manager.windows:
-        with context.temp_override(window=window):
-            window.workspace.status_text_set(None)
+    """Give the status bar back to Blender wherever it has a text of the add-on, whatever the context is."""
+    windows = context.window_manager.windows
+    while _workspaces:
+        workspace = _workspaces.pop()
+        if workspace == context.workspace:
+            workspace.status_text_set(None)
+        elif _exists(workspace) and len(windows):
+            # Blender sets it in the workspace of the context, and needs a window. In one call that takes precedence.
+            window = nullcontext() if context.window else context.temp_override(window=windows[0])
+            with window, context.temp_override(workspace=workspace):
+                workspace.status_text_set(None)
+
+
+def _exists(data_block: bpy.types.ID) -> bool:
+    try:
+        return bool(data_block.name)
+    except ReferenceError:
+        return False
 
 
 class HeaderText:

@@ -37,35 +37,59 @@ class Candidate:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Tried:
+    """The maps of a method, one per mesh, None if it failed, and the seconds that it took."""
+
+    method: str
+    maps: tuple[MapArrays, ...] | None
+    seconds: float
+
+
 _last: list[Candidate] = []
 
 
-def compare(
-    context: bpy.types.Context,
+def methods() -> list[str]:
+    """Return the methods to compare, ours first: those of `texts.COMPARED_METHODS` that this Blender has."""
+    known = bpy.ops.uv.unwrap.get_rna_type().properties["method"].enum_items.keys()
+    return [method for method in texts.COMPARED_METHODS if method == texts.OURS or method in known]
+
+
+def ours(
     settings: Settings,
     edit_meshes: Sequence[EditMesh],
     solutions: Sequence[Solution],
     seconds: float,
     while_writing: WhileWriting,
-) -> list[Candidate]:
-    """Unwrap the faces by all methods, measure the maps, and write the UVs as they were.
+) -> Tried:
+    """Place and pack our solutions, and leave the UVs as they are.
 
     Args:
-        context: in which the faces were read.
-        settings: of the unwrap; Blender's methods get those that they share.
+        settings: of the unwrap.
         edit_meshes: what `steps.read` returned.
         solutions: what `steps.solve` returned for them.
         seconds: what that took.
         while_writing: makes a context manager that is entered for the time in which UVs change.
     """
-    found = []
-    for method in _methods():
 
-        def ours() -> None:
-            if any(solution.solved_corners.any() for solution in solutions):
-                steps.write_maps(settings, edit_meshes, solutions)
+    def unwrap() -> None:
+        if any(solution.solved_corners.any() for solution in solutions):
+            steps.write_maps(settings, edit_meshes, solutions)
 
-        def theirs(method: str = method) -> None:
+    return _try(texts.OURS, unwrap, edit_meshes, seconds, while_writing)
+
+
+def theirs(
+    context: bpy.types.Context,
+    settings: Settings,
+    edit_meshes: Sequence[EditMesh],
+    method: str,
+    while_writing: WhileWriting,
+) -> Tried:
+    """Let Blender unwrap by one of its methods, with the settings that it shares, and leave the UVs as they are."""
+
+    def unwrap() -> None:
+        with _copied_scene(context):
             bpy.ops.uv.unwrap(
                 "EXEC_DEFAULT",
                 method=method,
@@ -74,13 +98,20 @@ def compare(
                 margin=settings.margin.size,
             )
 
-        is_ours = method == texts.OURS
-        with while_writing(), _restored(edit_meshes):
-            _clear(edit_meshes)
-            candidate = _try(method, ours if is_ours else theirs, edit_meshes, seconds if is_ours else 0.0)
-        found.append(candidate)
+    return _try(method, unwrap, edit_meshes, 0.0, while_writing)
+
+
+def measured(tried: Tried) -> Candidate:
+    """Measure the maps of a method; any thread may call it."""
+    if tried.maps is None:
+        return Candidate(tried.method, (), None, tried.seconds)
+    views = tuple(map(MapView, tried.maps))
+    return Candidate(tried.method, views, joined_numbers(views) if views else None, tried.seconds)
+
+
+def remember(found: Sequence[Candidate]) -> None:
+    """Make these what was compared last."""
     _last[:] = found
-    return found
 
 
 def last() -> list[Candidate]:
@@ -102,21 +133,36 @@ def best(candidates: Sequence[Candidate]) -> Candidate | None:
     return min(complete, key=lambda each: each.numbers.mean_qc, default=None)
 
 
-def _methods() -> list[str]:
-    known = bpy.ops.uv.unwrap.get_rna_type().properties["method"].enum_items.keys()
-    return [method for method in texts.COMPARED_METHODS if method == texts.OURS or method in known]
+def _try(
+    method: str,
+    unwrap: Callable[[], None],
+    edit_meshes: Sequence[EditMesh],
+    seconds: float,
+    while_writing: WhileWriting,
+) -> Tried:
+    with while_writing(), _restored(edit_meshes):
+        _clear(edit_meshes)
+        start = time.perf_counter()
+        try:
+            unwrap()
+        except (RuntimeError, ReadableError):
+            # Blender's operators raise what they would report; the table says that the method failed.
+            return Tried(method, None, seconds + time.perf_counter() - start)
+        seconds += time.perf_counter() - start
+        maps = tuple(_arrays(edit_mesh) for edit_mesh in edit_meshes if edit_mesh.mesh.uv_layers)
+        return Tried(method, maps, seconds)
 
 
-def _try(method: str, unwrap: Callable[[], None], edit_meshes: Sequence[EditMesh], seconds: float) -> Candidate:
-    start = time.perf_counter()
+@contextmanager
+def _copied_scene(context: bpy.types.Context) -> Iterator[None]:
+    """Within, the context has a copy of the scene: Blender's Unwrap leaves its settings in the scene, for the next."""
+    layer = context.view_layer.name
+    copy = context.scene.copy()
     try:
-        unwrap()
-    except (RuntimeError, ReadableError):
-        # Blender's operators raise what they would report; the table says that the method failed.
-        return Candidate(method, (), None, seconds + time.perf_counter() - start)
-    seconds += time.perf_counter() - start
-    views = tuple(MapView(_arrays(edit_mesh)) for edit_mesh in edit_meshes if edit_mesh.mesh.uv_layers)
-    return Candidate(method, views, joined_numbers(views) if views else None, seconds)
+        with context.temp_override(scene=copy, view_layer=copy.view_layers[layer]):
+            yield
+    finally:
+        bpy.data.scenes.remove(copy)
 
 
 def _clear(edit_meshes: Sequence[EditMesh]) -> None:

@@ -3,16 +3,20 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 import numpy as np
 
 from .. import names
-from ..core import texts
-from ..core.solve import Solution, are_solved, column_of_all
+from ..core import chart_records, texts
+from ..core.charts import is_island
+from ..core.mesh import PolygonMesh
+from ..core.solve import Solution
 from ..core.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_mesh
+from ..identity import Identity
 
 # More would make the list slow and are not read.
 _MAX_ROWS = 500
@@ -20,11 +24,25 @@ _MAX_ROWS = 500
 
 @dataclass(frozen=True)
 class _Island:
-    """An island: the name of its mesh, the digest of the topology that its faces belong to, and the faces."""
+    """An island of a mesh.
 
-    mesh: str
+    Attributes:
+        mesh: which it is.
+        topology: the digest of the topology that its faces belong to.
+        domain: (F,) bool, the faces that were unwrapped with it.
+        chart: its record, of the native module.
+    """
+
+    mesh: Identity
     topology: int
-    faces: np.ndarray
+    domain: np.ndarray
+    chart: Any
+
+    def is_one_of(self, polygons: PolygonMesh) -> bool:
+        """Return whether a mesh, as it is now, has this island still; one that failed has no map to tell by."""
+        if polygons.topology != self.topology:
+            return False
+        return self.chart.status != "solved" or is_island(polygons, self.domain, self.chart.faces)
 
 
 _islands: list[_Island] = []
@@ -35,18 +53,58 @@ def show(
     edit_meshes: Sequence[EditMesh],
     solutions: Sequence[Solution],
     reports: Sequence[tuple[str, str]],
+    others_stay: bool = False,
 ) -> None:
-    """Make these solutions, and what was reported of them as (level, text), the last result."""
+    """Make these solutions, and what was reported of them as (level, text), the last result.
+
+    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list.
+    """
     _lines[:] = reports
-    _islands.clear()
+    charts = [solution.charts for solution in solutions]
+    others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
+    _fill([*(others if others_stay else ()), *_islands_of(edit_meshes, charts)])
+
+
+def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
+    """Show what has become of islands of the list that were solved again, given their charts."""
+    solved = np.zeros(len(edit_mesh.polygons.selected_faces), dtype=bool)
+    for chart in charts:
+        solved[chart.faces] = True
+    others = _others([edit_mesh], [solved])
+    if len(others) < len(_islands):
+        _fill([*others, *_islands_of([edit_mesh], [charts])])
+
+
+def _islands_of(edit_meshes: Sequence[EditMesh], charts: Sequence[Sequence[Any]]) -> list[_Island]:
+    found = []
+    for edit_mesh, of_mesh in zip(edit_meshes, charts):
+        polygons, identity = edit_mesh.polygons, Identity(edit_mesh.mesh)
+        for index in _worst_first(of_mesh)[:_MAX_ROWS].tolist():
+            found.append(_Island(identity, polygons.topology, polygons.selected_faces, of_mesh[index]))
+    return found
+
+
+def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> list[_Island]:
+    """Return the islands of the list but for those of the `solved` faces of these meshes, (F,) bool each."""
+
+    def stays(island: _Island) -> bool:
+        for edit_mesh, faces in zip(edit_meshes, solved):
+            if island.mesh.is_of(edit_mesh.mesh):
+                return island.topology == edit_mesh.polygons.topology and not faces[island.chart.faces].any()
+        return True
+
+    return [island for island in _islands if stays(island)]
+
+
+def _fill(islands: Sequence[_Island]) -> None:
+    """Make these the list, the worst first."""
+    order = _worst_first([island.chart for island in islands])
+    _islands[:] = [islands[index] for index in order[:_MAX_ROWS].tolist()]
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
-    first = np.cumsum([0, *(len(solution.charts) for solution in solutions)])
-    for index in _worst_first(solutions)[:_MAX_ROWS].tolist():
-        owner = int(np.searchsorted(first, index, side="right")) - 1
-        edit_mesh, chart = edit_meshes[owner], solutions[owner].charts[index - int(first[owner])]
-        _islands.append(_Island(edit_mesh.mesh.name_full, edit_mesh.polygons.topology, chart.faces))
+    for island in _islands:
+        chart = island.chart
         row = rows.add()
         row.name = _text(chart)
         row.is_bad = chart.status != "solved" or bool(chart.flipped or chart.overlapping)
@@ -61,19 +119,19 @@ def lines() -> list[tuple[str, str]]:
 def select(context: bpy.types.Context, index: int) -> None:
     """Select the visible faces of an island of the list, as a step that can be undone; -1 for none.
 
-    Where its mesh is not in edit mode any more, or has other faces now, the list says so.
+    Where its mesh is not in edit mode any more, or has other faces or islands now, the list says so.
     """
     if not 0 <= index < len(_islands):
         return
     island = _islands[index]
     for edit_object in context.objects_in_mode_unique_data if context.mode == "EDIT_MESH" else ():
-        if edit_object.data.name_full != island.mesh:
+        if not island.mesh.is_of(edit_object.data):
             continue
         edit_mesh = read_mesh(edit_object, all_visible=True)
-        if edit_mesh.polygons.topology != island.topology:
+        if not island.is_one_of(edit_mesh.polygons):
             break
         faces = np.zeros(len(edit_mesh.polygons.selected_faces), dtype=bool)
-        faces[island.faces] = True
+        faces[island.chart.faces] = True
         selection.select_only(context, {edit_mesh.mesh: faces & edit_mesh.polygons.selected_faces})
         if bpy.ops.ed.undo_push.poll():
             bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
@@ -84,18 +142,18 @@ def select(context: bpy.types.Context, index: int) -> None:
 
 
 def forget() -> None:
-    """Forget the faces, as names mean other meshes in another file, and what was said."""
+    """Forget the faces, as another file has other meshes, and what was said."""
     _islands.clear()
     _lines.clear()
 
 
-def _worst_first(solutions: Sequence[Solution]) -> np.ndarray:
-    """Return all islands, failed ones first, then those with flipped or overlapping faces, then by their worst face."""
+def _worst_first(charts: Sequence[Any]) -> np.ndarray:
+    """Return the order of charts: failed ones, then those with flipped or overlapping faces, then by their worst face."""
 
     def of(name: str) -> np.ndarray:
-        return column_of_all(solutions, name)
+        return chart_records.column(charts, name)
 
-    solved = are_solved(solutions)
+    solved = of("status") == "solved"
     number = np.where(solved, of("flipped") + of("overlapping"), of("n_faces"))
     return np.lexsort([np.where(solved, -of("max_qc"), 0.0), -number, solved])
 

@@ -2,7 +2,7 @@
 """Which islands failed when they were unwrapped last, by mesh, as long as the file is open.
 
 Faces are known by their index, so a result holds for the topology that the mesh had then, and holds again once an undo
-brings that back. Meshes are known by name: pointers change with undo.
+brings that back.
 """
 
 from collections.abc import Sequence
@@ -13,6 +13,7 @@ import numpy as np
 
 from ..core.solve import Solution
 from ..edit_mesh.read import EditMesh
+from ..identity import ByMesh
 
 
 @dataclass(frozen=True)
@@ -23,33 +24,32 @@ class _Result:
     topology: int
 
 
-_results: dict[str, _Result] = {}
+_results: ByMesh[_Result] = ByMesh()
 
 
 def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> None:
     """Remember what failed. Faces that were not unwrapped this time keep what is remembered of them."""
     for edit_mesh, solution in zip(edit_meshes, solutions):
         polygons = edit_mesh.polygons
-        name = edit_mesh.mesh.name_full
         failed = solution.failed_islands.copy()
-        before = _results.get(name)
+        before = _results.get(edit_mesh.mesh)
         if before is not None and before.topology == polygons.topology and before.failed_islands.max(initial=-1) >= 0:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        _results[name] = _Result(failed, polygons.topology)
+        _results.set(edit_mesh.mesh, _Result(failed, polygons.topology))
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
     """Return whether a mesh was unwrapped since the file was opened, whether it has changed or not."""
-    return mesh.name_full in _results
+    return _results.get(mesh) is not None
 
 
 def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
-    """Return the failed island of every face, (F,) intp, -1 for others; None if the topology was another then."""
-    result = _results[edit_mesh.mesh.name_full]
-    return result.failed_islands if result.topology == edit_mesh.polygons.topology else None
+    """Return the failed island of every face, (F,) intp, -1 for others; None without one for its topology."""
+    result = _results.get(edit_mesh.mesh)
+    return result.failed_islands if result is not None and result.topology == edit_mesh.polygons.topology else None
 
 
 def forget() -> None:
-    """Forget everything, as names mean other meshes in another file."""
+    """Forget everything, as another file has other meshes."""
     _results.clear()

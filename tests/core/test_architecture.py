@@ -48,8 +48,9 @@ BELOW = {
     "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
     "batch": {"core", "extenders", "edit_mesh", "unwrapping"},
 }
-# Identifiers, what differs between versions of Blender, what the user prefers: no folder, and below all but core.
-GROUND = {"addon.names", "addon.compatibility", "addon.user_preferences"}
+# Identifiers, what differs between versions of Blender, its editors and meshes, what the user prefers: no folder, and
+# below all but core.
+GROUND = {"addon.names", "addon.compatibility", "addon.editors", "addon.identity", "addon.user_preferences"}
 
 IDENTIFIERS = (
     *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),

@@ -5,6 +5,7 @@ blender --factory-startup --python drive_compare.py -- <folder for the screensho
 """
 
 import importlib
+import time
 
 import bmesh
 import bpy
@@ -12,7 +13,7 @@ import numpy as np
 
 from tests.interface import driving as drive
 from tests.interface import session
-from tests.interface.session import override, point_at, screenshot, xdotool
+from tests.interface.session import override, picture, point_at, screenshot, xdotool
 
 
 def part_of_addon(name):
@@ -34,17 +35,6 @@ def open_suzanne():
     yield from drive.show_uvs()
 
 
-def picture(name):
-    """Take a screenshot; return its pixels, (height, width, 3)."""
-    screenshot(name)
-    image = bpy.data.images.load(str(session.SCREENSHOTS / f"{name}.png"))
-    width, height = image.size
-    pixels = np.empty(4 * width * height, np.float32)
-    image.pixels.foreach_get(pixels)
-    bpy.data.images.remove(image)
-    return pixels.reshape(height, width, 4)[..., :3]
-
-
 def of_viewport(pixels):
     region = drive.region_of("VIEW_3D")
     return pixels[region.y : region.y + region.height, region.x : region.x + region.width]
@@ -53,6 +43,64 @@ def of_viewport(pixels):
 def selected():
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
     return {face.index for face in bm.faces if face.select}
+
+
+def check_table():
+    """Compare beside an open Adjust Last Operation: no cell is written over the next one, nothing below the panel."""
+    drawn, comparison = {}, part_of_addon("overlay.comparison")
+    draw_line, text_width = comparison.draw_line, part_of_addon("overlay.screen_text").text_width
+
+    def noted(text, x, top, scale, *color):
+        # The last time counts: until everything is shown it is drawn more than once.
+        drawn[x, top] = (x, top, x + text_width(text, scale), text)
+        return draw_line(text, x, top, scale, *color)
+
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
+    yield
+    yield from drive.open_adjust_last_operation()
+    point_at("VIEW_3D", 0.6, 0.6)
+    comparison.draw_line = noted
+    yield from drive.search("Compare Methods")
+    yield from drive.until(lambda: drawn)
+    yield
+    yield
+    screenshot("compare_beside_adjust")
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: part_of_addon("operators.job_operator").JobOperator._running is None)
+    comparison.draw_line = draw_line
+    region, panel = drive.region_of("VIEW_3D"), drive.region_of("VIEW_3D", "HUD")
+    lines = sorted(drawn.values(), key=lambda line: (-line[1], line[0]))
+    for (_, top, end, text), (start, next_top, _, following) in zip(lines, lines[1:]):
+        assert top != next_top or end <= start + 1.0, (text, following, end, start)
+    for start, top, end, text in lines:
+        assert end <= region.width, text
+        is_beside = start >= panel.x - region.x + panel.width or top > panel.y - region.y + panel.height
+        assert is_beside or end <= panel.x - region.x, (text, start, top)
+
+
+def cancel_between_methods():
+    """Esc, pressed while Blender unwraps by one of its methods, keeps the next from being tried."""
+    comparison, running = part_of_addon("unwrapping.comparison"), part_of_addon("operators.job_operator").JobOperator
+    before, unwrap, tried = session.uv(), comparison.theirs, []
+
+    def slow(*arguments):
+        tried.append(arguments)
+        xdotool("key", "Escape")
+        time.sleep(1.0)
+        return unwrap(*arguments)
+
+    comparison.forget()
+    comparison.theirs = slow
+    point_at("VIEW_3D", 0.6, 0.6)
+    yield from drive.search("Compare Methods")
+    yield from drive.until(lambda: tried)
+    yield from drive.until(lambda: running._running is None)
+    yield
+    comparison.theirs = unwrap
+    assert len(tried) == 1, len(tried)
+    assert not comparison.last()
+    np.testing.assert_array_equal(session.uv(), before)
 
 
 def look_at_suggestions():
@@ -117,6 +165,9 @@ def steps():
     after = of_viewport(picture("compare_closed"))
     assert np.abs(after - without).mean() < 0.02, "something is left of the comparison"
     np.testing.assert_array_equal(session.uv(), before)
+    yield from cancel_between_methods()
+    yield from check_table()
+    before = session.uv()
     # The numbers of the face below the mouse, in both editors; a click selects its island.
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all(action="DESELECT")

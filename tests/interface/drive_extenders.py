@@ -6,6 +6,7 @@ blender --factory-startup --python drive_extenders.py -- <folder for the screens
 
 import bmesh
 import bpy
+import numpy as np
 
 from tests.interface import driving as drive
 from tests.interface.extender_sidebar import (
@@ -26,7 +27,9 @@ from tests.interface.extender_sidebar import (
     row,
     type_strength,
 )
-from tests.interface.session import screenshot, xdotool
+from tests.interface.session import override, picture, screenshot, xdotool
+
+REPEL = (1.0, 0.42, 0.12)
 
 
 def add_by_clicking():
@@ -97,12 +100,37 @@ def change_in_the_list():
     assert listed() == named, listed()
 
 
+def pixels_of_arrows(name):
+    """Count the pixels of the viewport that have the colour of an extender that repels."""
+    region = drive.region_of("VIEW_3D")
+    shown = picture(name)[region.y : region.y + region.height, region.x : region.x + region.width]
+    return int((np.abs(shown - REPEL).max(axis=-1) < 0.06).sum())
+
+
+def remove_all():
+    """The arrows of removed extenders go at once, with the mouse still over the sidebar; those of others stay."""
+    counts = []
+    with override("VIEW_3D"):
+        bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
+    bpy.context.edit_object.data.spectral_extenders[1].use = True
+    while True:
+        yield
+        yield
+        counts.append(pixels_of_arrows(f"extenders_left_{len(listed())}"))
+        if not listed():
+            break
+        yield from click_sidebar(REMOVE)
+    assert counts[-1] < 20, counts
+    assert all(after < before - 100 for before, after in zip(counts, counts[1:])), counts
+
+
 def steps():
     yield from drive.open_uv_editing()
     yield from open_grid()
     yield from add_by_clicking()
     yield from adjust_last_operation()
     yield from change_in_the_list()
+    yield from remove_all()
 
 
 drive.run(steps())

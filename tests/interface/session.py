@@ -26,6 +26,18 @@ def screenshot(name):
     subprocess.run(["import", "-window", "root", str(SCREENSHOTS / f"{name}.png")], check=True)
 
 
+def picture(name):
+    """Take a screenshot; return its pixels from the lowest row up, (height, width, 3), displayed colours of 0 to 1."""
+    screenshot(name)
+    image = bpy.data.images.load(str(SCREENSHOTS / f"{name}.png"))
+    image.colorspace_settings.name = "Non-Color"
+    width, height = image.size
+    pixels = np.empty(4 * width * height, np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, 4)[..., :3]
+
+
 def area_of(kind):
     return next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == kind)
 

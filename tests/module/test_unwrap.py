@@ -29,6 +29,20 @@ def test_triangle_mesh_equals_parameterize():
     assert chart.max_qc == pytest.approx(measured.max_qc)
 
 
+def test_the_worst_is_that_of_a_face_as_face_distortion_measures_it():
+    # Of triangles, quads and pentagons; along a quad's diagonals the distortion differs.
+    vertices, quads = meshes.saddle_quads(9)
+    vertices[:, 2] += 0.3 * np.sin(7 * vertices[:, 0]) * np.cos(5 * vertices[:, 1])
+    faces = [list(quad) for quad in quads]
+    faces[3:4] = [faces[3][:3], [faces[3][0], *faces[3][2:]]]
+    offsets, corners = meshes.polygons(faces)
+    result = sc.unwrap(vertices, offsets, corners)
+    (chart,) = result.charts
+    measured = sc.face_distortion(vertices, offsets, corners, result.uv)
+    assert chart.max_qc == pytest.approx(measured.qc.max(), rel=1e-9)
+    assert chart.mean_qc == pytest.approx(np.average(measured.qc, weights=measured.area), rel=1e-9)
+
+
 @pytest.mark.parametrize(("weights", "boundary"), [("uniform", "length"), ("inverse_area", "vertex")])
 def test_symmetric_quad_mesh_has_a_symmetric_map(weights, boundary):
     n = 31

@@ -41,11 +41,11 @@ struct UnwrappedChart : SolveRecord {
 
   std::vector<int> faces;  ///< in the mesh, ascending
   bool solved = false;
-  double mean_qc = unknown;  ///< this and the next two: as measure_distortion finds them
-  double max_qc = unknown;
-  int flipped = 0;      ///< faces with a flipped triangle
-  int overlapping = 0;  ///< faces that cover part of another face; duplicates are ignored
-  int n_pins = 0;       ///< pinned vertices
+  double mean_qc = unknown;  ///< as measure_distortion finds it
+  double max_qc = unknown;   ///< the largest of a face, as measure_face_distortion finds it
+  int flipped = 0;           ///< faces with a flipped triangle
+  int overlapping = 0;       ///< faces that cover part of another face; duplicates are ignored
+  int n_pins = 0;            ///< pinned vertices
   int n_vertices = 0;
   double area = 0;      ///< in 3D
   bool reused = false;  ///< whether its map was taken from KeptMaps

@@ -175,6 +175,7 @@ class Chart:
     mean_qc: float
     """As in `Distortion`, over the chart's triangles; of a quad the split whose smaller area is larger."""
     max_qc: float
+    """The largest of a face, as in `FaceDistortion`."""
     flipped: int
     """Faces with a flipped triangle."""
     overlapping: int

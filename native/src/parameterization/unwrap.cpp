@@ -26,12 +26,33 @@ namespace spectral_conformal {
 
 namespace {
 
+/// The largest quasi-conformal distortion of a face, as measure_face_distortion has it: the mean over its triangles,
+/// weighted by their area in 3D.
+double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
+  double largest = 1;
+  const std::vector<int>& triangles = distortion.triangulation;
+  for (std::size_t k = 0; k < triangles.size();) {
+    const int face = chart.triangle_face[static_cast<std::size_t>(triangles[k])];
+    double area = 0;
+    double qc = 0;
+    // The triangles of a face follow each other.
+    for (; k < triangles.size() && chart.triangle_face[static_cast<std::size_t>(triangles[k])] == face; ++k) {
+      const int t = triangles[k];
+      if (distortion.area[t] == 0) continue;
+      area += distortion.area[t];
+      qc += distortion.area[t] * distortion.qc[t];
+    }
+    if (area > 0) largest = std::max(largest, qc / area);
+  }
+  return largest;
+}
+
 /// Fills in mean_qc, max_qc, flipped and area of a solved chart.
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
              UnwrappedChart& report) {
   const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
   report.mean_qc = distortion.mean_qc;
-  report.max_qc = distortion.max_qc;
+  report.max_qc = largest_of_a_face(chart, distortion);
   int last_flipped = -1;
   for (const int t : distortion.triangulation) {
     const int face = chart.triangle_face[static_cast<std::size_t>(t)];

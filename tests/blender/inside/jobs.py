@@ -2,6 +2,7 @@
 """Drives operators that wait for a thread, without a window."""
 
 import importlib
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import bpy
@@ -12,6 +13,11 @@ worker = importlib.import_module("spectral_unwrap.core.worker")
 
 class Instance(SimpleNamespace):
     """What stands for an instance of the operator."""
+
+
+def _override(**members):
+    """Stand for `temp_override`, which takes no window or workspace that is none."""
+    return nullcontext() if "workspace" in members else bpy.context.temp_override(**members)
 
 
 class Invoked:
@@ -50,9 +56,9 @@ class Invoked:
             area=None,
             window=window,
             objects_in_mode_unique_data=bpy.context.objects_in_mode_unique_data,
-            workspace=SimpleNamespace(status_text_set=self.status.append),
+            workspace=SimpleNamespace(status_text_set=self.status.append, name="Workspace"),
             screen=screen,
-            temp_override=bpy.context.temp_override,
+            temp_override=_override,
             window_manager=manager,
         )
         # In background mode it would execute.

@@ -106,6 +106,22 @@ def test_faces_that_a_method_leaves_out_are_counted():
     assert texts.comparison_row("Ours", ours, 0.0)[0] == "Ours (6 left out)"
 
 
+@pytest.mark.parametrize(("method", "margin"), [("ANGLE_BASED", 0.02), ("CONFORMAL", 0.1)])
+def test_blenders_own_unwrap_keeps_its_settings(method, margin):
+    edited = scenes.bumpy_grid()
+    scenes.edit(edited)
+    # What an unwrap is called with is what the next one begins with.
+    bpy.ops.uv.unwrap(method=method, margin=margin)
+    bpy.ops.uv.unwrap()
+    before, known = scenes.read_uv(edited), [len(bpy.data.scenes), len(bpy.data.objects), len(bpy.data.meshes)]
+    assert bpy.ops.uv.spectral_compare() == {"FINISHED"}
+    bpy.ops.uv.unwrap()
+    np.testing.assert_array_equal(scenes.read_uv(edited), before)
+    assert [len(bpy.data.scenes), len(bpy.data.objects), len(bpy.data.meshes)] == known
+    bpy.ops.uv.unwrap(method="CONFORMAL" if method == "ANGLE_BASED" else "ANGLE_BASED", margin=margin)
+    assert not np.array_equal(scenes.read_uv(edited), before)
+
+
 def test_nothing_selected():
     scenes.edit(scenes.bumpy_grid(), select=False)
     assert bpy.ops.uv.spectral_compare() == {"CANCELLED"}

@@ -36,9 +36,8 @@ class Dragged:
             scene=bpy.context.scene,
             window=SimpleNamespace() if has_window else None,
             area=None,
-            workspace=SimpleNamespace(status_text_set=self.status.append),
-            screen=SimpleNamespace(areas=[]),
-            window_manager=SimpleNamespace(modal_handler_add=lambda _operator: None),
+            workspace=SimpleNamespace(status_text_set=self.status.append, name="Workspace"),
+            window_manager=SimpleNamespace(modal_handler_add=lambda _operator: None, windows=[]),
         )
         self.x = 100
         self.result = self.operator_class.invoke(self.operator, self.context, self.event())

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Room on a rectangle of the screen that other rectangles leave free."""
+
+import functools
+from collections.abc import Sequence
+
+Box = tuple[float, float, float, float]
+"""Left, bottom, right and upper end, in pixels."""
+
+
+@functools.lru_cache(maxsize=64)
+def free_boxes(size: tuple[float, float], covers: tuple[Box, ...]) -> Sequence[Box]:
+    """Return all rectangles of a region of this width and height that no cover touches and none larger of them holds.
+
+    Empty where the covers leave nothing.
+    """
+    boxes = [(0.0, 0.0, *size)] if min(size) > 0.0 else []
+    for cover in covers:
+        boxes = [part for box in boxes for part in _beside(box, cover)]
+        boxes = [box for k, box in enumerate(boxes) if not any(_holds(other, box) for other in _others(boxes, k))]
+    return boxes
+
+
+def largest(size: tuple[float, float], covers: tuple[Box, ...]) -> Box | None:
+    """Return the free box of the largest area; None for none."""
+    return max(free_boxes(size, covers), key=lambda box: (box[2] - box[0]) * (box[3] - box[1]), default=None)
+
+
+def lower_right(size: tuple[float, float], covers: tuple[Box, ...], width: float, height: float) -> Box | None:
+    """Return where something of this size goes: as large as it fits, then as low, then as far right as it can.
+
+    It has its full size or, where that fits nowhere, is scaled down. None where nothing is free.
+    """
+    fits = [(*box, min(1.0, (box[2] - box[0]) / width, (box[3] - box[1]) / height)) for box in free_boxes(size, covers)]
+    if not fits:
+        return None
+    _, bottom, right, _, scale = max(fits, key=lambda fit: (fit[4], -fit[1], fit[2]))
+    return right - scale * width, bottom, right, bottom + scale * height
+
+
+def _beside(box: Box, cover: Box) -> Sequence[Box]:
+    """Return the largest parts of a box on each side of a cover; the box itself where they do not meet."""
+    left, bottom, right, top = box
+    if cover[0] >= right or cover[2] <= left or cover[1] >= top or cover[3] <= bottom or _is_empty(cover):
+        return [box]
+    parts = (
+        (left, bottom, cover[0], top),
+        (cover[2], bottom, right, top),
+        (left, bottom, right, cover[1]),
+        (left, cover[3], right, top),
+    )
+    return [part for part in parts if not _is_empty(part)]
+
+
+def _is_empty(box: Box) -> bool:
+    return box[2] <= box[0] or box[3] <= box[1]
+
+
+def _others(boxes: Sequence[Box], k: int) -> Sequence[Box]:
+    """Return the boxes against which box `k` is superfluous: of equal ones the first stays."""
+    return [other for i, other in enumerate(boxes) if i != k and (other != boxes[k] or i < k)]
+
+
+def _holds(outer: Box, inner: Box) -> bool:
+    return outer[0] <= inner[0] and outer[1] <= inner[1] and outer[2] >= inner[2] and outer[3] >= inner[3]

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: the overlay and its legend beside panels, other sizes of the interface and files.
+
+blender --factory-startup --python drive_legend.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import importlib
+from pathlib import Path
+
+import addon_utils
+import bpy
+import numpy as np
+
+from tests.interface import driving as drive
+from tests.interface.session import override, picture, point_at, screenshot, xdotool
+
+# Of a colour's brightness, 0 to 1: what counts as another pixel.
+OTHER = 0.02
+
+
+def part_of_addon(name):
+    return importlib.import_module(f"spectral_unwrap.{name}")
+
+
+def shown():
+    return bpy.context.window_manager.spectral_map_overlay
+
+
+def open_suzanne():
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_monkey_add()
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.uv.spectral_suggest_seams("EXEC_DEFAULT", True)
+        bpy.ops.view3d.view_selected()
+    yield
+
+
+def is_of_viewport(pixels):
+    """Cut the viewport's main region out of the pixels of the screen."""
+    region = drive.region_of("VIEW_3D")
+    return pixels[region.y : region.y + region.height, region.x : region.x + region.width]
+
+
+def legend_pixels(name):
+    """Return which pixels of the viewport the legend changes; its lower end first."""
+    shown().legend = False
+    yield
+    yield
+    without = is_of_viewport(picture(f"{name}_without"))
+    shown().legend = True
+    yield
+    yield
+    return np.abs(is_of_viewport(picture(name)) - without).max(axis=-1) > OTHER
+
+
+def check_size(changed, name, scale=1.0):
+    """Check that all of the legend is to be seen: a box of its width, filled from side to side at every height."""
+    rows, columns = (np.flatnonzero(changed.any(axis=axis)) for axis in (1, 0))
+    width, height = np.ptp(columns) + 1, np.ptp(rows) + 1
+    assert width >= 240 * scale - 2, (name, width)
+    assert height >= 90 * scale, (name, height)
+    assert changed.sum() > 0.9 * width * height, (name, "covered", changed.sum() / (width * height))
+
+
+def look_at_panels():
+    """The legend is whole beside Adjust Last Operation, the sidebar, and at any size of the interface."""
+    overlay = part_of_addon("overlay.map_overlay")
+    shown().show = True
+    # Colours that stay the same between two pictures.
+    shown().use_range = True
+    yield from drive.until(lambda: all(found.islands_known for _, found, _ in overlay.views(bpy.context)))
+    space = drive.area_of("VIEW_3D").spaces.active
+    check_size((yield from legend_pixels("legend_alone")), "alone")
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
+    yield
+    yield from drive.open_adjust_last_operation()
+    point_at("VIEW_3D", 0.5, 0.9)
+    yield from drive.until(lambda: all(found.islands_known for _, found, _ in overlay.views(bpy.context)))
+    check_size((yield from legend_pixels("legend_beside_adjust")), "beside Adjust Last Operation")
+    space.show_region_ui = True
+    yield
+    yield
+    check_size((yield from legend_pixels("legend_beside_both")), "beside the sidebar, too")
+    for scale, has_sidebar in ((1.5, True), (2.0, False)):
+        bpy.context.preferences.view.ui_scale = scale
+        space.show_region_ui = has_sidebar
+        yield
+        yield
+        # There is no room for its full size, but for one that can be read.
+        check_size((yield from legend_pixels(f"legend_at_{scale}")), scale, 0.6)
+    bpy.context.preferences.view.ui_scale = 1.0
+    space.show_region_ui = False
+    yield
+    yield
+
+
+def look_at_two():
+    """The legend has the numbers of two meshes together, in object mode; it follows the frames."""
+    overlay, legend = part_of_addon("overlay.map_overlay"), part_of_addon("overlay.legend")
+    with override("VIEW_3D"):
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.object.duplicate()
+        bpy.context.object.location.x = 3.0
+        for each in bpy.data.objects:
+            each.select_set(each.type == "MESH")
+    lines, draw = [], legend.draw
+
+    def noted(*arguments):
+        lines[:] = arguments[-1]
+        draw(*arguments)
+
+    legend.draw = noted
+    shown().legend = True
+    faces = 2 * len(bpy.context.object.data.polygons)
+    yield from drive.until(lambda: len(lines) > 1, 20.0)
+    screenshot("legend_of_two")
+    assert lines[0] == f"Shown: {faces} faces", lines
+    legend.draw = draw
+    # Without an update of its own, as when the artist plays the animation.
+    bpy.context.object.modifiers.new("Wave", "WAVE").height = 1.0
+    yield
+    yield
+    bpy.context.scene.frame_set(40)
+    yield
+    yield
+    screenshot("legend_at_a_later_frame")
+    for each, _, view in overlay.views(bpy.context):
+        mesh = each.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+        places = np.array([vertex.co for vertex in mesh.vertices], dtype=np.float32)
+        np.testing.assert_array_equal(view.arrays.positions, places)
+    yield
+
+
+def status_bar(name):
+    """Return the pixels of the status bar, at the lower end of the window."""
+    return picture(name)[:20]
+
+
+def leave_while_inspecting():
+    """Nothing of Inspect Map stays when the add-on is disabled, nor when the workspace is left meanwhile."""
+    overlay = part_of_addon("overlay.map_overlay")
+    point_at("VIEW_3D", 0.5, 0.5)
+    yield
+    yield
+    before = status_bar("status_before")
+    first = drive.window().workspace
+    with override("VIEW_3D"):
+        bpy.ops.uv.spectral_inspect("INVOKE_DEFAULT")
+    yield
+    yield
+    keys = status_bar("status_inspecting")
+    assert np.abs(keys - before).max() > 0.1, "no keys are shown"
+    drive.window().workspace = bpy.data.workspaces["Layout"]
+    yield
+    yield
+    point_at("VIEW_3D", 0.5, 0.55)
+    yield
+    xdotool("key", "Escape")
+    yield
+    yield
+    drive.window().workspace = first
+    yield
+    point_at("VIEW_3D", 0.5, 0.5)
+    yield
+    yield
+    # The workspace has a mode of its own, whose keys are others.
+    assert np.abs(status_bar("status_of_left_workspace") - keys).max() > 0.1, "the text stays in the other workspace"
+    with override("VIEW_3D"):
+        bpy.ops.uv.spectral_inspect("INVOKE_DEFAULT")
+    yield
+    yield
+    colored = is_of_viewport(picture("overlay_before_disabling"))
+    addon_utils.disable("spectral_unwrap")
+    yield
+    yield
+    assert np.abs(status_bar("status_after_disabling") - keys).max() > 0.1, "the text stays without the add-on"
+    assert np.abs(is_of_viewport(picture("overlay_after_disabling")) - colored).mean() > 0.01, "the colours stay"
+    addon_utils.enable("spectral_unwrap")
+    yield from drive.until(lambda: bool(part_of_addon("overlay.map_overlay")._handles) == shown().show, 20.0)
+    assert overlay._pointed_at is None
+
+
+def check_switch(name):
+    """Check that the switch of the overlay tells whether it is drawn; return that."""
+    screenshot(name)
+    overlay = part_of_addon("overlay.map_overlay")
+    assert bool(overlay._handles) == shown().show, (name, overlay._handles, shown().show)
+    return shown().show
+
+
+def open_others():
+    """The switch says what is drawn in a new file, and in one that was saved with the overlay on."""
+    shown().show = True
+    yield
+    path = str(Path(bpy.app.tempdir, "shown.blend"))
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile()
+    yield
+    yield
+    check_switch("switch_in_a_new_file")
+    shown().show = False
+    for load_ui in (True, False):
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=load_ui)
+        yield
+        yield
+        check_switch(f"switch_opened_{load_ui}")
+        shown().show = not shown().show
+        yield
+        check_switch(f"switch_turned_{load_ui}")
+
+
+def steps():
+    yield from drive.open_uv_editing()
+    yield from open_suzanne()
+    yield from look_at_panels()
+    yield from look_at_two()
+    yield from leave_while_inspecting()
+    yield from open_others()
+
+
+drive.run(steps())
