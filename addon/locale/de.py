@@ -559,8 +559,8 @@ TEXTS = {
         "Nähte hinzufügen"
     ),
     "{n} islands have faces stretched to more than twice their width, {worst} at worst; add seams there": (
-        "{n} Inseln haben Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens {worst}; dort "
-        "Nähte hinzufügen"
+        "{n} Inseln haben Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens {worst}; "
+        "dort Nähte hinzufügen"
     ),
     "{n} face shrinks below what Blender's UV coordinates resolve; add seams that make the island flatter, or raise "
     "Angle to Area": (

@@ -148,7 +148,9 @@ def forget() -> None:
 
 
 def _worst_first(charts: Sequence[Any]) -> np.ndarray:
-    """Return the order of charts: failed ones, then those with flipped or overlapping faces, then by their worst face."""
+    """Return the order of charts: failed ones, those with flipped or overlapping faces, then by their worst face."""
+    if not len(charts):
+        return np.zeros(0, dtype=np.intp)
 
     def of(name: str) -> np.ndarray:
         return chart_records.column(charts, name)

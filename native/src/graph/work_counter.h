@@ -5,8 +5,8 @@
 
 namespace spectral_conformal {
 
-/// What factorisations and searches cost: the same on every machine, however busy, for one SuiteSparse. What the benchmarks' tests
-/// hold speed to.
+/// What factorisations and searches cost: the same on every machine, however busy, for one SuiteSparse. What the
+/// benchmarks' tests hold speed to.
 struct WorkCounts {
   std::uint64_t analyses = 0;
   std::uint64_t factorizations = 0;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/box_tree.h"
 #include "geometry/quadratic_roots.h"
 #include "geometry/signed_area.h"
-#include "geometry/box_tree.h"
 
 namespace spectral_conformal {
 namespace {

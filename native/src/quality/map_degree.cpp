@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/box_tree.h"
 #include "geometry/orientation.h"
 #include "graph/disjoint_sets.h"
 #include "graph/parallel_calls.h"
-#include "geometry/box_tree.h"
 #include "quality/flips.h"
 
 namespace spectral_conformal {

@@ -98,7 +98,8 @@ bool refine(const SelectedFaces& faces, const std::vector<std::pair<std::size_t,
 }
 
 /// The corners of a face from its first vertex on; where that occurs several times, the first of the sequences: the
-/// least rotation, found by comparing two beginnings, of which the one that loses rules out all that it was compared by.
+/// least rotation, found by comparing two beginnings, of which the one that loses rules out all that it was compared
+/// by.
 void turn_to_first_vertex(std::vector<int>& corners) {
   const std::size_t n = corners.size();
   std::size_t least = 0;

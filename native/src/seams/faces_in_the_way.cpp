@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/box_tree.h"
 #include "geometry/quad_splits.h"
 #include "graph/disjoint_sets.h"
-#include "geometry/box_tree.h"
 #include "quality/overlap.h"
 
 namespace spectral_conformal {

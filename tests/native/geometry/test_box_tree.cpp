@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "meshes.h"
 #include "geometry/box_tree.h"
+#include "meshes.h"
 
 namespace spectral_conformal::test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "meshes.h"
 #include "geometry/box_tree.h"
+#include "meshes.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/thread_limit.h"
 
