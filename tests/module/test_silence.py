@@ -40,8 +40,17 @@ def _calls(n, options):
 
 @pytest.mark.parametrize("case", CASES)
 def test_calls_are_made_in_proportion_to_the_work(case):
-    few, many = (len(_calls(n, CASES[case])) for n in (1500, 6000))
-    assert many > 2.5 * few
+    def heard(n):
+        often = len(_calls(n, CASES[case]))
+        sc._native.exchange_listening_interval(1e18)
+        reports = len(_calls(n, CASES[case]))
+        sc._native.exchange_listening_interval(INTERVAL)
+        return often - reports
+
+    few, many = heard(1500), heard(6000)
+    assert few > 10
+    # Four times the work, but for the number of solves, which "area" needs a third fewer of on the larger mesh.
+    assert many > 2 * few
 
 
 def test_every_phase_is_heard_several_times_and_the_fraction_never_falls():
@@ -60,8 +69,8 @@ def test_a_solve_cancelled_at_any_call_leaves_the_solver_as_it_was():
     expected = sc.unwrap(*mesh).uv
     calls = []
     sc.Unwrapper(*mesh).solve(progress=lambda *call: calls.append(call))
-    unwrapper = sc.Unwrapper(*mesh)
     for k in np.linspace(0, len(calls) - 1, 25).astype(int):
+        unwrapper = sc.Unwrapper(*mesh)
         left = [k]
 
         def listen(fraction, phase, left=left):
@@ -72,7 +81,7 @@ def test_a_solve_cancelled_at_any_call_leaves_the_solver_as_it_was():
             unwrapper.solve(progress=listen)
         # No call is made after the one that cancelled.
         assert left[0] == -1
-    assert np.array_equal(unwrapper.solve().uv, expected)
+        assert np.array_equal(unwrapper.solve().uv, expected)
 
 
 def test_the_charts_of_a_single_patch_are_heard():

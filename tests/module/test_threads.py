@@ -204,7 +204,7 @@ def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
     vertices, triangles = meshes.bumpy_disk(9500)
     islands = np.concatenate([vertices + [3 * k, 0, 0] for k in range(6)])
     faces = meshes.polygons(np.concatenate([triangles + len(vertices) * k for k in range(6)]))
-    body = meshes.limbs(1500, 8, 2)
+    body = meshes.limbs(500, 8, 2)
     found = []
 
     def work():
@@ -214,8 +214,8 @@ def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
     sc._native.pretend_cores(cores)
     try:
         assert _most_threads(work) < cores
-        # Each of the two is one of the threads.
-        assert _most_threads(lambda: in_threads(work, work)) - 2 < cores - 1
+        # Beside the two there are no more helpers than one of them may have alone.
+        assert _most_threads(lambda: in_threads(work, work)) - 2 < cores
     finally:
         sc._native.pretend_cores(0)
     assert len(found) == 4
