@@ -7,6 +7,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
+#include "bindings/progress_function.h"
 #include "mesh/charts.h"
 
 namespace spectral_conformal::python {
@@ -20,7 +21,7 @@ py::array_t<int> chart_of_face(const Array<double>& vertices, const Array<int>& 
   const PolygonMesh mesh = arrays.view();
   std::vector<int> charts;
   {
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("charts");
     charts = build_charts(mesh).chart_of_face;
   }
   return copy(charts);

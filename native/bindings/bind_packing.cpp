@@ -6,6 +6,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
+#include "bindings/progress_function.h"
 #include "spectral_conformal/box_packing.h"
 
 namespace spectral_conformal::python {
@@ -21,7 +22,7 @@ py::tuple pack(const Array<double>& sizes) {
   }
   double side = 0;
   {
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("packing");
     side = pack_boxes(boxes);
   }
   py::array_t<double> corners({static_cast<py::ssize_t>(n), static_cast<py::ssize_t>(2)});

@@ -22,12 +22,12 @@ namespace {
 class PatchSolver {
  public:
   PatchSolver(const Array<double>& vertices, const Array<int>& triangles, const std::optional<Array<double>>& metric,
-              const py::object& options) {
+              const py::object& options, const py::object& progress) {
     const MeshArrays arrays = triangle_mesh(vertices, triangles);
     const PolygonMesh mesh = arrays.view();
     const std::vector<SpaceMetric> tensors = space_metric(vertices, triangles, metric);
     const PatchOptions patch_options = patch_options_of(options);
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("charts", progress);
     solver_ = std::make_unique<Solver>(mesh, patch_options, tensors.empty() ? nullptr : tensors.data());
   }
 
@@ -67,7 +67,8 @@ class PatchSolver {
 
 void bind_parameterize(py::module_& module) {
   py::class_<PatchSolver>(module, "Solver", py::module_local())
-      .def(py::init<const Array<double>&, const Array<int>&, const std::optional<Array<double>>&, const py::object&>())
+      .def(py::init<const Array<double>&, const Array<int>&, const std::optional<Array<double>>&, const py::object&,
+                    const py::object&>())
       .def("factorize", &PatchSolver::factorize)
       .def("solve", &PatchSolver::solve);
 }

@@ -7,6 +7,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bind.h"
+#include "bindings/progress_function.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/face_distortion.h"
 #include "spectral_conformal/face_triangles.h"
@@ -21,7 +22,7 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
   const PolygonMesh mesh = arrays.view();
   Distortion measured;
   {
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("quality");
     const ComplexVector z = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(uv.data()), uv.shape(0));
     measured = measure_mesh_distortion(mesh, z);
   }
@@ -52,7 +53,7 @@ py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_ve
   if (selected_faces) mesh.selected_faces = selected_faces->data();
   MapDefects defects;
   {
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("quality");
     defects = find_map_defects(mesh, corner_uv.data(), between_islands);
   }
   return py::dict(py::arg("island_of_face") = copy(defects.island_of_face), py::arg("flipped") = copy(defects.flipped),
@@ -73,7 +74,7 @@ py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_o
   FaceDistortion measured;
   {
     const PolygonMesh mesh = arrays.view();
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("quality");
     measured = measure_face_distortion(mesh, corner_uv.data());
   }
   return py::dict(
@@ -87,7 +88,7 @@ py::tuple face_triangles(const Array<double>& vertices, const Array<int>& face_o
   FaceTriangles triangles;
   {
     const PolygonMesh mesh = arrays.view();
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("quality");
     triangles = triangulate_faces(mesh);
   }
   py::array_t<int> corners(std::vector<py::ssize_t>{static_cast<py::ssize_t>(triangles.corners.size()), 3});

@@ -128,7 +128,7 @@ class MeshUnwrapper {
  public:
   explicit MeshUnwrapper(const UnwrapArguments& arguments) {
     const PolygonMesh mesh = arguments.arrays.view();
-    const py::gil_scoped_release unlocked;
+    const HeardWork heard("charts");
     unwrapper_ = std::make_unique<Unwrapper>(mesh, arguments.options);
   }
 

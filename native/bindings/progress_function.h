@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "graph/listening.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal::python {
@@ -10,5 +11,19 @@ namespace spectral_conformal::python {
 /// exceptions pass through, and Ctrl-C is noticed even where there is nothing to call. `callable` must outlive the
 /// result.
 Progress progress_of(const pybind11::object& callable);
+
+/// Work of a call without the GIL: while it lives, the call's long work is heard by a progress function, or, with None,
+/// by Ctrl-C alone.
+class HeardWork {
+ public:
+  explicit HeardWork(const char* phase, const pybind11::object& callable = pybind11::none())
+      : callable_(callable), progress_(progress_of(callable_)), listening_(progress_, phase) {}
+
+ private:
+  pybind11::object callable_;
+  Progress progress_;
+  Listening listening_;
+  pybind11::gil_scoped_release unlocked_;  ///< last, so that the GIL is held again before the others end
+};
 
 }  // namespace spectral_conformal::python

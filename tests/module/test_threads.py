@@ -197,6 +197,33 @@ def test_a_limit_of_threads_keeps_all_work_in_the_callers_and_changes_no_result(
     assert all(np.array_equal(uv, uvs[0]) for uv in uvs)
 
 
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="counts threads by /proc")
+@pytest.mark.parametrize("cores", [3, 16])
+def test_calls_within_calls_have_no_more_threads_than_there_are_cores(cores):
+    # Islands are solved in several threads, each of which shares its factorisation, its solves and what it measures.
+    vertices, triangles = meshes.bumpy_disk(9500)
+    islands = np.concatenate([vertices + [3 * k, 0, 0] for k in range(6)])
+    faces = meshes.polygons(np.concatenate([triangles + len(vertices) * k for k in range(6)]))
+    body = meshes.limbs(500, 8, 2)
+    found = []
+
+    def work():
+        found.append((sc.unwrap(islands, *faces, polish=True).uv, sc.suggest_seams(*body)))
+
+    work()
+    sc._native.pretend_cores(cores)
+    try:
+        assert _most_threads(work) < cores
+        # Beside the two there are no more helpers than one of them may have alone.
+        assert _most_threads(lambda: in_threads(work, work)) - 2 < cores
+    finally:
+        sc._native.pretend_cores(0)
+    assert len(found) == 4
+    for uv, seams in found[1:]:
+        assert np.array_equal(uv, found[0][0])
+        assert np.array_equal(seams, found[0][1])
+
+
 def test_suggested_seams_do_not_depend_on_the_number_of_threads():
     # Parts that cover each other are parted in several charts at once.
     body = meshes.limbs(1500, 8, 2)

@@ -17,7 +17,7 @@ class ThreadLimit {
   /// before.
   static unsigned exchange(unsigned limit);
   static unsigned
-  available();  ///< how many threads a call may share: the limit, or the number of cores if that is less
+  available();  ///< how many threads a call may share: the limit, or this thread's part of the cores if that is less
 
  private:
   unsigned before_;

@@ -13,12 +13,12 @@ itself passes through. Arguments are never changed. They are copied at the call:
 thread does to them afterwards has no effect on the result, nor on the later solves of an object.
 
 Threads: all functions may be called from several threads at once, and let Python's other threads run while they
-compute. Of the objects, see `Solver`. Each call shares its work among as many threads as the machine has cores;
-`limit_threads` lowers that. Where the module works with CHOLMOD on OpenBLAS, each call into them sets that
-OpenBLAS's number of threads, so that no result depends on it, and puts the process's own number back when it ends: for
-that moment, other users of the same OpenBLAS in the process run with that number, too. NumPy's wheels bring an OpenBLAS
-of their own, which is not touched; `build_info()["blas"]` names the one that is. `OPENBLAS_NUM_THREADS` has no effect
-on results.
+compute. Of the objects, see `Solver`. Each call shares its work among as many threads as the machine has cores,
+which calls at once divide; `limit_threads` lowers that. Where the module works with CHOLMOD on OpenBLAS, each call into
+them sets that OpenBLAS's number of threads, so that no result depends on it, and puts the process's own number back
+when it ends: for that moment, other users of the same OpenBLAS in the process run with that number, too. NumPy's wheels
+bring an OpenBLAS of their own, which is not touched; `build_info()["blas"]` names the one that is.
+`OPENBLAS_NUM_THREADS` has no effect on results.
 """
 
 from ._arguments import Extenders, Pins, Progress

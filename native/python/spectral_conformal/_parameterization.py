@@ -44,8 +44,9 @@ def parameterize(
             seen from where the corners run counter-clockwise. A tangent vector t gets the squared length t G t, and the
             map is conformal for these lengths: quasi-conformal. The scale of a tensor is without effect. See
             `metric_from_uv`, `metric_from_direction` and `blend_metric`.
-        progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread. Returning
-            False cancels: `Cancelled` is raised. What it raises itself passes through.
+        progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread, also several
+            times a second while neither changes. Returning False cancels: `Cancelled` is raised. What it raises itself
+            passes through.
 
     Returns:
         The map. Without pins it is positively oriented, the mean of its vertices is at the origin, and its area equals
@@ -61,7 +62,7 @@ def parameterize(
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
     """
-    solver = Solver._of(vertices, triangles, metric, changed(options, Options(), changes))
+    solver = Solver._of(vertices, triangles, metric, changed(options, Options(), changes), progress)
     return solver._solved(solver._options, pins, extenders, progress)
 
 
@@ -88,7 +89,7 @@ class Solver:
 
         Arguments and errors are those of `parameterize`. Options that a solve may vary are what it starts from.
         """
-        self._assemble(vertices, triangles, metric, changed(options, Options(), changes))
+        self._assemble(vertices, triangles, metric, changed(options, Options(), changes), progress)
         self._native.factorize(_arguments.checked_progress(progress))
 
     @takes_options(Options, SolveChanges)
@@ -111,22 +112,32 @@ class Solver:
 
     @classmethod
     def _of(
-        cls, vertices: npt.ArrayLike, triangles: npt.ArrayLike, metric: npt.ArrayLike | None, options: Options
+        cls,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        metric: npt.ArrayLike | None,
+        options: Options,
+        progress: Progress | None,
     ) -> Solver:
         """Return a solver that is not factored yet: the first solve does that, within its own progress."""
         solver = cls.__new__(cls)
-        solver._assemble(vertices, triangles, metric, options)
+        solver._assemble(vertices, triangles, metric, options, progress)
         return solver
 
     def _assemble(
-        self, vertices: npt.ArrayLike, triangles: npt.ArrayLike, metric: npt.ArrayLike | None, options: Options
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        metric: npt.ArrayLike | None,
+        options: Options,
+        progress: Progress | None,
     ) -> None:
         vertices = _arguments.checked_vertices(vertices)
         triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
         tensors = _arguments.checked_metric(metric, len(triangles), (2,))
         self._options = options
         self._n_vertices = len(vertices)
-        self._native = _native.Solver(vertices, triangles, tensors, options)
+        self._native = _native.Solver(vertices, triangles, tensors, options, _arguments.checked_progress(progress))
 
     def _solved(
         self, options: Options, pins: Pins | None, extenders: Extenders | None, progress: Progress | None

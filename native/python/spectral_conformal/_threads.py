@@ -12,7 +12,8 @@ def limit_threads(threads: int) -> int:
 
     Args:
         threads: 1 or more, the calling thread among them; 0 for as many as the machine has cores, as at first. More
-            than there are cores are not used.
+            than there are cores are not used. With 1, or where other calls have all threads, what takes long in
+            CHOLMOD is not heard by a progress function: that takes a thread of its own, while the calling one waits.
 
     Returns:
         The limit before, to be put back.

@@ -9,6 +9,8 @@
 #include <random>
 #include <utility>
 
+#include "graph/listening.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -33,6 +35,7 @@ class Skyline {
       best = 0;
       best_y = height_over(0, box.width);
     }
+    still_working(10.0 * static_cast<double>(segments_.size()));
     box.x = segments_[best].x;
     box.y = best_y;
     raise(best, box);

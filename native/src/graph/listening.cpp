@@ -5,22 +5,25 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double interval_of_work = std::chrono::nanoseconds(Listening::interval).count();
+std::atomic<double> interval_of_work{static_cast<double>(std::chrono::nanoseconds(Listening::interval).count())};
 
 struct Ear {
   Listening* own = nullptr;
   Listening* other = nullptr;  ///< of the thread that this one works for
-  double left = interval_of_work;
+  double left = 0;
 };
 
 thread_local Ear ear;
 
 }  // namespace
 
-Listening::Listening(const Progress& progress) : given_(&progress) {
+double exchange_listening_interval(double nanoseconds) { return interval_of_work.exchange(nanoseconds); }
+
+Listening::Listening(const Progress& progress, const char* phase) : given_(&progress), phase_(phase) {
   if (!progress) return;
   heard_ = [this](double fraction, const char* phase) { return hear(fraction, phase); };
   before_ = std::exchange(ear.own, this);
+  ear.left = interval_of_work;
 }
 
 Listening::~Listening() {

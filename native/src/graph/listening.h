@@ -13,11 +13,12 @@ namespace spectral_conformal {
 /// One within another takes its place.
 class Listening {
  public:
-  /// How often the listener is asked, by work or by time.
-  static constexpr std::chrono::milliseconds interval{20};
+  /// How often the listener is asked, by work or by time. Python's listeners wait up to 5 ms for its lock where another
+  /// thread is busy.
+  static constexpr std::chrono::milliseconds interval{40};
 
-  /// progress: must outlive the object; where it is empty, nothing changes.
-  explicit Listening(const Progress& progress);
+  /// progress: must outlive the object; where it is empty, nothing changes. phase: until the first report, with 0.
+  Listening(const Progress& progress, const char* phase);
   ~Listening();
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
@@ -57,10 +58,14 @@ class Listening {
   Progress heard_;
   Listening* before_ = nullptr;
   double fraction_ = 0;
-  const char* phase_ = "";
+  const char* phase_;
   std::atomic<bool> is_cancelled_{false};
   std::exception_ptr thrown_;  ///< by the listener
 };
+
+/// For tests: another interval of work, in nanoseconds, for the threads that begin to listen from then on. Returns the
+/// one before.
+double exchange_listening_interval(double nanoseconds);
 
 /// Says that this thread has worked for about so long since it said so last; after each Listening::interval of such
 /// work the listener is asked. Costs little, and throws as Listening::ask does: to be called where nothing is left half

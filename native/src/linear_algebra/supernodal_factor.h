@@ -20,13 +20,13 @@ struct SupernodalStructure {
 
 /// L L^H of a Hermitian positive definite matrix by the multifrontal method (Duff and Reid 1983; Liu 1992), and the
 /// solves with it. Each supernode sums up what its children pass on, eliminates its columns by BLAS and passes the rest
-/// on to its parent; subtrees do not know of each other and are factorised by as many threads as ThreadLimit allows.
-/// What a supernode does never depends on the number of threads, so neither does any bit of the result. Blocks are real
-/// as long as no imaginary part has reached them: in the conformal energy with uniform weights only the boundary's
-/// edges have one (Eq. 3).
+/// on to its parent; subtrees do not know of each other and are factorised by as many threads as the ThreadBudget
+/// allows. What a supernode does never depends on the number of threads, so neither does any bit of the result. Blocks
+/// are real as long as no imaginary part has reached them: in the conformal energy with uniform weights only the
+/// boundary's edges have one (Eq. 3).
 class SupernodalFactor {
  public:
-  /// max_threads: 0 for as many as ThreadLimit allows.
+  /// max_threads: 0 for as many as the ThreadBudget allows.
   explicit SupernodalFactor(unsigned max_threads = 0) : max_threads_(max_threads) {}
 
   /// Takes the structure that the factor of matrices of this pattern has. graph: of the matrix (graph_of).

@@ -356,14 +356,14 @@ Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 
 void Solver::factorize(const Progress& given) {
-  const Listening listening(given);
+  const Listening listening(given, "ordering");
   const Progress& progress = listening.progress();
   const SpectralMap outcome = state_->factorize(progress);
   if (outcome.rejection != Rejection::none) throw failure_of(outcome, {});
 }
 
 Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& given) {
-  const Listening listening(given);
+  const Listening listening(given, "ordering");
   const Progress& progress = listening.progress();
   const std::vector<int>& vertices = state_->vertices;
   if (vertices.empty()) return state_->solve(options, pins, progress);

@@ -428,7 +428,7 @@ class ChartLoop {
 }  // namespace
 
 Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progress& given, KeptMaps* kept) {
-  const Listening listening(given);
+  const Listening listening(given, "charts");
   const Progress& progress = listening.progress();
   report(progress, 0.0, "charts");
   Timings timings;
@@ -475,7 +475,7 @@ Unwrapper::~Unwrapper() = default;
 
 Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optional<double> hole_rigidity,
                         double tolerance, const Progress& given) {
-  const Listening listening(given);
+  const Listening listening(given, "ordering");
   const Progress& progress = listening.progress();
   Unwrap result = empty_result(state_->cut, extenders.size());
   const ExtendersOfCharts extenders_of_charts(state_->cut, extenders);

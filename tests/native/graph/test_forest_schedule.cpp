@@ -129,7 +129,7 @@ TEST_CASE("a listener is asked while its thread waits, and leaves long tasks to 
   const std::thread::id own = std::this_thread::get_id();
   std::atomic<int> asked{0};
   const Progress progress = [&](double, const char*) { return ++asked < 3; };
-  const Listening listening(progress);
+  const Listening listening(progress, "");
   // Two leaves under a root: one is done by each thread, the root then by the other one.
   const ForestSchedule schedule({2, 2, -1}, {2, 2, 2});
   std::atomic<int> begun{0};

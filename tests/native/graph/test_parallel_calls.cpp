@@ -113,7 +113,7 @@ TEST_CASE("a call that reports nothing is heard of, and ends the work once it ha
     elsewhere = elsewhere || std::this_thread::get_id() != own || fraction != 0.25 || phase != std::string("phase");
     return ++asked < 4;
   };
-  const Listening listening(progress);
+  const Listening listening(progress, "phase");
   report(listening.progress(), 0.25, "phase");
   bool ended = false;
   const auto call = [&] {
@@ -131,7 +131,7 @@ TEST_CASE("what a call throws that reports nothing is thrown, in whatever thread
   for (const unsigned n_cores : {1U, 2U}) {
     const ThreadBudget::Pretended cores(n_cores);
     const Progress progress = [](double, const char*) { return true; };
-    const Listening listening(progress);
+    const Listening listening(progress, "phase");
     CHECK_THROWS_WITH_AS(call_while_listening(1e9, call), "call", std::runtime_error);
   }
 }
@@ -143,7 +143,7 @@ TEST_CASE("what the listener throws arrives, from whatever level of calls, and e
     if (++asked == 3) throw std::runtime_error("listener");
     return true;
   };
-  const Listening listening(progress);
+  const Listening listening(progress, "phase");
   const auto endless = [](int, const Progress&) {
     while (true) still_working(1e6);
   };

@@ -1,0 +1,90 @@
+"""Long work is heard by the progress function, in proportion to the work, and may be cancelled wherever it is heard."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+# Nanoseconds of work, in place of the 40 million after which a progress function is called: what a small mesh then
+# shows of its phases, a large one shows of their parts.
+INTERVAL = 20_000.0
+
+CASES = {
+    "uniform": {},
+    "inverse_area": {"weights": "inverse_area"},
+    "area": {"method": "area"},
+    "lscm": {"method": "lscm"},
+    "polish": {"polish": True},
+    "fold_free": {"fold_free": True},
+    "area_blend": {"area_blend": 0.5},
+}
+
+
+@pytest.fixture(autouse=True)
+def heard_often():
+    # In one thread the number of calls is always the same: while a thread waits for another it calls by the clock.
+    sc.limit_threads(1)
+    before = sc._native.exchange_listening_interval(INTERVAL)
+    yield
+    sc._native.exchange_listening_interval(before)
+    sc.limit_threads(0)
+
+
+def _calls(n, options):
+    vertices, triangles = meshes.bumpy_disk(n)
+    calls = []
+    sc.unwrap(vertices, *meshes.polygons(triangles), progress=lambda *call: calls.append(call), **options)
+    return calls
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_calls_are_made_in_proportion_to_the_work(case):
+    def heard(n):
+        often = len(_calls(n, CASES[case]))
+        sc._native.exchange_listening_interval(1e18)
+        reports = len(_calls(n, CASES[case]))
+        sc._native.exchange_listening_interval(INTERVAL)
+        return often - reports
+
+    few, many = heard(1500), heard(6000)
+    assert few > 10
+    # Four times the work, but for the number of solves, which "area" needs a third fewer of on the larger mesh.
+    assert many > 2 * few
+
+
+def test_every_phase_is_heard_several_times_and_the_fraction_never_falls():
+    calls = _calls(6000, {"polish": True})
+    fractions = [fraction for fraction, _ in calls]
+    assert fractions == sorted(fractions)
+    phases = [phase for _, phase in calls]
+    for phase in ("charts", "ordering", "factorization", "eigenproblem", "polish"):
+        assert phases.count(phase) > 5
+    assert "" not in phases
+
+
+def test_a_solve_cancelled_at_any_call_leaves_the_solver_as_it_was():
+    vertices, triangles = meshes.bumpy_disk(1500)
+    mesh = (vertices, *meshes.polygons(triangles))
+    expected = sc.unwrap(*mesh).uv
+    calls = []
+    sc.Unwrapper(*mesh).solve(progress=lambda *call: calls.append(call))
+    for k in np.linspace(0, len(calls) - 1, 25).astype(int):
+        unwrapper = sc.Unwrapper(*mesh)
+        left = [k]
+
+        def listen(fraction, phase, left=left):
+            left[0] -= 1
+            return left[0] >= 0
+
+        with pytest.raises(sc.Cancelled):
+            unwrapper.solve(progress=listen)
+        # No call is made after the one that cancelled.
+        assert left[0] == -1
+        assert np.array_equal(unwrapper.solve().uv, expected)
+
+
+def test_the_charts_of_a_single_patch_are_heard():
+    calls = []
+    sc.parameterize(*meshes.bumpy_disk(6000), progress=lambda *call: calls.append(call))
+    assert [phase for _, phase in calls].count("charts") > 5
