@@ -23,7 +23,8 @@ py::dict counted_work(const py::function& call) {
   const WorkCounts sum = counter.counts();
   return py::dict(py::arg("analyses") = sum.analyses, py::arg("factorizations") = sum.factorizations,
                   py::arg("solves") = sum.solves, py::arg("multiplications") = sum.multiplications,
-                  py::arg("solve_doubles") = sum.solve_doubles);
+                  py::arg("solve_doubles") = sum.solve_doubles,
+                  py::arg("steps") = sum.steps);
 }
 
 }  // namespace

@@ -29,9 +29,10 @@ ComplexVector start_vector(const BoundaryForm& form, unsigned start) {
   ComplexVector y(form.mass.size());
   // Enough to have a part along every eigenvector, too little to lose the circle.
   const double noise = start == 0 ? 0.05 : 1.0;
+  const double total = form.total();
   double passed = 0;
   for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const double angle = 2 * pi * passed / form.total();
+    const double angle = 2 * pi * passed / total;
     const double real = random.next();
     const double imaginary = random.next();
     y[i] = (start == 0 ? std::polar(1.0, angle) : Complex(0)) + noise * Complex(real, imaginary);

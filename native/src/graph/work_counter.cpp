@@ -20,7 +20,7 @@ WorkCounter::~WorkCounter() = default;
 WorkCounter* WorkCounter::current() { return counter_of_thread; }
 
 WorkCounts WorkCounter::counts() const {
-  return {analyses_, factorizations_, solves_, multiplications_, solve_doubles_};
+  return {analyses_, factorizations_, solves_, multiplications_, solve_doubles_, steps_};
 }
 
 void WorkCounter::add(std::atomic<std::uint64_t>& sum, double value) {
@@ -47,6 +47,10 @@ void count_factorization(double multiplications) {
 
 void count_solve(double doubles) {
   if (WorkCounter* const counter = WorkCounter::current()) counter->add_solve(doubles);
+}
+
+void count_steps(double steps) {
+  if (WorkCounter* const counter = WorkCounter::current()) counter->add_steps(steps);
 }
 
 }  // namespace spectral_conformal

@@ -5,7 +5,7 @@
 
 namespace spectral_conformal {
 
-/// What factorisations cost: the same on every machine, however busy, for one SuiteSparse. What the benchmarks' tests
+/// What factorisations and searches cost: the same on every machine, however busy, for one SuiteSparse. What the benchmarks' tests
 /// hold speed to.
 struct WorkCounts {
   std::uint64_t analyses = 0;
@@ -13,6 +13,7 @@ struct WorkCounts {
   std::uint64_t solves = 0;           ///< whole ones, or forward and backward parts of one
   std::uint64_t multiplications = 0;  ///< of supernodal factorisations, four for one of complex numbers
   std::uint64_t solve_doubles = 0;    ///< of supernodal factors, read in solves
+  std::uint64_t steps = 0;            ///< corners, edges and list entries that the search for seams looks at
 };
 
 /// While it lives, it counts what is done by the thread that made it and by the threads that the library starts for
@@ -43,6 +44,7 @@ class WorkCounter {
   void add_analysis() { add(analyses_, 1); }
   void add_factorization(double multiplications);
   void add_solve(double doubles);
+  void add_steps(double steps) { add(steps_, steps); }
 
  private:
   static void add(std::atomic<std::uint64_t>& sum, double value);
@@ -52,6 +54,7 @@ class WorkCounter {
   std::atomic<std::uint64_t> solves_{0};
   std::atomic<std::uint64_t> multiplications_{0};
   std::atomic<std::uint64_t> solve_doubles_{0};
+  std::atomic<std::uint64_t> steps_{0};
   Share share_;  ///< last: from then on it counts
 };
 
@@ -59,5 +62,6 @@ class WorkCounter {
 void count_analysis();
 void count_factorization(double multiplications);
 void count_solve(double doubles);
+void count_steps(double steps);
 
 }  // namespace spectral_conformal

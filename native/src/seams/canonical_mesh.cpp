@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/work_counter.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -95,17 +97,25 @@ bool refine(const SelectedFaces& faces, const std::vector<std::pair<std::size_t,
   return split;
 }
 
-/// The corners of a face from its first vertex on; where that occurs several times, the first of the sequences.
-std::vector<int> from_first_vertex(const std::vector<int>& corners) {
-  std::vector<int> result;
-  const auto least = std::min_element(corners.begin(), corners.end());
-  for (auto begin = least; begin != corners.end(); ++begin) {
-    if (*begin != *least) continue;
-    std::vector<int> turned(begin, corners.end());
-    turned.insert(turned.end(), corners.begin(), begin);
-    if (result.empty() || turned < result) result = std::move(turned);
+/// The corners of a face from its first vertex on; where that occurs several times, the first of the sequences: the
+/// least rotation, found by comparing two beginnings, of which the one that loses rules out all that it was compared by.
+void turn_to_first_vertex(std::vector<int>& corners) {
+  const std::size_t n = corners.size();
+  std::size_t least = 0;
+  std::size_t other = 1;
+  std::size_t same = 0;
+  const auto at = [&](std::size_t begin) { return corners[begin + same < n ? begin + same : begin + same - n]; };
+  while (other < n && least < n && same < n) {
+    count_steps(1);
+    if (at(least) == at(other)) {
+      ++same;
+      continue;
+    }
+    (at(least) > at(other) ? least : other) += same + 1;
+    if (least == other) ++other;
+    same = 0;
   }
-  return result;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(std::min(least, other)), corners.end());
 }
 
 /// The used vertices in canonical order.
@@ -156,7 +166,8 @@ CanonicalMesh::CanonicalMesh(const PolygonMesh& mesh) {
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
       corners.push_back(number[mesh.corner_vertices[c]]);
     }
-    faces.push_back(from_first_vertex(corners));
+    turn_to_first_vertex(corners);
+    faces.push_back(std::move(corners));
   }
   std::sort(faces.begin(), faces.end());
   for (const auto& corners : faces) {

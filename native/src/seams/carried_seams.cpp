@@ -77,7 +77,7 @@ SeamChains::SeamChains(const PieceSeams& seams, const std::vector<SeamEdges>& cu
 
 bool SeamChains::goes_on(int v, int edge, int other) const {
   return other != edge && followed_[other] == 0 && cut_of_edge_[other] == cut_of_edge_[edge] && !crosses(other) &&
-         degree_[v] == 2 && (side(v) != 0 || (seams_.along_axis(edge) && seams_.along_axis(other)));
+         (side(v) != 0 || (seams_.along_axis(edge) && seams_.along_axis(other)));
 }
 
 /// Goes on from the last vertex of a chain, by an edge of the same cut as `edge`.
@@ -85,6 +85,7 @@ void SeamChains::follow(int edge, SeamChain& chain) {
   for (bool found = true; found;) {
     found = false;
     const int v = chain.vertices.back();
+    if (degree_[v] != 2) return;
     for (const int other : new_at_[v]) {
       if (found || !goes_on(v, edge, other)) continue;
       followed_[other] = 1;

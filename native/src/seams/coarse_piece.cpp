@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "graph/parallel_calls.h"
+#include "graph/work_counter.h"
 
 namespace spectral_conformal {
 namespace {
@@ -32,6 +33,9 @@ constexpr double stalled = 0.01;
 constexpr double relaxed = 0.5;
 constexpr int max_relaxations = 3;
 constexpr std::size_t max_faces_around = 14;
+/// A face with more corners, and a vertex with more faces, only follow what is merged beside them: to look at all of
+/// it at every merge there would take quadratic time.
+constexpr int most_looked_at = 256;
 /// Merges of this number of vertices are looked for in one call, and of this fraction of all in parallel before any is
 /// made: of more, more would be looked for in vain, because merges near them come first.
 constexpr std::ptrdiff_t searched_at_once = 512;
@@ -109,7 +113,7 @@ class ShrinkingMesh {
   void relax();
   /// Per vertex: itself, or the one that it was merged into.
   const std::vector<int>& into() const { return into_; }
-  /// Of a face; none where it has vanished.
+  /// Of a face; none where it has vanished. One with many keeps them all, also those that were merged.
   Corners corners(int face) const { return {corners_.data() + fine_.face_offsets[face], n_corners_[face]}; }
 
  private:
@@ -128,12 +132,17 @@ class ShrinkingMesh {
   Shape shape(const Corners& corners) const;
   Shape shape(int face) const { return shape(corners(face)); }
   bool is_border(int v) const { return border_[static_cast<std::size_t>(v)] != 0; }
+  bool is_hub(int v) const { return is_hub_[static_cast<std::size_t>(v)] != 0; }
+  int n_faces_around(int v) const {
+    return is_hub(v) ? faces_of_hub_[static_cast<std::size_t>(v)] : static_cast<int>(faces_of_[v].size());
+  }
   int mirrored(int v) const { return mirror_.vertex[static_cast<std::size_t>(v)]; }
   void collect_neighbours(int v, Fan& fan) const;
   bool is_simple_fan(int v, Fan& fan) const;
   double cost(int v, int w) const;
   bool can_merge(int v, int w, Fan& fan) const;
   bool has_only_common_triangles(int v, int w, Fan& fan) const;
+  bool leaves_hubs(int v, int w) const;
   void collect_shapes(int v, Fan& fan) const;
   bool keeps_shapes(int v, int w, Fan& fan) const;
   double least_cost(int v) const;
@@ -153,7 +162,9 @@ class ShrinkingMesh {
   const std::vector<double>& preference_;
   std::vector<int> corners_;                ///< those of a face from its offset in the fine piece on
   std::vector<int> n_corners_;              ///< per face
-  std::vector<std::vector<int>> faces_of_;  ///< per vertex
+  std::vector<std::vector<int>> faces_of_;  ///< per vertex, of those with few corners; none of hubs
+  std::vector<char> is_hub_;                ///< per vertex: it has many faces
+  std::vector<int> faces_of_hub_;           ///< per vertex: how many
   std::vector<char> border_;                ///< 1 on the boundary, 2 where a vertex has to stay
   std::vector<Quadric> quadrics_;
   std::vector<int> into_;
@@ -175,6 +186,8 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
       preference_(preference),
       corners_(fine.corner_vertices),
       faces_of_(fine.vertices.size()),
+      is_hub_(fine.vertices.size(), 0),
+      faces_of_hub_(fine.vertices.size(), 0),
       border_(fine.vertices.size(), 0),
       quadrics_(fine.vertices.size()),
       into_(fine.vertices.size()),
@@ -192,7 +205,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
     for (int c = 0; c < corners.size(); ++c) {
       const int v = corners[c];
       const int next = corners[c + 1 == corners.size() ? 0 : c + 1];
-      faces_of_[v].push_back(f);
+      if (corners.size() <= most_looked_at) faces_of_[v].push_back(f);
       sides.push_back({std::min(v, next), std::max(v, next), f});
       const double weight = area / static_cast<double>(corners.size());
       quadrics_[v].weight += weight;
@@ -203,8 +216,18 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1]) ++end;
-    const auto [a, b, f] = sides[i];
-    if (end == i + 1) {
+    const int a = sides[i][0];
+    const int b = sides[i][1];
+    int f = -1;
+    std::ptrdiff_t n_small = 0;
+    for (std::size_t k = i; k < end; ++k) {
+      if (n_corners_[sides[k][2]] > most_looked_at) continue;
+      f = sides[k][2];
+      ++n_small;
+    }
+    if (n_small == 0 || end > i + 2) {
+      border_[a] = border_[b] = 2;
+    } else if (n_small == 1) {
       const Eigen::Vector3d edge = fine.positions.row(b) - fine.positions.row(a);
       const Eigen::Vector3d across = edge.cross(shape(f).normal);
       for (const int v : {a, b}) {
@@ -213,12 +236,17 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
           quadrics_[v].add_plane(across.normalized(), fine.positions.row(a), boundary_weight * edge.squaredNorm());
         }
       }
-    } else if (end > i + 2) {
-      border_[a] = border_[b] = 2;
     }
     i = end;
   }
   for (const auto& seam : fine.seams) border_[seam[0]] = border_[seam[1]] = 2;
+  for (std::size_t v = 0; v < faces_of_.size(); ++v) {
+    if (faces_of_[v].size() <= most_looked_at) continue;
+    is_hub_[v] = 1;
+    border_[v] = 2;
+    faces_of_hub_[v] = static_cast<int>(faces_of_[v].size());
+    faces_of_[v] = {};
+  }
 }
 
 /// The least of (twice the area of the triangle at a corner) over the mean of the squared edges: 0.87 in an equilateral
@@ -226,6 +254,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
 ShrinkingMesh::Shape ShrinkingMesh::shape(const Corners& corners) const {
   Shape result;
   const int n = corners.size();
+  count_steps(n);
   const auto point = [&](int c) -> Eigen::Vector3d { return fine_.positions.row(corners[c % n]); };
   const Eigen::Vector3d origin = point(0);
   double squares = 0;
@@ -254,6 +283,7 @@ void ShrinkingMesh::collect_neighbours(int v, Fan& fan) const {
   auto& neighbours = fan.neighbours;
   neighbours.clear();
   for (const int f : faces_of_[v]) {
+    count_steps(corners(f).size());
     for (const int w : corners(f).beside(v)) neighbours.emplace_back(w, 1);
   }
   std::sort(neighbours.begin(), neighbours.end());
@@ -311,7 +341,7 @@ bool ShrinkingMesh::has_only_common_triangles(int v, int w, Fan& fan) const {
     if (corners.size() > 3) continue;
     ++triangles;
     const int third = next == v ? previous : next;
-    if (faces_of_[third].size() < (border_[third] == 1 ? 2 : 4)) return false;
+    if (n_faces_around(third) < (border_[third] == 1 ? 2 : 4)) return false;
   }
   return triangles == common && faces_of_[v].size() + faces_of_[w].size() - 2 * shared <= max_faces_around;
 }
@@ -340,8 +370,18 @@ void ShrinkingMesh::collect_shapes(int v, Fan& fan) const {
   for (const int f : faces_of_[v]) fan.shapes.push_back(shape(f));
 }
 
+/// Whether hubs beside both still have faces enough, of which those that were merged since a search took some.
+bool ShrinkingMesh::leaves_hubs(int v, int w) const {
+  return std::all_of(faces_of_[v].begin(), faces_of_[v].end(), [&](int f) {
+    const Corners corners = this->corners(f);
+    return !corners.contains(w) ||
+           std::all_of(corners.begin(), corners.end(), [&](int c) { return !is_hub(c) || faces_of_hub_[c] >= 4; });
+  });
+}
+
 /// Expects the neighbours of v, and the shapes of the faces around it.
 bool ShrinkingMesh::can_merge(int v, int w, Fan& fan) const {
+  if (is_hub(w)) return false;
   if (is_border(v) && is_border(w)) {
     // Along the boundary only.
     const auto to =
@@ -390,7 +430,13 @@ void ShrinkingMesh::merge(int v, int w) {
     }
     n_corners_[f] = static_cast<int>(std::remove(first, first + corners.size(), v) - first);
     if (n_corners_[f] > 2) continue;
-    for (const int c : this->corners(f)) faces_of_[c].erase(std::find(faces_of_[c].begin(), faces_of_[c].end(), f));
+    for (const int c : this->corners(f)) {
+      if (is_hub(c)) {
+        --faces_of_hub_[c];
+      } else {
+        faces_of_[c].erase(std::find(faces_of_[c].begin(), faces_of_[c].end(), f));
+      }
+    }
     n_corners_[f] = 0;
   }
   faces_of_[v].clear();
@@ -411,7 +457,11 @@ void ShrinkingMesh::merge_with_image(int v, int w) {
   around.erase(std::unique(around.begin(), around.end()), around.end());
   std::vector<std::vector<int>> faces_of;
   faces_of.reserve(around.size());
-  for (const int a : around) faces_of.push_back(faces_of_[a]);
+  std::vector<int> faces_of_hub;
+  for (const int a : around) {
+    faces_of.push_back(faces_of_[a]);
+    faces_of_hub.push_back(faces_of_hub_[a]);
+  }
   std::vector<std::pair<int, std::vector<int>>> faces;
   for (const int f : faces_of_[v]) faces.emplace_back(f, std::vector<int>(corners(f).begin(), corners(f).end()));
   const Quadric quadric = quadrics_[w];
@@ -427,7 +477,10 @@ void ShrinkingMesh::merge_with_image(int v, int w) {
     merge(image, image_into);
     return;
   }
-  for (std::size_t i = 0; i < around.size(); ++i) faces_of_[around[i]] = std::move(faces_of[i]);
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    faces_of_[around[i]] = std::move(faces_of[i]);
+    faces_of_hub_[around[i]] = faces_of_hub[i];
+  }
   for (const auto& [f, corners] : faces) {
     std::copy(corners.begin(), corners.end(), corners_.begin() + fine_.face_offsets[f]);
     n_corners_[f] = static_cast<int>(corners.size());
@@ -437,12 +490,15 @@ void ShrinkingMesh::merge_with_image(int v, int w) {
   ++n_left_;
 }
 
-/// Visits the vertices around v and its image, some of them several times.
+/// Visits the vertices around v and its image but for hubs, some of them several times.
 template <class Visit>
 void ShrinkingMesh::visit_fans(int v, const Visit& visit) const {
   for (const int centre : {v, symmetric_ ? mirrored(v) : v}) {
     for (const int f : faces_of_[centre]) {
-      for (const int c : corners(f)) visit(c);
+      count_steps(corners(f).size());
+      for (const int c : corners(f)) {
+        if (!is_hub(c)) visit(c);
+      }
     }
   }
 }
@@ -508,6 +564,7 @@ int ShrinkingMesh::merge_round(int most) {
           failed_[v] = round_;
           continue;
         }
+        if (!leaves_hubs(v, target.vertex)) continue;
         visit_fans(v, [&](int c) { changed_[c] = round_; });
         merge_with_image(v, target.vertex);
       }
@@ -555,11 +612,15 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   }
   std::vector<int> face_number(fine.faces.size(), -1);
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {
-    const Corners corners = mesh.corners(static_cast<int>(f));
-    if (corners.size() == 0) continue;
+    std::vector<int> corners;
+    for (const int v : mesh.corners(static_cast<int>(f))) {
+      if (corners.empty() || corners.back() != number[root[v]]) corners.push_back(number[root[v]]);
+    }
+    while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3) continue;
     face_number[f] = result.piece.n_faces();
     result.piece.faces.push_back(fine.faces[f]);
-    for (const int v : corners) result.piece.corner_vertices.push_back(number[v]);
+    result.piece.corner_vertices.insert(result.piece.corner_vertices.end(), corners.begin(), corners.end());
     result.piece.face_offsets.push_back(static_cast<int>(result.piece.corner_vertices.size()));
   }
   for (const auto& seam : fine.seams) result.piece.seams.push_back({number[seam[0]], number[seam[1]]});

@@ -42,6 +42,14 @@ std::vector<int> all_of(const SeparableFaces& faces) {
   return result;
 }
 
+std::vector<int> charts_of_faces(const TrialMaps& charts, int n_faces) {
+  std::vector<int> result(static_cast<std::size_t>(n_faces), -1);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    for (const int face : charts[i]->chart.faces) result[static_cast<std::size_t>(face)] = static_cast<int>(i);
+  }
+  return result;
+}
+
 int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, int from) {
   const std::vector<double> distance = face_distances(faces, {from});
   return *std::max_element(among.begin(), among.end(), [&](int a, int b) {
@@ -55,12 +63,9 @@ CutCandidates::CutCandidates(const PieceSeams& seams, const TrialMaps& charts, c
     : seams_(seams),
       charts_(charts),
       quality_(quality),
-      chart_of_face_(static_cast<std::size_t>(seams.piece().n_faces()), -1),
-      separable_(charts.size()) {
-  for (std::size_t i = 0; i < charts_.size(); ++i) {
-    for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
-  }
-}
+      chart_of_face_(charts_of_faces(charts, seams.piece().n_faces())),
+      mutexes_(charts.size()),
+      separable_(charts.size()) {}
 
 bool CutCandidates::is_first_of_mirrored(int chart) const {
   return seams_.mirrored_chart(chart, chart_of_face_) >= chart;
@@ -108,7 +113,7 @@ SeamEdges CutCandidates::cut_around(const Region& region) const {
   std::vector<int> sinks;
   for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
     const auto face = static_cast<int>(i);
-    const bool near = std::find(sources.begin(), sources.end(), face) != sources.end();
+    const bool near = std::binary_search(sources.begin(), sources.end(), face);
     if (sign * offset(i) <= 0 && !near) sinks.push_back(face);
   }
   if (sources.empty() || sinks.empty()) return {};
@@ -273,7 +278,7 @@ SeamEdges CutCandidates::blind_cut() const {
 
 /// The areas of a chart that is not solved are those of its polygons.
 const SeparableFaces& CutCandidates::separable(int chart) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> lock(mutexes_[static_cast<std::size_t>(chart)]);
   std::unique_ptr<const SeparableFaces>& result = separable_[static_cast<std::size_t>(chart)];
   if (result) return *result;
   const Piece& piece = seams_.piece();

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "graph/disjoint_sets.h"
+#include "graph/work_counter.h"
 
 namespace spectral_conformal {
 
@@ -65,7 +66,8 @@ int CutSurface::count_loops() const {
 
 /// Parts the two sides of an edge. By what its ends were: both inside, the edge becomes a loop of its own; one on the
 /// boundary, a slit; both on the boundary, two loops become one, or one becomes two, or is turned over where the
-/// surface is not orientable.
+/// surface is not orientable. The boundary is walked from both sides of the edge at once until one walk knows which it
+/// is: the cost is that of the shorter loop.
 void CutSurface::cut(int edge) {
   const auto [half, twin] = halves_[edge];
   twin_[half] = twin_[twin] = -1;
@@ -76,11 +78,22 @@ void CutSurface::cut(int edge) {
   euler_characteristic_ += 1 - inside;
   if (inside == 2) ++loops_;
   if (inside > 0) return;
-  Spoke spoke = next_on_boundary(from);
-  while (spoke.half_edge != half && spoke.half_edge != twin) spoke = next_on_boundary(spoke);
-  if (spoke.half_edge == half) {
+  const int start = half_edges_.from(from.corner);
+  const int end = half_edges_.from(to.corner);
+  Spoke one = next_on_boundary(from);
+  Spoke other = next_on_boundary({half_edges_.from(twin) == end ? twin : half_edges_.next(twin), twin});
+  const auto is_back = [&, half = half, twin = twin](const Spoke& spoke) {
+    return spoke.half_edge == half || spoke.half_edge == twin;
+  };
+  double n_steps = 2;
+  for (; !is_back(one) && !is_back(other); n_steps += 2) {
+    one = next_on_boundary(one);
+    other = next_on_boundary(other);
+  }
+  count_steps(n_steps);
+  if (one.half_edge == half || other.half_edge == twin) {
     ++loops_;
-  } else if (half_edges_.from(spoke.corner) == half_edges_.from(to.corner)) {
+  } else if (is_back(one) ? half_edges_.from(one.corner) == end : half_edges_.from(other.corner) == start) {
     --loops_;
   }
 }
@@ -148,6 +161,7 @@ bool CutSurface::is_connected_across(const std::vector<int>& edges) {
     }
     closed = --waiting[sides.find(side_of_face_[face])] == 0 && n_sides > 1;
   }
+  count_steps(static_cast<double>(queue.size()));
   for (const int face : queue) side_of_face_[face] = -1;
   return n_sides <= 1;
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 #include "graph/parallel_calls.h"
@@ -123,19 +124,30 @@ class FaceSubset {
   std::vector<int> corner_vertices_;
 };
 
-bool contains(const TrialMaps& charts, const std::shared_ptr<const TrialMap>& chart) {
-  return std::find(charts.begin(), charts.end(), chart) != charts.end();
-}
-
 void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
   run_in_parallel(static_cast<int>(n), work, progress, "seams", Cutter::max_threads);
 }
 
-void add_new(const SeamEdges& more, SeamEdges& all) {
-  for (const int edge : more) {
-    if (std::find(all.begin(), all.end(), edge) == all.end()) all.push_back(edge);
+/// The edges of some cuts, each once, in the order in which they come.
+class JoinedCuts {
+ public:
+  explicit JoinedCuts(const PieceSeams& seams) : seams_(seams) {}
+  void add(const SeamEdges& cut) {
+    for (const int edge : cut) {
+      if (!known_.insert(edge).second) continue;
+      edges_.push_back(edge);
+      length_ += seams_.graph().edges()[static_cast<std::size_t>(edge)].length;
+    }
   }
-}
+  SeamEdges& edges() { return edges_; }
+  double length() const { return length_; }
+
+ private:
+  const PieceSeams& seams_;
+  SeamEdges edges_;
+  std::unordered_set<int> known_;
+  double length_ = 0;
+};
 
 }  // namespace
 
@@ -147,7 +159,7 @@ Cutter::Cutter(PieceSeams seams, const SeamSuggestionOptions& options, const Sta
 
 void Cutter::solve(const Progress& progress) { solve({}, progress); }
 
-void Cutter::solve(const TrialMaps& known, const Progress& progress) {
+void Cutter::solve(const KnownMaps& known, const Progress& progress) {
   TrialMaps charts = map_charts(seams_.with({}), {}, known, progress);
   const MapQuality quality = map_quality(charts, options_.scale_limit);
   take_maps(std::move(charts), quality);
@@ -211,11 +223,14 @@ bool Cutter::price_by_qc() {
 /// Charts that no cut makes easy to map get the map that `unwrap` would give them, which tells where to cut.
 void Cutter::allow_fallbacks(const Progress& progress) {
   fallbacks_ = true;
-  TrialMaps solved;
-  std::copy_if(charts_.begin(), charts_.end(), std::back_inserter(solved), [](const auto& old) { return old->solved; });
+  KnownMaps solved;
+  for (const auto& old : charts_) {
+    if (old->solved) solved.add(old);
+  }
   charts_.clear();
-  recent_.clear();
-  fresh_.clear();
+  current_ = {};
+  recent_ = {};
+  fresh_ = {};
   solve(solved, progress);
 }
 
@@ -227,7 +242,7 @@ bool Cutter::good_enough_but_for_qc() const {
 
 /// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
 TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed,
-                             const TrialMaps& known, const Progress& progress) const {
+                             const KnownMaps& known, const Progress& progress) const {
   PolygonMesh mesh = seams_.piece().view();
   mesh.seam_edges = seams.data();
   mesh.n_seam_edges = static_cast<int>(seams.size());
@@ -243,27 +258,23 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
         if (face >= 0 && chart_of_face_[face] >= 0) is_changed[chart_of_face_[face]] = 1;
       }
     }
-    for (int face = 0; face < mesh.n_faces; ++face) {
-      if (chart_of_face_[face] >= 0 && is_changed[chart_of_face_[face]] != 0) faces.push_back(face);
-    }
     for (std::size_t i = 0; i < charts_.size(); ++i) {
-      if (is_changed[i] == 0) result.push_back(charts_[i]);
+      if (is_changed[i] == 0) {
+        result.push_back(charts_[i]);
+      } else {
+        faces.insert(faces.end(), charts_[i]->chart.faces.begin(), charts_[i]->chart.faces.end());
+      }
     }
+    std::sort(faces.begin(), faces.end());
   }
   const FaceSubset changed_faces(mesh, std::move(faces));
   ChartDecomposition decomposition = build_charts(changed_faces.view());
   std::vector<Chart> unknown;
   for (Chart& chart : decomposition.charts) {
     changed_faces.number_as_in_mesh(chart);
-    // Every cut makes copies of vertices or loops: a chart with as many of both, by the same triangles, is the same.
-    const auto is_same = [&](const auto& old) {
-      return old->chart.faces == chart.faces && old->chart.vertices == chart.vertices &&
-             old->chart.boundary_loops.size() == chart.boundary_loops.size() && old->chart.triangles == chart.triangles;
-    };
     std::shared_ptr<const TrialMap> same;
-    for (const TrialMaps* maps : {&charts_, &known, &recent_, &fresh_}) {
-      const auto found = same ? maps->end() : std::find_if(maps->begin(), maps->end(), is_same);
-      if (found != maps->end()) same = *found;
+    for (const KnownMaps* maps : {&current_, &known, &recent_, &fresh_}) {
+      if (!same) same = maps->find(chart);
     }
     if (same) {
       result.push_back(std::move(same));
@@ -289,6 +300,7 @@ TrialMaps Cutter::map_charts(const std::vector<std::array<int, 2>>& seams, const
 
 void Cutter::take_maps(TrialMaps&& charts, const MapQuality& quality) {
   charts_ = std::move(charts);
+  current_ = KnownMaps(charts_);
   quality_ = quality;
   chart_of_face_.assign(static_cast<std::size_t>(seams_.piece().n_faces()), -1);
   for (std::size_t i = 0; i < charts_.size(); ++i) {
@@ -298,12 +310,9 @@ void Cutter::take_maps(TrialMaps&& charts, const MapQuality& quality) {
 
 /// The same cut of a chart is often tried again after another chart was cut.
 void Cutter::remember(const TrialMaps& tried) {
-  std::int64_t n_vertices = 0;
-  for (const auto& mapped : fresh_) n_vertices += mapped->chart.n_vertices();
   for (const auto& mapped : tried) {
-    if (n_vertices > remembered_vertices || contains(charts_, mapped) || contains(fresh_, mapped)) continue;
-    fresh_.push_back(mapped);
-    n_vertices += mapped->chart.n_vertices();
+    if (fresh_.n_vertices() > remembered_vertices) return;
+    if (!current_.contains(mapped) && !fresh_.contains(mapped)) fresh_.add(mapped);
   }
 }
 
@@ -311,7 +320,7 @@ void Cutter::remember(const std::vector<Trial>& trials) {
   for (const Trial& trial : trials) remember(trial.charts);
 }
 
-Cutter::Trial Cutter::attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const {
+Cutter::Trial Cutter::attempt(SeamEdges cut, const KnownMaps& known, const Progress& progress) const {
   Trial trial;
   trial.charts = map_charts(seams_.with(cut), cut, known, progress);
   trial.quality = map_quality(trial.charts, options_.scale_limit);
@@ -498,9 +507,10 @@ SeamEdges Cutter::split_in_half(double longest, const Progress& progress) {
 bool Cutter::may_gain_later(const Trial& halved) const {
   if (!only_qc_counts()) return losing_splits_ <= max_losing_splits;
   if (losing_splits_ > max_losing_splits_in_a_row) return false;
+  const KnownMaps left(halved.charts);
   double beyond = 0;
   for (const auto& mapped : charts_) {
-    if (!contains(halved.charts, mapped)) beyond += mapped->sums.qc() - options_.qc_limit * mapped->sums.area();
+    if (!left.contains(mapped)) beyond += mapped->sums.qc() - options_.qc_limit * mapped->sums.area();
   }
   return beyond >= later_gain * quality_.area * least_qc_gain(halved.cut);
 }
@@ -512,17 +522,19 @@ SeamEdges Cutter::accept_best(std::vector<Trial>&& trials, double longest, const
   if (makes_islands(best)) return accept(std::move(best));
   const double excess = quality_.energy - options_.energy_limit;
   double gained = 0;
-  SeamEdges all;
-  TrialMaps known;
+  JoinedCuts all(seams_);
+  KnownMaps known;
   for (const Trial& trial : trials) {
     if (makes_islands(trial) || gain(trial) < nearly_as_good * gain(best)) continue;
     if (excess > 0 && gained >= excess) break;
     gained += quality_.energy - trial.quality.energy;
-    add_new(trial.cut, all);
-    known.insert(known.end(), trial.charts.begin(), trial.charts.end());
+    all.add(trial.cut);
+    for (const auto& mapped : trial.charts) {
+      if (!current_.contains(mapped)) known.add(mapped);
+    }
   }
-  if (all.size() > best.cut.size() && seams_.length(all) <= longest) {
-    Trial trial = attempt(std::move(all), known, progress);
+  if (all.edges().size() > best.cut.size() && all.length() <= longest) {
+    Trial trial = attempt(std::move(all.edges()), known, progress);
     if (!makes_islands(trial) && gain(trial) > nearly_as_good * gain(best)) return accept(std::move(trial));
   }
   return accept(std::move(best));
@@ -536,15 +548,15 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
       charts_.size(),
       [&](int i, const Progress&) {
         const auto chart = static_cast<std::size_t>(i);
-        if (!contains(sound_, charts_[chart])) defects[chart] = defective_faces(*charts_[chart]);
+        if (!sound_.contains(charts_[chart])) defects[chart] = defective_faces(*charts_[chart]);
       },
       progress);
-  sound_.clear();
+  sound_ = {};
   std::vector<int> parted;
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     const int chart = static_cast<int>(i);
     if (defects[i].empty()) {
-      sound_.push_back(charts_[i]);
+      sound_.add(charts_[i]);
     } else if (candidates.is_first_of_mirrored(chart)) {
       parted.push_back(chart);
     }
@@ -567,17 +579,17 @@ SeamEdges Cutter::part_defects(double longest, const Progress& progress) {
                                  remembered, going_on);
       },
       progress);
-  SeamEdges all;
-  TrialMaps known;
+  JoinedCuts all(seams_);
+  KnownMaps known;
   for (const Parting& parting : partings) {
     remember(parting.tried);
     // What does not fit any more is for the next step to shorten.
-    if (seams_.length(all) + seams_.length(parting.cut) > longest) continue;
-    add_new(parting.cut, all);
-    known.insert(known.end(), parting.charts.begin(), parting.charts.end());
+    if (all.length() + seams_.length(parting.cut) > longest) continue;
+    all.add(parting.cut);
+    for (const auto& mapped : parting.charts) known.add(mapped);
   }
-  if (all.empty()) return {};
-  return accept(attempt(std::move(all), known, progress));
+  if (all.edges().empty()) return {};
+  return accept(attempt(std::move(all.edges()), known, progress));
 }
 
 /// The cut that parts the defects of one chart: with the least distortion and length, or in any case. Maps of as many
@@ -597,7 +609,8 @@ Cutter::Parting Cutter::part_chart(const CutCandidates& candidates, int chart, c
     if (best.cut.empty() && some.size() > 1) best = part_together(defective, some, progress);
     if (best.cut.empty()) continue;
     result.cut = std::move(best.cut);
-    result.charts = std::move(best.charts);
+    std::copy_if(best.charts.begin(), best.charts.end(), std::back_inserter(result.charts),
+                 [&](const auto& mapped) { return !current_.contains(mapped); });
     break;
   }
   return result;
@@ -652,7 +665,7 @@ Cutter::Trial Cutter::best_parting(const DefectiveChart& chart, std::vector<Seam
     for (std::size_t k = 0; k < trials.size(); ++k) {
       Trial& trial = trials[k];
       for (const auto& mapped : trial.charts) {
-        if (parting.room < 0 || contains(charts_, mapped)) continue;
+        if (parting.room < 0 || current_.contains(mapped)) continue;
         parting.tried.push_back(mapped);
         parting.room -= mapped->chart.n_vertices();
       }
@@ -698,7 +711,7 @@ Cutter::Trial Cutter::part_together(const DefectiveChart& chart, const std::vect
 Cutter::Defects Cutter::defects_left(const Trial& trial, double unsolved) const {
   Defects result;
   for (const auto& mapped : trial.charts) {
-    if (contains(charts_, mapped)) continue;
+    if (current_.contains(mapped)) continue;
     double extent = 0;
     for (const int face : defective_faces(*mapped)) {
       extent += extent_of(*mapped, face, quality_.area);
@@ -713,7 +726,7 @@ Cutter::Defects Cutter::defects_left(const Trial& trial, double unsolved) const 
 /// Each part of a chart's defects has a cut of its own: those that remove most for their price, until none removes
 /// more.
 SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts) const {
-  SeamEdges all;
+  JoinedCuts all(seams_);
   std::set<int> removed;
   while (true) {
     const PartCut* best = nullptr;
@@ -728,9 +741,9 @@ SeamEdges Cutter::cut_together(const std::vector<PartCut>& cuts) const {
       best_score = score;
       best = &cut;
     }
-    if (best == nullptr) return all;
+    if (best == nullptr) return std::move(all.edges());
     for (const DefectiveFace& defect : best->removed) removed.insert(defect.face);
-    add_new(best->cut, all);
+    all.add(best->cut);
   }
 }
 
@@ -772,7 +785,7 @@ bool Cutter::is_sewable(const Trial& trial) const {
     return false;
   }
   return std::all_of(trial.charts.begin(), trial.charts.end(),
-                     [&](const auto& mapped) { return contains(charts_, mapped) || defective_faces(*mapped).empty(); });
+                     [&](const auto& mapped) { return current_.contains(mapped) || defective_faces(*mapped).empty(); });
 }
 
 /// Of the charts beside some edges, together.
@@ -819,7 +832,7 @@ void Cutter::sew(const Progress& progress) {
     for (std::size_t i = 0; i < trials.size(); ++i) {
       kept.insert(trials[i].cut);
       for (const auto& mapped : trials[i].charts) {
-        if (!contains(charts_, mapped)) solved_vertices += mapped->chart.n_vertices();
+        if (!current_.contains(mapped)) solved_vertices += mapped->chart.n_vertices();
       }
       if (sewable[i] == 0) continue;
       const double lost = std::max(trials[i].quality.energy - quality_.energy, 0.0);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seams/cut_candidates.h"
+#include "seams/known_maps.h"
 #include "seams/piece_seams.h"
 #include "seams/trial_map.h"
 #include "spectral_conformal/progress.h"
@@ -63,7 +64,7 @@ class Cutter {
   /// What parts the defects of one chart.
   struct Parting {
     SeamEdges cut;          ///< empty where it would be too long
-    TrialMaps charts;       ///< the maps that it leads to
+    TrialMaps charts;       ///< the maps of it that are not there yet
     TrialMaps tried;        ///< those of its trials, as far as they are few
     std::int64_t room = 0;  ///< vertices of maps that these still take
   };
@@ -92,20 +93,20 @@ class Cutter {
   /// A cut that gained nothing in a chart, which is kept so that no other can take its place in memory.
   using Futile = std::pair<std::shared_ptr<const TrialMap>, SeamEdges>;
 
-  void solve(const TrialMaps& known, const Progress& progress);
+  void solve(const KnownMaps& known, const Progress& progress);
   void allow_fallbacks(const Progress& progress);
   bool good_enough() const;
   bool good_enough_but_for_qc() const;
   bool is_small() const;
   bool hurries() const;  ///< at the finer levels of a large piece
-  TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const TrialMaps& known,
+  TrialMaps map_charts(const std::vector<std::array<int, 2>>& seams, const SeamEdges& changed, const KnownMaps& known,
                        const Progress& progress) const;
   void take_maps(TrialMaps&& charts, const MapQuality& quality);
   void remember(const TrialMaps& tried);
   void remember(const std::vector<Trial>& trials);
   CutCandidates candidates() const { return {seams_, charts_, quality_}; }
 
-  Trial attempt(SeamEdges cut, const TrialMaps& known, const Progress& progress) const;
+  Trial attempt(SeamEdges cut, const KnownMaps& known, const Progress& progress) const;
   std::vector<Trial> attempt_all(const std::vector<Proposal>& proposals, const Progress& progress);
   bool makes_islands(const Trial& trial) const;
   double price(const SeamEdges& cut) const;
@@ -150,12 +151,13 @@ class Cutter {
   Stage stage_;
   bool changed_;  ///< seams are not those of a coarser piece
   TrialMaps charts_;
+  KnownMaps current_;               ///< charts_
   std::vector<int> chart_of_face_;  ///< of charts_, per face of the piece; -1 where a face is in none
   MapQuality quality_;
-  TrialMaps recent_;  ///< of trials of the last step and this one that were not accepted, as far as they are few
-  TrialMaps fresh_;
+  KnownMaps recent_;  ///< of trials of the last step and this one that were not accepted, as far as they are few
+  KnownMaps fresh_;
   std::vector<Futile> futile_;
-  TrialMaps sound_;  ///< those of charts_ that are known to be without defects
+  KnownMaps sound_;  ///< those of charts_ that are known to be without defects
   bool finished_ = false;
   bool exhausted_ = false;    ///< no cut gains any more
   bool cones_tried_ = false;  ///< also where they were on a coarser piece

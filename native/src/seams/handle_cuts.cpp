@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/disjoint_sets.h"
+#include "graph/work_counter.h"
 #include "seams/cut_surface.h"
 
 namespace spectral_conformal {
@@ -22,6 +23,7 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
   for (int v : graph.edges()[edge].vertices) {
     while (parent[v] >= 0) {
       const int step = parent[v];
+      count_steps(1);
       if (!loop.insert(step).second) loop.erase(step);
       v = graph.edges()[step].other_end(v);
     }

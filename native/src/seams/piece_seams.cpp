@@ -120,13 +120,12 @@ std::vector<SeamEdges> PieceSeams::chains() const {
   return result;
 }
 
-int PieceSeams::mirrored_chart(int chart, const std::vector<int>& chart_of_face) const {
+int PieceSeams::mirrored_chart(int chart, const FaceCharts& chart_of_face) const {
   if (!symmetric_) return chart;
-  const auto face = std::find(chart_of_face.begin(), chart_of_face.end(), chart) - chart_of_face.begin();
-  return chart_of_face[mirror_.face[static_cast<std::size_t>(face)]];
+  return chart_of_face[mirror_.face[static_cast<std::size_t>(chart_of_face.first_face(chart))]];
 }
 
-bool PieceSeams::self_mirrored(int chart, const std::vector<int>& chart_of_face) const {
+bool PieceSeams::self_mirrored(int chart, const FaceCharts& chart_of_face) const {
   return symmetric_ && mirrored_chart(chart, chart_of_face) == chart;
 }
 
@@ -217,12 +216,12 @@ SeamEdges PieceSeams::symmetric_outer_loop() const {
                                  [&](int e, int from) { return side_[graph_.edges()[e].other_end(from)] >= 0; }));
 }
 
-bool PieceSeams::in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const {
+bool PieceSeams::in_chart(int edge, int chart, const FaceCharts& chart_of_face) const {
   const auto& faces = graph_.edges()[edge].faces;
   return std::any_of(faces.begin(), faces.end(), [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
 }
 
-std::vector<double> PieceSeams::distances_to_cuts(int chart, const std::vector<int>& chart_of_face) const {
+std::vector<double> PieceSeams::distances_to_cuts(int chart, const FaceCharts& chart_of_face) const {
   std::vector<int> sources;
   for (int e = 0; e < n_edges(); ++e) {
     const auto& edge = graph_.edges()[e];
@@ -232,7 +231,7 @@ std::vector<double> PieceSeams::distances_to_cuts(int chart, const std::vector<i
   return graph_.distances(sources, [&](int edge) { return in_chart(edge, chart, chart_of_face); });
 }
 
-SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const {
+SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const {
   const bool halved = self_mirrored(chart, chart_of_face);
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
   for (const auto& edge : graph_.edges()) {
@@ -283,7 +282,7 @@ void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& 
 }
 
 SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<int>& sources,
-                                const std::vector<int>& sinks, int chart, const std::vector<int>& chart_of_face) const {
+                                const std::vector<int>& sinks, int chart, const FaceCharts& chart_of_face) const {
   std::vector<char> side = separating_side(faces, sources, sinks, min_island);
   if (self_mirrored(chart, chart_of_face)) clear_of_image(faces, side);
   return between_sides(faces, side);

@@ -5,6 +5,7 @@
 
 #include "mesh/charts.h"
 #include "mesh/mirror_symmetry.h"
+#include "seams/face_charts.h"
 #include "seams/pieces.h"
 #include "seams/seam_graph.h"
 #include "seams/separating_cut.h"
@@ -38,10 +39,10 @@ class PieceSeams {
   /// The new seams from one crossing or end of seams to the next, each with its image, longest first.
   std::vector<SeamEdges> chains() const;
 
-  /// Whether the charts, given per face of the piece, are mapped so that `chart` is its own mirror image.
-  bool self_mirrored(int chart, const std::vector<int>& chart_of_face) const;
+  /// Whether the charts of the piece's faces are mapped so that `chart` is its own mirror image.
+  bool self_mirrored(int chart, const FaceCharts& chart_of_face) const;
   /// The chart that `chart` is mapped onto, or itself where the piece has no mirror image of its own.
-  int mirrored_chart(int chart, const std::vector<int>& chart_of_face) const;
+  int mirrored_chart(int chart, const FaceCharts& chart_of_face) const;
   /// Whether cuts come with their images. Not where the piece was slit off its mirror plane.
   bool is_symmetric() const { return symmetric_; }
   void forget_symmetry() { symmetric_ = false; }
@@ -59,20 +60,20 @@ class PieceSeams {
   /// loop of a symmetric piece to its image, because its map would not be symmetric otherwise.
   std::vector<SeamEdges> open();
   /// The cheapest cut within a chart from a vertex to the nearest cut, or, from the loop of a hole, to another one.
-  SeamEdges cut_to(int vertex, bool on_loop, int chart, const std::vector<int>& chart_of_face) const;
+  SeamEdges cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const;
   /// Cost of the cheapest path within a chart from every vertex to a cut; infinite where there is none.
-  std::vector<double> distances_to_cuts(int chart, const std::vector<int>& chart_of_face) const;
+  std::vector<double> distances_to_cuts(int chart, const FaceCharts& chart_of_face) const;
   /// The edges between some faces of a chart, by their indices in `faces`, and its others, and their images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
   /// All edges of the chart on the mirror plane that are not cut.
   SeamEdges cut_along_axis(const SeparableFaces& faces) const;
   /// See separating_side; sources and sinks by their indices, too.
   SeamEdges cut_apart(const SeparableFaces& faces, const std::vector<int>& sources, const std::vector<int>& sinks,
-                      int chart, const std::vector<int>& chart_of_face) const;
+                      int chart, const FaceCharts& chart_of_face) const;
 
  private:
   SeamEdges between_sides(const SeparableFaces& faces, const std::vector<char>& side) const;
-  bool in_chart(int edge, int chart, const std::vector<int>& chart_of_face) const;
+  bool in_chart(int edge, int chart, const FaceCharts& chart_of_face) const;
   int n_edges() const { return static_cast<int>(graph_.edges().size()); }
   bool on_axis(int vertex) const { return symmetric_ && mirror_.vertex[vertex] == vertex; }
   int mirror_edge(int edge) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/polygon_normal.h"
+#include "graph/work_counter.h"
 
 namespace spectral_conformal {
 namespace {
@@ -36,8 +37,9 @@ std::vector<std::array<int, 2>> slit_edges(const Chart& chart) {
 }
 
 /// Matches the corners of a piece's faces with those of their images. False when that is no map of the pieces.
+/// corner_at: scratch, per vertex of the mesh, -1 before and after.
 bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const std::vector<int>& face_in_piece,
-                   const MirrorSymmetry& symmetry, PieceMirror& mirror) {
+                   const MirrorSymmetry& symmetry, std::vector<int>& corner_at, PieceMirror& mirror) {
   const Piece& image = pieces[mirror.image];
   if (image.faces.size() != piece.faces.size() || image.vertices.size() != piece.vertices.size()) return false;
   mirror.vertex.assign(piece.vertices.size(), -1);
@@ -45,16 +47,20 @@ bool match_corners(const Piece& piece, const std::vector<Piece>& pieces, const s
   for (int f = 0; f < piece.n_faces(); ++f) {
     const int other = face_in_piece[symmetry.face[piece.faces[f]]];
     mirror.face[f] = other;
-    for (int c = piece.face_offsets[f]; c < piece.face_offsets[f + 1]; ++c) {
+    const int first = image.face_offsets[other];
+    const int last = image.face_offsets[other + 1];
+    count_steps(last - first);
+    for (int d = first; d < last; ++d) corner_at[image.vertices[image.corner_vertices[d]]] = image.corner_vertices[d];
+    bool matched = true;
+    for (int c = piece.face_offsets[f]; c < piece.face_offsets[f + 1] && matched; ++c) {
       const int v = piece.corner_vertices[c];
       const int wanted = symmetry.vertex[piece.vertices[v]];
-      int found = -1;
-      for (int d = image.face_offsets[other]; d < image.face_offsets[other + 1]; ++d) {
-        if (image.vertices[image.corner_vertices[d]] == wanted) found = image.corner_vertices[d];
-      }
-      if (found < 0 || (mirror.vertex[v] >= 0 && mirror.vertex[v] != found)) return false;
+      const int found = wanted < 0 ? -1 : corner_at[wanted];
+      matched = found >= 0 && (mirror.vertex[v] < 0 || mirror.vertex[v] == found);
       mirror.vertex[v] = found;
     }
+    for (int d = first; d < last; ++d) corner_at[image.vertices[image.corner_vertices[d]]] = -1;
+    if (!matched) return false;
   }
   // Cuts on one side only show as copies of vertices, or as seams without an image.
   std::vector<int> images = mirror.vertex;
@@ -134,6 +140,7 @@ std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecom
   for (const Piece& piece : pieces) {
     for (int f = 0; f < piece.n_faces(); ++f) face_in_piece[piece.faces[f]] = f;
   }
+  std::vector<int> corner_at(static_cast<std::size_t>(mesh.n_vertices), -1);
   std::vector<PieceMirror> mirrors(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
@@ -145,7 +152,7 @@ std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecom
     mirror.image = image_of(piece.faces.front());
     const bool onto_one = std::all_of(piece.faces.begin(), piece.faces.end(),
                                       [&](int face) { return image_of(face) == mirror.image && mirror.image >= 0; });
-    if (onto_one && match_corners(piece, pieces, face_in_piece, symmetry, mirror)) {
+    if (onto_one && match_corners(piece, pieces, face_in_piece, symmetry, corner_at, mirror)) {
       mirrors[i] = std::move(mirror);
     }
   }

@@ -31,9 +31,9 @@ class SeamGraph {
   const std::vector<Edge>& edges() const { return edges_; }
   /// The faces as nodes, joined over every edge between exactly two, cut or not, with the numbers of the edges.
   const Adjacency& dual() const { return dual_; }
-  /// The vertices as nodes, with the numbers of the edges.
+  /// The vertices as nodes, with the numbers of the edges; the arcs of each are sorted by where they lead.
   const Adjacency& adjacency() const { return adjacency_; }
-  /// The edge between two vertices, or -1.
+  /// The edge between two vertices, or -1; by bisection of the arcs of one.
   int find_edge(int a, int b) const;
   void cut(int edge) { edges_[edge].cut = true; }
   /// Precondition: it lies between exactly two faces.
@@ -46,7 +46,7 @@ class SeamGraph {
                                 std::vector<int>* parent = nullptr) const;
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty where there is none or the start
   /// is a target. Turns cost too, so that of the many shortest paths over a grid a straight one is taken; cut edges are
-  /// free. `allowed(edge, from)` says whether an edge may be walked from a vertex.
+  /// free. In a vertex with more than 1024 edges only turns out of those that are reached first are looked at. `allowed(edge, from)` says whether an edge may be walked from a vertex.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "graph/parallel_calls.h"
+#include "graph/work_counter.h"
 #include "seams/canonical_mesh.h"
 #include "seams/piece_search.h"
 #include "seams/pieces.h"
@@ -28,6 +29,24 @@ MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) 
   report(progress, 0.0, "charts");
   return MirroredPieces(mesh.view());
 }
+
+/// What the pieces have of seams, and the sum, which follows a change by the sums of pairs, of pairs of these, and so on.
+class PieceLengths {
+ public:
+  explicit PieceLengths(std::size_t n) : n_(std::max<std::size_t>(n, 1)), sums_(2 * n_, 0) {}
+  void set(std::size_t piece, double length) {
+    std::size_t at = n_ + piece;
+    for (sums_[at] = length; at > 1; at /= 2) {
+      count_steps(1);
+      sums_[at / 2] = sums_[at & ~std::size_t{1}] + sums_[at | 1];
+    }
+  }
+  double sum() const { return sums_[1]; }
+
+ private:
+  std::size_t n_;
+  std::vector<double> sums_;  ///< from 1 on; those of the pieces from n on
+};
 
 /// The whole mesh in canonical order, and the searches of its pieces.
 class SeamFinder {
@@ -87,18 +106,22 @@ class SeamFinder {
     for (const auto& search : searches_) {
       if (search) search->begin(quiet(progress_));
     }
-    for (int next = most_urgent(); next >= 0; next = most_urgent()) {
-      ++steps_;
-      const auto i = static_cast<std::size_t>(next);
-      searches_[i]->step(length_left() / copies(i), quiet(progress_));
-    }
-  }
-  double length_left() const {
-    double left = options_.max_length;
+    PieceLengths lengths(searches_.size());
+    std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
+    const auto look_at = [&](std::size_t i) {
+      lengths.set(i, copies(i) * searches_[i]->length());
+      if (!searches_[i]->finished()) next.emplace(searches_[i]->urgency(), -static_cast<int>(i));
+    };
     for (std::size_t i = 0; i < searches_.size(); ++i) {
-      if (searches_[i]) left -= copies(i) * searches_[i]->length();
+      if (searches_[i]) look_at(i);
     }
-    return left;
+    while (!next.empty()) {
+      const auto i = static_cast<std::size_t>(-next.top().second);
+      next.pop();
+      ++steps_;
+      searches_[i]->step((options_.max_length - lengths.sum()) / copies(i), quiet(progress_));
+      look_at(i);
+    }
   }
   /// Solves report that they go on, not how far they are; the fraction done only rises.
   Progress quiet(const Progress& progress) const {
@@ -108,15 +131,6 @@ class SeamFinder {
   }
   int copies(std::size_t piece) const {
     return parts_.mirrors[piece].image >= 0 && parts_.mirrors[piece].image != static_cast<int>(piece) ? 2 : 1;
-  }
-  int most_urgent() const {
-    int best = -1;
-    for (int i = 0; i < static_cast<int>(searches_.size()); ++i) {
-      const auto& search = searches_[static_cast<std::size_t>(i)];
-      if (!search || search->finished()) continue;
-      if (best < 0 || search->urgency() > searches_[static_cast<std::size_t>(best)]->urgency()) best = i;
-    }
-    return best;
   }
   /// The cuts of all pieces, always the most urgent one of those that are next.
   SeamSuggestion result() const {
