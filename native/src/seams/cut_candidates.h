@@ -62,7 +62,7 @@ class CutCandidates {
   const PieceSeams& seams_;
   const TrialMaps& charts_;
   const MapQuality& quality_;
-  FaceCharts chart_of_face_;  ///< of the piece
+  FaceCharts chart_of_face_;                                              ///< of the piece
   mutable std::vector<std::mutex> mutexes_;                               ///< per chart, of separable_
   mutable std::vector<std::unique_ptr<const SeparableFaces>> separable_;  ///< per chart, as far as it was asked for
 };

@@ -46,7 +46,8 @@ class SeamGraph {
                                 std::vector<int>* parent = nullptr) const;
   /// The cheapest path from a vertex to the nearest target, as edges in order; empty where there is none or the start
   /// is a target. Turns cost too, so that of the many shortest paths over a grid a straight one is taken; cut edges are
-  /// free. In a vertex with more than 1024 edges only turns out of those that are reached first are looked at. `allowed(edge, from)` says whether an edge may be walked from a vertex.
+  /// free. In a vertex with more than 1024 edges only turns out of those that are reached first are looked at.
+  /// `allowed(edge, from)` says whether an edge may be walked from a vertex.
   std::vector<int> path(int start, const std::vector<char>& is_target,
                         const std::function<bool(int edge, int from)>& allowed) const;
 
