@@ -193,7 +193,7 @@ class SeamFinder {
 }  // namespace
 
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& given) {
-  const Listening listening(given);
+  const Listening listening(given, "charts");
   const Progress& progress = listening.progress();
   validate(mesh);
   report(progress, 0.0, "charts");
