@@ -146,6 +146,42 @@ def rough_grid(n, roughness, seed, dropped=0.0):
     return without_unused(vertices, without_bow_ties(np.vstack([np.c_[a, b, c], np.c_[a, c, d]])))
 
 
+def prism(n):
+    """Two polygons of n corners, joined by a ring of quads."""
+    angle = 2 * np.pi * np.arange(n) / n
+    ring = np.c_[np.cos(angle), np.sin(angle), 0 * angle]
+    after = np.roll(np.arange(n), -1)
+    sides = np.c_[np.arange(n), after, after + n, np.arange(n) + n].tolist()
+    return np.r_[ring, ring + [0, 0, 1]], [*sides, list(range(n))[::-1], list(range(n, 2 * n))]
+
+
+def spindle(n):
+    """A double cone: two vertices with n triangles each."""
+    angle = 2 * np.pi * np.arange(n) / n
+    after = np.roll(np.arange(n), -1)
+    upper = np.c_[np.arange(n), after, np.full(n, n)]
+    lower = np.c_[after, np.arange(n), np.full(n, n + 1)]
+    vertices = np.r_[np.c_[np.cos(angle), np.sin(angle), 0 * angle], [[0, 0, 1], [0, 0, -1]]]
+    return vertices, np.r_[upper, lower].tolist()
+
+
+def petals(n):
+    """One polygon that comes to its first vertex n times."""
+    first = 2 * np.pi * np.arange(n) / n
+    angle = np.c_[first, first + 1.6 * np.pi / n].ravel()
+    corners = np.c_[np.zeros(n, int), 2 * np.arange(n) + 1, 2 * np.arange(n) + 2]
+    return np.r_[[[0, 0, 0]], np.c_[np.cos(angle), np.sin(angle), 0 * angle]], [corners.ravel().tolist()]
+
+
+def boxes(n):
+    """Boxes of different sizes in a row."""
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    sizes = 1 + 0.3 * np.sin(np.arange(n))
+    vertices = np.concatenate([size * corners + [3 * k, 0, 0] for k, size in enumerate(sizes)])
+    return vertices, np.concatenate([quads + 8 * k for k in range(n)]).tolist()
+
+
 def polygons(faces):
     """(face_offsets, corner_vertices) of a list of corner lists."""
     sizes = [len(face) for face in faces]

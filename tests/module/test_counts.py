@@ -12,6 +12,7 @@ import pytest
 import spectral_conformal as sc
 
 from tests.benchmarks import instructions
+from tests.module import meshes
 
 # What is a tenth worse fails. Releases of SuiteSparse may break ties in the order otherwise, by which a factor grows or
 # shrinks a little.
@@ -82,3 +83,29 @@ def test_operations_are_counted():
     done = sc._native.counted_work(instructions.CASES["parameterize_10k"]())
     assert all(done[name] > 0 for name in ("analyses", "factorizations", "solves", "multiplications", "solve_doubles"))
     assert not any(sc._native.counted_work(lambda: None).values())
+
+
+# One thing is huge: how the mesh is made, the smaller of two sizes, and options. The larger has twice as much of it.
+HUGE = {
+    "corners of a polygon": (meshes.prism, 1000, {}),
+    "corners of a polygon, on coarse copies": (meshes.prism, 4100, {}),
+    "valence": (meshes.spindle, 1000, {}),
+    "valence, on coarse copies": (meshes.spindle, 7000, {}),
+    "visits of one vertex": (meshes.petals, 400, {}),
+    "pieces within a length": (meshes.boxes, 150, {"max_length": 400.0}),
+}
+# Twice as much, by a logarithm more, and a little for searches that end later. On coarse copies as many of these for
+# both sizes: there is one more for every four times as many vertices.
+MOST_GROWTH = 2.6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", HUGE)
+def test_the_search_for_seams_grows_with_what_is_huge(what):
+    make, size, options = HUGE[what]
+    steps = []
+    for n in (size, 2 * size):
+        vertices, faces = make(n)
+        mesh = vertices, *meshes.polygons(faces)
+        steps.append(sc._native.counted_work(lambda mesh=mesh: sc.suggest_seams(*mesh, **options))["steps"])
+    assert 0 < steps[1] <= MOST_GROWTH * steps[0]

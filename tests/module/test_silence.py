@@ -88,3 +88,16 @@ def test_the_charts_of_a_single_patch_are_heard():
     calls = []
     sc.parameterize(*meshes.bumpy_disk(6000), progress=lambda *call: calls.append(call))
     assert [phase for _, phase in calls].count("charts") > 5
+
+
+def _calls_of_search(n):
+    vertices, faces = meshes.spindle(n)
+    calls = []
+    sc.suggest_seams(vertices, *meshes.polygons(faces), progress=lambda *call: calls.append(call))
+    return [phase for _, phase in calls]
+
+
+def test_the_search_for_seams_is_heard_in_proportion_to_the_work():
+    few, many = _calls_of_search(1000), _calls_of_search(4000)
+    for phase in ("charts", "seams"):
+        assert many.count(phase) > 2.5 * few.count(phase) > 20

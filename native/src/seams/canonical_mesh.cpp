@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/listening.h"
 #include "graph/work_counter.h"
 
 namespace spectral_conformal {
@@ -52,6 +53,7 @@ class SelectedFaces {
   void each_corner(const Visit& visit) const {
     for (int face = 0; face < mesh_.n_faces; ++face) {
       if (!mesh_.is_selected(face)) continue;
+      still_working(10.0 * mesh_.n_corners(face));
       for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
         visit(mesh_.corner_vertices[c], face, c);
       }
@@ -81,7 +83,10 @@ bool refine(const SelectedFaces& faces, const std::vector<std::pair<std::size_t,
   std::vector<std::pair<int, int>> ranked;
   for (const auto& [first, last] : groups) {
     std::vector<std::pair<std::vector<std::array<int, 3>>, int>> members;
-    for (std::size_t i = first; i < last; ++i) members.emplace_back(faces.signature(order[i], rank), order[i]);
+    for (std::size_t i = first; i < last; ++i) {
+      members.emplace_back(faces.signature(order[i], rank), order[i]);
+      still_working(100.0 * static_cast<double>(members.back().first.size()));
+    }
     std::sort(members.begin(), members.end());
     int group_rank = static_cast<int>(first);
     for (std::size_t i = first; i < last; ++i) {
@@ -168,6 +173,7 @@ CanonicalMesh::CanonicalMesh(const PolygonMesh& mesh) {
       corners.push_back(number[mesh.corner_vertices[c]]);
     }
     turn_to_first_vertex(corners);
+    still_working(50.0 * static_cast<double>(corners.size()));
     faces.push_back(std::move(corners));
   }
   std::sort(faces.begin(), faces.end());

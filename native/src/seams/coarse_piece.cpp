@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "graph/work_counter.h"
 
@@ -202,6 +203,7 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
     const Corners corners = this->corners(f);
     const Eigen::Vector3d normal = shape(f).normal;
     const double area = 0.5 * normal.norm();
+    still_working(200.0 * corners.size());
     for (int c = 0; c < corners.size(); ++c) {
       const int v = corners[c];
       const int next = corners[c + 1 == corners.size() ? 0 : c + 1];
@@ -212,10 +214,11 @@ ShrinkingMesh::ShrinkingMesh(const Piece& fine, bool symmetric, const PieceMirro
       if (area > 0) quadrics_[v].add_plane(normal / (2 * area), fine.positions.row(v), weight);
     }
   }
-  std::sort(sides.begin(), sides.end());
+  call_while_listening(200.0 * static_cast<double>(sides.size()), [&] { std::sort(sides.begin(), sides.end()); });
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1]) ++end;
+    still_working(100);
     const int a = sides[i][0];
     const int b = sides[i][1];
     int f = -1;
@@ -544,12 +547,13 @@ int ShrinkingMesh::merge_round(int most) {
   update_costs();
   std::vector<Merge> merges;
   for (std::size_t v = 0; v < into_.size(); ++v) {
+    still_working(5);
     if (into_[v] == static_cast<int>(v) && std::isfinite(cost_[v])) merges.push_back({cost_[v], static_cast<int>(v)});
   }
   const auto n_cheap = static_cast<std::ptrdiff_t>(merged_per_round * static_cast<double>(merges.size())) + 1;
   const auto last = merges.begin() + std::min(n_cheap, static_cast<std::ptrdiff_t>(merges.size()));
   std::nth_element(merges.begin(), last, merges.end());
-  std::sort(merges.begin(), last);
+  call_while_listening(100.0 * static_cast<double>(n_cheap), [&] { std::sort(merges.begin(), last); });
   const int before = n_left_;
   const std::ptrdiff_t at_once = std::max<std::ptrdiff_t>(searched_at_once, n_left_ / searched_fraction);
   const auto merge_cheapest = [&](auto first, auto end, int enough) {
@@ -558,6 +562,7 @@ int ShrinkingMesh::merge_round(int most) {
         if (before - n_left_ >= enough) break;
         const int v = first->vertex;
         ++first;
+        still_working(200);
         // The merges before this one changed nothing that its search has looked at, or come in its way.
         if (!target.was_searched || !is_worth_a_search(v)) continue;
         if (target.vertex < 0) {
@@ -567,6 +572,7 @@ int ShrinkingMesh::merge_round(int most) {
         if (!leaves_hubs(v, target.vertex)) continue;
         visit_fans(v, [&](int c) { changed_[c] = round_; });
         merge_with_image(v, target.vertex);
+        still_working(2000);
       }
     }
   };
@@ -613,6 +619,7 @@ CoarsePiece coarse_piece(const Piece& fine, int index, const PieceMirror& mirror
   std::vector<int> face_number(fine.faces.size(), -1);
   for (std::size_t f = 0; f < fine.faces.size(); ++f) {
     std::vector<int> corners;
+    still_working(200);
     for (const int v : mesh.corners(static_cast<int>(f))) {
       if (corners.empty() || corners.back() != number[root[v]]) corners.push_back(number[root[v]]);
     }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/polygon_normal.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "seams/faces_in_the_way.h"
 #include "seams/separating_cut.h"
@@ -25,6 +26,9 @@ constexpr std::size_t parted_faces = 20000;
 /// instead made 1727 islands of a torn scan of a million faces, in more time, this 678.
 constexpr double few_faces = 0.03;
 constexpr std::size_t max_flap = 50;
+
+/// About what each triangle takes in a search for distorted regions.
+constexpr double region_nanoseconds = 500;
 
 /// What is found by each of some searches that do not depend on each other.
 std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
@@ -78,8 +82,12 @@ std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
     const int chart = static_cast<int>(i);
     if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
     const bool halved = seams_.self_mirrored(chart, chart_of_face_);
-    for (DistortedRegion region : kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
-                                                      : angle_peaks(mesh, *charts_[i])) {
+    std::vector<DistortedRegion> of_chart;
+    call_while_listening(region_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
+      of_chart = kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
+                                     : angle_peaks(mesh, *charts_[i]);
+    });
+    for (DistortedRegion region : of_chart) {
       if (halved) region.vertex = seams_.on_positive_side(region.vertex);
       result.push_back({region, chart});
     }
@@ -126,7 +134,9 @@ std::vector<SeamEdges> CutCandidates::cuts_to_cones() const {
   for (std::size_t i = 0; i < charts_.size(); ++i) {
     const int chart = static_cast<int>(i);
     if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
-    const std::vector<DistortedRegion> cones = sharp_cones(mesh, *charts_[i]);
+    std::vector<DistortedRegion> cones;
+    call_while_listening(region_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()),
+                         [&] { cones = sharp_cones(mesh, *charts_[i]); });
     if (cones.empty() || cones.size() > max_cones) continue;
     const bool halved = seams_.self_mirrored(chart, chart_of_face_);
     PieceSeams later = seams_;
@@ -288,6 +298,7 @@ const SeparableFaces& CutCandidates::separable(int chart) const {
   std::vector<Eigen::Vector3d> centres;
   centres.reserve(mapped.chart.faces.size());
   for (const int face : mapped.chart.faces) {
+    still_working(100);
     const Positions corners = piece.corners(face);
     centres.emplace_back(corners.colwise().mean());
     if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());

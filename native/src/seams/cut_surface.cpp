@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "graph/disjoint_sets.h"
+#include "graph/listening.h"
 #include "graph/work_counter.h"
 
 namespace spectral_conformal {
@@ -23,6 +24,7 @@ CutSurface::CutSurface(const PolygonMesh& mesh, const SeamGraph& graph, const Ch
       loops_(0),
       orientable_(chart.orientable) {
   for (int c = 0; c < half_edges_.n_corners(); ++c) {
+    still_working(100);
     twin_[c] = half_edges_.twin(c);
     if (c < twin_[c]) halves_[graph.find_edge(half_edges_.from(c), half_edges_.to(c))] = {c, twin_[c]};
   }
@@ -91,6 +93,7 @@ void CutSurface::cut(int edge) {
     other = next_on_boundary(other);
   }
   count_steps(n_steps);
+  still_working(30 * n_steps);
   if (one.half_edge == half || other.half_edge == twin) {
     ++loops_;
   } else if (is_back(one) ? half_edges_.from(one.corner) == end : half_edges_.from(other.corner) == start) {
@@ -162,6 +165,7 @@ bool CutSurface::is_connected_across(const std::vector<int>& edges) {
     closed = --waiting[sides.find(side_of_face_[face])] == 0 && n_sides > 1;
   }
   count_steps(static_cast<double>(queue.size()));
+  still_working(100.0 * static_cast<double>(queue.size()));
   for (const int face : queue) side_of_face_[face] = -1;
   return n_sides <= 1;
 }
@@ -176,6 +180,7 @@ bool CutSurface::is_orientable() const {
   for (const int seed : queue) winding[seed] = 1;
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const int face = queue[head];
+    still_working(50);
     for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
       if (twin_[c] < 0) continue;
       const int other = half_edges_.face(twin_[c]);

@@ -10,6 +10,8 @@
 #include "geometry/box_tree.h"
 #include "geometry/quad_splits.h"
 #include "graph/disjoint_sets.h"
+#include "graph/listening.h"
+#include "quality/box_tree.h"
 #include "quality/overlap.h"
 
 namespace spectral_conformal {
@@ -122,6 +124,7 @@ void take_out(const SeparableFaces& faces, const FaceImages& images, std::vector
         const auto begin = part.begin() + static_cast<std::ptrdiff_t>(first);
         const std::vector<int> some(begin, begin + static_cast<std::ptrdiff_t>(step));
         const std::vector<int> others = without(left, some);
+        still_working(1000.0 * static_cast<double>(left.size()));
         if (others.size() == left.size()) continue;
         std::vector<int> still = images.overlapping(others);
         if (still.size() == others.size()) continue;

@@ -5,6 +5,7 @@
 
 #include "graph/adjacency.h"
 #include "graph/disjoint_sets.h"
+#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {
@@ -51,6 +52,7 @@ std::vector<FieldMinimum> prominent_minima(const std::vector<double>& field, con
     if (level - field[basin] >= prominence) result.push_back({basin, level - field[basin], volume});
   };
   for (const int v : order) {
+    still_working(200);
     basins.reached[v] = 1;
     basins.area[v] = area[v];
     basins.moment[v] = area[v] * field[v];

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "graph/disjoint_sets.h"
+#include "graph/listening.h"
+#include "graph/parallel_calls.h"
 #include "graph/work_counter.h"
 #include "seams/cut_surface.h"
 
@@ -24,6 +26,7 @@ std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& pa
     while (parent[v] >= 0) {
       const int step = parent[v];
       count_steps(1);
+      still_working(300);
       if (!loop.insert(step).second) loop.erase(step);
       v = graph.edges()[step].other_end(v);
     }
@@ -72,6 +75,7 @@ std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const 
   DisjointSets sets(graph.n_vertices());
   std::vector<int> own;
   for (int e = 0; e < n_edges; ++e) {
+    still_working(100);
     if (graph.edges()[e].cut || mirror_edge(e) != e) continue;
     own.push_back(e);
     for (const int v : graph.edges()[e].vertices) ++degree[v];
@@ -137,10 +141,13 @@ std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_face
   const auto loop_length = [&](int e) {
     return distance[edges[e].vertices[0]] + distance[edges[e].vertices[1]] + edges[e].cost;
   };
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return loop_length(a) != loop_length(b) ? loop_length(a) > loop_length(b) : a < b; });
+  call_while_listening(500.0 * static_cast<double>(order.size()), [&] {
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return loop_length(a) != loop_length(b) ? loop_length(a) > loop_length(b) : a < b; });
+  });
   std::vector<std::vector<int>> loops;
   for (const int e : order) {
+    still_working(100);
     if (!join(e)) loops.push_back(loop_through(graph, parent, e));
   }
   std::reverse(loops.begin(), loops.end());

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "graph/listening.h"
 #include "mesh/boundary_loops.h"
 #include "seams/handle_cuts.h"
 
@@ -41,6 +42,7 @@ PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const 
   if (!symmetric_) return;
   for (std::size_t v = 0; v < side_.size(); ++v) side_[v] = symmetry.side[piece.vertices[v]];
   for (int e = 0; e < n_edges(); ++e) {
+    still_working(10);
     if (along_axis(e)) graph_.scale_cost(e, axis_discount);
   }
 }
@@ -91,6 +93,7 @@ std::vector<SeamEdges> PieceSeams::chains() const {
   for (const auto& edge : graph_.edges()) {
     for (const int v : edge.vertices) degree[static_cast<std::size_t>(v)] += edge.cut ? 1 : 0;
   }
+  still_working(10.0 * static_cast<double>(graph_.edges().size()));
   std::set<int> left(edges_.begin(), edges_.end());
   std::vector<std::pair<double, SeamEdges>> found;
   while (!left.empty()) {
@@ -223,6 +226,7 @@ bool PieceSeams::in_chart(int edge, int chart, const FaceCharts& chart_of_face) 
 
 std::vector<double> PieceSeams::distances_to_cuts(int chart, const FaceCharts& chart_of_face) const {
   std::vector<int> sources;
+  still_working(10.0 * n_edges());
   for (int e = 0; e < n_edges(); ++e) {
     const auto& edge = graph_.edges()[e];
     if (edge.cut && in_chart(e, chart, chart_of_face))

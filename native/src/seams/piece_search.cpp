@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "graph/parallel_calls.h"
 #include "seams/carried_seams.h"
 #include "seams/seam_preferences.h"
 
@@ -33,6 +35,9 @@ constexpr std::size_t large_mesh = 200000;
 /// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
 /// finer ones have more of it with the same seams, and to cut them further takes longer.
 constexpr double coarse_energy = 0.85;
+/// About what it takes per vertex to look for small holes, and per corner to price edges.
+constexpr double filling_nanoseconds = 3000;
+constexpr double pricing_nanoseconds = 500;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
   options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
@@ -94,7 +99,8 @@ void PieceSearch::make_levels(const Progress& progress) {
   const bool is_own_image = mirror().image == index_;
   const Piece* finer = &piece();
   const PieceMirror* finer_mirror = &mirror();
-  filled_ = fill_small_holes(piece(), index_, mirror());
+  call_while_listening(filling_nanoseconds * n_vertices(),
+                       [&] { filled_ = fill_small_holes(piece(), index_, mirror()); });
   if (filled_) {
     finer = &filled_->piece;
     finer_mirror = &filled_->mirror;
@@ -152,7 +158,10 @@ PieceSeams PieceSearch::unseamed() const {
 
 /// Without seams yet.
 PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
-  PieceSeams seams(piece, index_, mirror, mesh_.parts.symmetry);
+  std::optional<PieceSeams> made;
+  call_while_listening(pricing_nanoseconds * static_cast<double>(piece.corner_vertices.size()),
+                       [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
+  PieceSeams seams = std::move(*made);
   std::vector<int> given_vertices;
   given_vertices.reserve(piece.vertices.size());
   for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "geometry/polygon_normal.h"
+#include "graph/listening.h"
 #include "graph/shortest_paths.h"
 #include "graph/work_counter.h"
 
@@ -22,6 +23,9 @@ constexpr double turn_back_cost = 1.0;
 /// Turns that a path is chosen by in one vertex: all of them where it has at most `many_edges`.
 constexpr int many_edges = 1024;
 constexpr int most_turns = many_edges * many_edges;
+/// About what a search takes to settle a node, with its arcs, and to look at a turn.
+constexpr double settling_nanoseconds = 500;
+constexpr double turning_nanoseconds = 20;
 
 struct FaceShape {
   Eigen::Vector3d normal;
@@ -73,6 +77,7 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
     if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
     const int first = mesh.face_offsets[face];
     const int size = mesh.face_offsets[face + 1] - first;
+    still_working(30.0 * size);
     for (int i = 0; i < size; ++i) {
       const int a = mesh.corner_vertices[first + i];
       const int b = mesh.corner_vertices[first + (i + 1) % size];
@@ -83,6 +88,7 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i;
     while (end < sides.size() && sides[end].vertices == sides[i].vertices) ++end;
+    still_working(50);
     const auto [a, b] = sides[i].vertices;
     const double length = (positions_.row(a) - positions_.row(b)).norm();
     edges_.push_back({sides[i].vertices,
@@ -106,9 +112,11 @@ void SeamGraph::collect_edges(const PolygonMesh& mesh) {
 void SeamGraph::price_edges(const PolygonMesh& mesh) {
   std::vector<FaceShape> shapes(static_cast<std::size_t>(mesh.n_faces));
   for (int face = 0; face < mesh.n_faces; ++face) {
+    still_working(30.0 * (mesh.face_offsets[face + 1] - mesh.face_offsets[face]));
     if (mesh.face_offsets[face + 1] > mesh.face_offsets[face]) shapes[face] = shape_of(mesh, positions_, face);
   }
   for (Edge& edge : edges_) {
+    still_working(30);
     if (edge.cut) continue;
     const FaceShape& left = shapes[edge.faces[0]];
     const FaceShape& right = shapes[edge.faces[1]];
@@ -133,6 +141,7 @@ std::vector<double> SeamGraph::distances(const std::vector<int>& sources, const 
   ShortestPathSearch search(n_vertices());
   for (const int source : sources) search.offer(source, 0);
   for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
+    still_working(settling_nanoseconds);
     for (const auto& [edge, to] : adjacency_.arcs(vertex)) {
       const double through = search.distance(vertex) + (edges_[edge].cut ? 0 : edges_[edge].cost);
       if (search.improves(to, through) && allowed(edge)) search.offer(to, through, edge);
@@ -165,6 +174,7 @@ std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
     const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
     if (n_edges > many_edges && ++times_left[vertex] > most_turns / n_edges + 1) return;
     n_turns += n_edges;
+    still_working(settling_nanoseconds + turning_nanoseconds * n_edges);
     for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {
       const auto& out = adjacency_.arc(k);
       if (!allowed(out.edge, vertex)) continue;

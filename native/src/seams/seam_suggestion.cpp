@@ -7,11 +7,13 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "graph/work_counter.h"
 #include "seams/canonical_mesh.h"
@@ -21,6 +23,10 @@
 namespace spectral_conformal {
 namespace {
 
+/// About what it takes per corner to bring a mesh into its canonical order, and to take it apart.
+constexpr double order_nanoseconds = 1000;
+constexpr double pieces_nanoseconds = 1000;
+
 bool has_extent(const Piece& piece) {
   if (!piece.positions.allFinite()) return false;
   const double extent = (piece.positions.colwise().maxCoeff() - piece.positions.colwise().minCoeff()).maxCoeff();
@@ -29,7 +35,10 @@ bool has_extent(const Piece& piece) {
 
 MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) {
   report(progress, 0.0, "charts");
-  return MirroredPieces(mesh.view());
+  std::optional<MirroredPieces> result;
+  const PolygonMesh view = mesh.view();
+  call_while_listening(pieces_nanoseconds * view.n_corners(), [&] { result.emplace(view); });
+  return std::move(*result);
 }
 
 /// What the pieces have of seams, and the sum, which follows a change by the sums of pairs, of pairs of these, and so
@@ -65,6 +74,7 @@ class SeamFinder {
       const int image = parts_.mirrors[i].image;
       const bool is_image = image >= 0 && image < static_cast<int>(i);
       const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
+      still_working(1000);
       searches_.push_back(is_searched ? new_search(i) : nullptr);
     }
   }
@@ -212,6 +222,7 @@ class SeamFinder {
         a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
         b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
         const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+        still_working(300);
         // Pieces that meet in an edge of three or more faces may both propose it.
         if (proposed.insert(edge).second) result.edges.push_back(edge);
       }
@@ -232,9 +243,14 @@ class SeamFinder {
 
 }  // namespace
 
-SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress) {
-  const CanonicalMesh canonical(mesh);
-  return SeamFinder(canonical, options, progress).run();
+SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& given) {
+  const Listening listening(given, "charts");
+  const Progress& progress = listening.progress();
+  validate(mesh);
+  report(progress, 0.0, "charts");
+  std::optional<CanonicalMesh> canonical;
+  call_while_listening(order_nanoseconds * mesh.n_corners(), [&] { canonical.emplace(mesh); });
+  return SeamFinder(*canonical, options, progress).run();
 }
 
 }  // namespace spectral_conformal

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/listening.h"
 #include "graph/maximum_flow.h"
 #include "graph/parallel_calls.h"
 #include "graph/shortest_paths.h"
@@ -20,6 +21,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leeway = 0.3;
 /// Nor by more faces than this on either side of it: minimum cuts of charts of 500,000 faces took 20 seconds each.
 constexpr std::ptrdiff_t most_faces = 20000;
+/// About what each face takes to be sorted, and each edge to be flown through.
+constexpr double sorting_nanoseconds = 300;
+constexpr double flow_nanoseconds = 3000;
 /// A thread takes as long to start as the distances of a tenth of so many faces to find.
 constexpr std::size_t faces_worth_a_thread = 10000;
 
@@ -44,6 +48,7 @@ double best_level(const SeparableFaces& faces, const std::vector<double>& level,
   double result = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
     const int face = order[i];
+    still_working(50);
     inside[face] = 1;
     area += faces.area[face];
     for (const auto& [edge, other] : faces.dual.arcs(face)) {
@@ -69,6 +74,7 @@ SeparableFaces::SeparableFaces(const SeamGraph& seam_graph, std::vector<int> som
   std::vector<std::array<int, 3>> arcs;  // from, edge, to
   arcs.reserve(3 * faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
+    still_working(200);
     for (const auto& [edge, to] : graph->dual().arcs(faces[f])) {
       const int other = graph->edges()[edge].cut ? -1 : index(to);
       if (other >= 0) arcs.push_back({static_cast<int>(f), edge, other});
@@ -88,6 +94,7 @@ std::vector<double> face_distances(const SeparableFaces& faces, const std::vecto
   ShortestPathSearch search(faces.dual.n_nodes());
   for (const int source : sources) search.offer(source, 0);
   for (int face = search.settle(); face >= 0; face = search.settle()) {
+    still_working(500);
     for (const auto& arc : faces.dual.arcs(face)) {
       search.offer(arc.to, search.distance(face) + (faces.centre[face] - faces.centre[arc.to]).norm());
     }
@@ -137,7 +144,8 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   }
   for (const int face : sources) low = std::max(low, level[face]);
   for (const int face : sinks) high = std::min(high, level[face]);
-  const std::vector<int> order = in_order(level);
+  std::vector<int> order;
+  call_while_listening(sorting_nanoseconds * static_cast<double>(level.size()), [&] { order = in_order(level); });
   const double best = best_level(faces, level, order, low, high, min_fraction);
   if (std::isnan(best)) return side;
 
@@ -159,7 +167,9 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
       }
     }
   }
-  const std::vector<char> reached = min_cut_source_side(n_nodes, between, 0, 1);
+  std::vector<char> reached;
+  call_while_listening(flow_nanoseconds * static_cast<double>(between.size()),
+                       [&] { reached = min_cut_source_side(n_nodes, between, 0, 1); });
   for (const int face : order) side[face] = reached[node[face]];
   return side;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "graph/parallel_calls.h"
 #include "quality/overlap.h"
 #include "spectral_conformal/distortion.h"
 
@@ -14,6 +15,8 @@ namespace {
 
 // Faces that a map all but collapses count as much as this, so that one of them does not outweigh all others.
 constexpr double max_qc = 1000;
+/// About what each triangle takes to be measured.
+constexpr double measuring_nanoseconds = 500;
 
 /// Sums the triangles of each face up, of a quad those of one split.
 void measure_faces(const Eigen::Ref<const Positions>& positions, TrialMap& mapped) {
@@ -59,7 +62,8 @@ TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOption
   } catch (const SolveFailure&) {
     return result;
   }
-  measure_faces(positions, result);
+  call_while_listening(measuring_nanoseconds * static_cast<double>(result.chart.triangles.size()),
+                       [&] { measure_faces(positions, result); });
   return result;
 }
 

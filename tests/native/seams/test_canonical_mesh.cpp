@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "graph/work_counter.h"
 #include "meshes.h"
 #include "seams/canonical_mesh.h"
 #include "spectral_conformal/errors.h"
@@ -114,6 +115,27 @@ TEST_CASE("arrays that are no mesh are refused") {
   Mesh mesh = quad_grid(2, 2);
   mesh.corners[3] = 100;
   CHECK_THROWS_AS(CanonicalMesh(mesh.view()), InvalidMesh);
+}
+
+TEST_CASE("a polygon that comes to one vertex many times begins where it reads first, found in linear time") {
+  for (const int n : {2, 3, 500}) {
+    Mesh mesh({{0, 0, 0}}, {});
+    std::vector<int> corners;
+    for (int k = 0; k < n; ++k) {
+      // The petal in the middle is the first by its vertices.
+      mesh.points.emplace_back(1, (k + n - n / 2) % n, 0);
+      mesh.points.emplace_back(2, k, 0);
+      corners.insert(corners.end(), {0, 2 * k + 1, 2 * k + 2});
+    }
+    mesh.add(corners);
+    const WorkCounter counter;
+    const CanonicalMesh canonical(mesh.view());
+    const PolygonMesh view = canonical.view();
+    REQUIRE(view.n_corners() == 3 * n);
+    CHECK(view.corner_vertices[0] == 0);
+    CHECK(view.corner_vertices[1] == 1);
+    CHECK(counter.counts().steps <= 12U * static_cast<unsigned>(n));
+  }
 }
 
 TEST_SUITE_END();

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "graph/disjoint_sets.h"
+#include "graph/work_counter.h"
 #include "meshes.h"
 #include "seams/coarse_piece.h"
 #include "seams/seam_graph.h"
@@ -188,6 +189,38 @@ TEST_CASE("cancelling a coarse piece passes through") {
   CHECK_THROWS_AS(
       coarse_piece(fine.piece(), 0, fine.mirrors[0], fine.side(), {}, 50, [](double, const char*) { return false; }),
       Cancelled);
+}
+
+TEST_CASE("large polygons and vertices of many faces follow what is merged beside them, in linear time") {
+  // A drum with a polygon below, and above a fan.
+  std::vector<double> steps;
+  for (const int n : {1500, 3000}) {
+    Mesh drum;
+    for (int row = 0; row < 3; ++row) {
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2 * pi * i / n;
+        drum.points.emplace_back(std::cos(angle) + 0.1 * std::cos(3 * angle), std::sin(angle), 0.02 * row);
+      }
+    }
+    drum.points.emplace_back(0.3, 0.1, 0.5);
+    std::vector<int> bottom;
+    for (int i = 0; i < n; ++i) {
+      const int next = (i + 1) % n;
+      for (int row = 0; row < 2; ++row) drum.add({row * n + i, row * n + next, row * n + n + next, row * n + n + i});
+      drum.add({2 * n + i, 2 * n + next, 3 * n});
+      bottom.push_back(n - 1 - i);
+    }
+    drum.add(bottom);
+    const FinePiece fine(drum);
+    const WorkCounter counter;
+    const CoarsePiece coarse = fine.coarse(n);
+    steps.push_back(static_cast<double>(counter.counts().steps));
+    const Chart chart = whole_chart(coarse.piece);
+    CHECK(chart.n_vertices() <= 1.3 * n);
+    CHECK(chart.euler_characteristic == 2);
+    CHECK(chart.boundary_loops.empty());
+  }
+  CHECK(steps[1] <= 2.6 * steps[0]);
 }
 
 TEST_SUITE_END();

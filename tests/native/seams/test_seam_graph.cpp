@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/work_counter.h"
 #include "meshes.h"
 #include "seams/seam_graph.h"
 #include "spectral_conformal/errors.h"
@@ -101,6 +102,30 @@ TEST_CASE("a mesh that is none is refused") {
   Mesh mesh = quad_grid(2, 2);
   mesh.corners[0] = 99;
   CHECK_THROWS_AS(SeamGraph(mesh.view()), InvalidMesh);
+}
+
+TEST_CASE("an edge is found among thousands in one vertex, and paths over it grow with their number") {
+  std::vector<double> steps;
+  for (const int n : {4000, 8000}) {
+    Mesh fan;
+    for (int i = 0; i < n; ++i) fan.points.emplace_back(std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0);
+    fan.points.emplace_back(0, 0, 0.2);
+    for (int i = 0; i < n; ++i) fan.add({i, (i + 1) % n, n});
+    const SeamGraph graph(fan.view());
+    const WorkCounter counter;
+    for (const auto& edge : graph.edges()) {
+      const auto [a, b] = edge.vertices;
+      REQUIRE(graph.find_edge(a, b) == graph.find_edge(b, a));
+      REQUIRE(graph.edges()[graph.find_edge(a, b)].vertices == edge.vertices);
+    }
+    CHECK(graph.find_edge(0, n / 2) == -1);
+    const auto inside = [&](int e, int) { return !graph.edges()[e].cut; };
+    CHECK(graph.path(0, only(graph, n / 2), inside).size() == 2);
+    // Nothing is reached, so that all ways are looked at.
+    CHECK(graph.path(0, std::vector<char>(graph.n_vertices(), 0), everywhere).empty());
+    steps.push_back(static_cast<double>(counter.counts().steps));
+  }
+  CHECK(steps[1] <= 2.5 * steps[0]);
 }
 
 TEST_SUITE_END();
