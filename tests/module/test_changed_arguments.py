@@ -80,7 +80,7 @@ def test_flags_are_true_or_false_to_the_native_module():
 
 
 def test_another_thread_that_changes_arguments_does_no_harm():
-    # In a process of its own, which it may end. With AddressSanitizer in tests/native.
+    # In a process of its own, which it may end.
     ended = subprocess.run(
         [sys.executable, "-m", "tests.module.changing", "20"], capture_output=True, text=True, check=False
     )

@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import pybind11
-
 from tools import environment, solver_libraries
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -27,12 +25,9 @@ UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
 FLAVOURS = {
     # The library that is in the wheel.
     "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CORE": environment.CORE},
-    # With clang, for libFuzzer's targets, which share the library with the tests, as does the Python module.
+    # With clang, for libFuzzer's targets, which share the library with the tests.
     "sanitized": {
         **UNITY,
-        "SPECTRAL_CONFORMAL_PYTHON": "ON",
-        "Python_EXECUTABLE": sys.executable,
-        "pybind11_DIR": pybind11.get_cmake_dir(),
         "CMAKE_BUILD_TYPE": "Debug",
         "CMAKE_CXX_COMPILER": "clang++",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
