@@ -24,7 +24,7 @@ import numpy as np
 from tests.fuzz.random_meshes import Mesh
 
 ROOT = Path(__file__).resolve().parents[2]
-SIZES = (1000, 4000)
+SIZES = (500, 2000)
 # Before and after what is counted; Python itself does not call it.
 MARKER = "getppid"
 

@@ -113,6 +113,22 @@ TEST_CASE("a polygon of 50,000 corners takes no more memory than as many corners
   CHECK(symmetry.face[0] == 0);
 }
 
+TEST_CASE("a spot that the tolerance does not resolve takes no memory, and has no images") {
+  // Lists of candidates would hold 40,000 x 40,000 numbers.
+  Mesh mesh = cell_surface(1, [](int, int, int) { return true; });
+  for (Eigen::Vector3d& p : mesh.points) p -= Eigen::Vector3d::Constant(0.5);
+  const int n_cube = static_cast<int>(mesh.points.size());
+  Mesh spot = quad_grid(200, 200);
+  for (Eigen::Vector3d& p : spot.points) p *= 1e-8;
+  mesh.append(spot);
+  const long before = peak_kilobytes();
+  const MirrorSymmetry symmetry = find_mirror_symmetry(mesh.view());
+  CHECK(peak_kilobytes() - before < 200'000);
+  CHECK(symmetry.axis == 0);
+  CHECK(matched_faces(symmetry) == 6);
+  CHECK(symmetry.vertex[n_cube] == -1);
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "geometry/box_tree.h"
 #include "meshes.h"
@@ -191,6 +192,49 @@ TEST_CASE("what many threads find together is what each pair tells") {
     n_overlapping += expected ? 1 : 0;
   }
   CHECK((n_overlapping > 20 && n_overlapping < 200));
+}
+
+TEST_CASE("of charts in one map, what their borders prove is what all pairs tell") {
+  const Patch with_hole(perforated_grid(3, 3));  // the hole is the cell from (1, 1) to (2, 2)
+  const Patch grid(flat_grid(3, 2));
+  const ComplexVector small = 0.2 * flat_map(grid.positions);
+  const ComplexVector around = flat_map(with_hole.positions);
+  ComplexVector folded = small;
+  folded[5] += 1.5;
+  struct Placed {
+    const Patch* patch;
+    ComplexVector z;
+    bool mirrored;
+  };
+  const auto at = [](const ComplexVector& z, Complex place) { return ComplexVector(z.array() + place); };
+  const ComplexVector mirrored = -small.conjugate();
+  // Apart, in the hole, mirrored there, folded beside, over each other, nested twice.
+  const std::vector<std::vector<Placed>> maps = {
+      {{&with_hole, around, false}, {&grid, at(small, {5, 0}), false}, {&grid, at(small, {9, 0}), false}},
+      {{&with_hole, around, false}, {&grid, at(small, {1.2, 1.3}), false}},
+      {{&with_hole, around, false}, {&grid, at(mirrored, {1.8, 1.3}), true}},
+      {{&with_hole, around, false}, {&grid, at(folded, {4.1, 0}), false}},
+      {{&with_hole, around, false}, {&grid, at(small, {0.1, 0.1}), false}},
+      {{&grid, at(small, {0, 0}), false}, {&grid, at(small, {0, 0}), false}},
+      {{&grid, 20.0 * small, false}, {&grid, at(mirrored, {5, 3}), true}},
+  };
+  std::vector<bool> any;
+  for (const std::vector<Placed>& placed : maps) {
+    MapOfCharts map;
+    for (const auto& [patch, z, is_mirrored] : placed) {
+      std::vector<int> all(patch->chart.triangles.size());
+      std::iota(all.begin(), all.end(), 0);
+      std::vector<int> faces = all;
+      for (int& face : faces) face += static_cast<int>(map.triangles.size());
+      map.add(patch->chart, z, is_mirrored, all, faces);
+    }
+    map.add_loose({Complex(50, 50), Complex(51, 50), Complex(50, 51)}, 1000);
+    const ComplexVector z = Eigen::Map<ComplexVector>(map.z.data(), static_cast<Eigen::Index>(map.z.size()));
+    const std::vector<bool> found = overlapping_in_map(map);
+    CHECK(found == overlapping_triangles(map.triangles, z, map.face));
+    any.push_back(std::find(found.begin(), found.end(), true) != found.end());
+  }
+  CHECK(any == std::vector<bool>{false, false, false, true, true, true, true});
 }
 
 TEST_CASE("no triangles") { CHECK(overlapping_triangles({}, {}).empty()); }
