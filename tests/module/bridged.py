@@ -67,7 +67,9 @@ def random_wall(rng):
     n = int(rng.integers(3, 10))
     angles = np.arange(n) * 2 * np.pi / n
     rectangle = 5.0 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    outer = rectangle if rng.random() < 0.5 else 7 / np.cos(np.pi / n) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    outer = (
+        rectangle if rng.random() < 0.5 else 7 / np.cos(np.pi / n) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    )
     cells = rng.permutation(9)[: rng.integers(1, 10)]
     holes = []
     for cell in cells:
