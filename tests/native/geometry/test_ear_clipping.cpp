@@ -27,7 +27,7 @@ TEST_CASE("outlines with bridges, slits, spikes and corners twice are covered on
   std::vector<Complex> slit = square;
   slit.insert(slit.begin() + 1, {{2, 0}, {2, 2}, {2, 0}});
   std::vector<Complex> spike = square;
-  spike.insert(spike.begin() + 2, {{6, 4}, {4, 4}});
+  spike.insert(spike.begin() + 2, {{6, 0}, {4, 0}});
   std::vector<Complex> twice;
   for (const Complex p : keyhole) twice.insert(twice.end(), {p, p});
   for (const auto& [outline, area] : {std::pair(keyhole, 15.0), {slit, 16.0}, {spike, 16.0}, {twice, 15.0}}) {
