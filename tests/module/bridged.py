@@ -16,7 +16,10 @@ def crosses(a, b, starts, ends):
     shares = (starts == a).all(1) | (starts == b).all(1) | (ends == a).all(1) | (ends == b).all(1)
     sides = [cross(b - a, starts - a), cross(b - a, ends - a), cross(ends - starts, a - starts)]
     sides.append(cross(ends - starts, b - starts))
-    return bool(((sides[0] * sides[1] <= 0) & (sides[2] * sides[3] <= 0) & ~shares).any())
+    # Clear of others: what touches up to rounding may cross.
+    sides = [np.where(np.abs(side) < 1e-3, 0, side) for side in sides]
+    in_line = (sides[0] == 0) & (sides[1] == 0)
+    return bool(((sides[0] * sides[1] <= 0) & (sides[2] * sides[3] <= 0) & (~shares | in_line)).any())
 
 
 def lies_between(points, corner, target):

@@ -123,3 +123,37 @@ def test_numbering_and_rounding_do_not_turn_the_map(shape):
         cycled = [np.roll(place[face], rng.integers(len(face))) for face in rng.permutation(faces)]
         uv = unwrapped(renumbered, cycled)[place]
         assert np.abs(uv - expected).max() < 1e-4 * np.ptp(expected, axis=0).max()
+
+
+def split(quads, diagonals):
+    """The two triangles of every quad, along its first diagonal or its second."""
+    turned = np.where(np.asarray(diagonals, bool)[:, None], np.roll(quads, -1, axis=1), quads)
+    return np.vstack([turned[:, [0, 1, 2]], turned[:, [0, 2, 3]]])
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 2), (3, 3), (4, 4), (2, 5)])
+def test_diagonals_do_not_turn_the_map(size):
+    for axes in (
+        ((1, 0, 0), (0, 1, 0)),
+        ((1, 0, 0), (0, 0, 1)),
+        ((ROOT_HALF, 0, ROOT_HALF), (-ROOT_HALF, 0, ROOT_HALF)),
+    ):
+        vertices, quads = flat(*size, *axes)
+        expected = unwrapped(vertices, quads)
+        rng = np.random.default_rng(0)
+        n = len(quads)
+        for diagonals in (np.zeros(n), np.ones(n), np.arange(n) % 2, rng.integers(0, 2, n)):
+            uv = unwrapped(vertices, split(quads, diagonals))
+            # Mean of the vertices at the origin: the same for all.
+            np.testing.assert_allclose(uv, expected, atol=1e-6)
+
+
+def test_cross_net_of_a_cube_is_as_its_quads():
+    cells = [(1, 0), (0, 1), (1, 1), (2, 1), (1, 2), (1, 3)]
+    grid, quads = flat(3, 4, (1, 0, 0), (0, 1, 0))
+    faces = quads[[4 * column + row for column, row in cells]]
+    used, number = np.unique(faces, return_inverse=True)
+    vertices, faces = grid[used], number.reshape(faces.shape)
+    expected = unwrapped(vertices, faces)
+    for diagonals in (np.zeros(6), np.ones(6), [0, 1, 1, 0, 1, 0]):
+        np.testing.assert_allclose(unwrapped(vertices, split(faces, diagonals)), expected, atol=1e-6)

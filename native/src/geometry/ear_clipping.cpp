@@ -80,7 +80,8 @@ class EarClipping {
   bool is_spike(int corner) const {
     const Complex back = point(previous_[corner]) - point(corner);
     const Complex on = point(next_[corner]) - point(corner);
-    return back == 0.0 || on == 0.0 || (turn(corner) == 0 && dot(back, on) > 0);
+    constexpr double rounding = 1e-12;
+    return back == 0.0 || on == 0.0 || std::abs(cross(back, on)) <= rounding * dot(back, on);
   }
 
   void add_candidate(int corner) {

@@ -149,6 +149,27 @@ TEST_CASE("a symmetric map stands on its axis though a smaller rectangle leans")
   CHECK_FALSE(is_near(sheared.angle(z), 0));
 }
 
+TEST_CASE("diagonals decide nothing: a triangulated square stands as its quad, whatever they are") {
+  Mesh square;
+  square.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.add({0, 1, 2});
+  square.add({0, 2, 3});
+  const Mesh grid = quad_grid(4, 4);
+  Mesh split;
+  split.points = grid.points;
+  for (int face = 0; face < grid.n_faces(); ++face) {
+    const int* v = grid.corners.data() + grid.offsets[face];
+    // All along one way but in a part of the rows.
+    const int first = face < 5 ? 1 : 0;
+    split.add({v[first], v[first + 1], v[first + 2]});
+    split.add({v[first], v[first + 2], v[(first + 3) % 4]});
+  }
+  for (const Mesh& mesh : {square, split}) {
+    CHECK(is_near(Sheet(mesh, floor_of).angle(), 0));
+    for (const double degrees : {-40.0, 0.0, 30.0}) CHECK(is_near(Sheet(mesh, leaning(degrees)).angle(), 0));
+  }
+}
+
 TEST_CASE("a round outline without symmetry is exactly upright, an oblong one by quarter turns") {
   for (const double degrees : {-70.0, -20.0, 10.0, 130.0}) {
     CHECK(is_near(Sheet(pebble(), leaning(degrees)).angle(), degrees));

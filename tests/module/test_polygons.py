@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons whose outline touches or repeats itself: walls with windows, with vertices of their own or repeated ones."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import bridged
+
+
+def unwrapped(vertices, corners):
+    """The map of one polygon, and its chart."""
+    result = sc.unwrap(vertices, [0, len(corners)], corners)
+    assert len(result.charts) == 1 and result.solved_corners.all()
+    return result.uv, result.charts[0]
+
+
+def off_similar(uv, flat):
+    """How far a map is from similar to a polygon of the plane, as a fraction of its size."""
+    z, target = (points[:, 0] + 1j * points[:, 1] for points in (uv, flat))
+    z, target = z - z.mean(), target - target.mean()
+    scale = np.vdot(z, target) / np.vdot(z, z)
+    return np.abs(scale * z - target).max() / np.abs(target).max()
+
+
+def own_vertices(vertices, corners):
+    return vertices[corners], np.arange(len(corners))
+
+
+@pytest.mark.parametrize("vertices_of", ["own", "repeated"])
+def test_walls_with_windows_are_flat_walls(vertices_of):
+    for seed in range(100):
+        rng = np.random.default_rng(seed)
+        corners, points = bridged.random_wall(rng)
+        vertices = bridged.in_space(rng, points)
+        flat = points[corners]
+        if seed % 2:
+            corners, flat = corners[::-1], flat[::-1] * (1, -1)
+        if vertices_of == "own":
+            vertices, corners = own_vertices(vertices, corners)
+        uv, chart = unwrapped(vertices, corners)
+        assert off_similar(uv, flat) < 1e-5
+        assert chart.message == "" and chart.flipped == chart.overlapping == 0
+        assert chart.area == pytest.approx(abs(bridged.area_of(flat)), rel=1e-5)
+        distortion = sc.face_distortion(vertices, [0, len(corners)], corners, uv)
+        assert distortion.qc[0] == pytest.approx(1, abs=1e-4)
+        defects = sc.map_defects([0, len(corners)], corners, uv)
+        assert not defects.flipped.any() and not defects.overlapping.any()
+
+
+SQUARE = np.array([(0, 0), (4, 0), (4, 4), (0, 4)], float)
+HOLE = np.array([(1, 1), (1, 2), (2, 2), (2, 1)], float)
+TOUCHING = {
+    "a hole that touches an edge": [*SQUARE, SQUARE[0], *(HOLE - (0, 1))[[1, 2, 3, 0, 1]]],
+    "holes around one corner": [
+        *SQUARE,
+        SQUARE[0],
+        *HOLE,
+        (1, 1),
+        (0, 0),
+        (3, 1),
+        (3.5, 0.9),
+        (3.2, 0.5),
+        (3, 1),
+        (0, 0),
+    ],
+    "two lobes": [(0, 0), (2, 0), (2, 2), (0, 0), (-1, 3), (-2, 0)],
+    "coincident corners": np.repeat([*SQUARE, SQUARE[0], *HOLE, HOLE[0]], 2, axis=0),
+    "a spike": [(0, 0), (2, 0), (4, 0), (6, 0), (4, 0), (4, 4), (0, 4)],
+    "a slit": [(0, 0), (2, 0), (2, 2), (2, 0), (4, 0), (4, 4), (0, 4)],
+    "a bridge used twice": [*SQUARE, SQUARE[0], (1, 1), (0.5, 3), (0.7, 3), (1, 1), (0, 0), *HOLE, (1, 1)],
+}
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_touching_outlines_are_covered_once(name):
+    flat = np.array(TOUCHING[name], float)
+    if bridged.area_of(flat) < 0:
+        flat = flat[::-1]
+    vertices = bridged.in_space(np.random.default_rng(1), flat)
+    triangles, _ = sc.face_triangles(vertices, [0, len(flat)], np.arange(len(flat)))
+    a, b, c = (flat[triangles[:, k]] for k in range(3))
+    areas = 0.5 * bridged.cross(b - a, c - a)
+    assert len(areas) == len(flat) - 2 and areas.min() > -1e-5
+    assert areas.sum() == pytest.approx(bridged.area_of(flat))
+    _, chart = unwrapped(*own_vertices(vertices, np.arange(len(flat))))
+    assert "self-intersecting" not in chart.message
+
+
+@pytest.mark.parametrize(
+    "flat",
+    [
+        [(1, 0), (-0.8, 0.6), (0.3, -0.95), (0.3, 0.95), (-0.8, -0.6)],
+        # A band whose ends lie over each other without crossing corners.
+        [(0, 0), (4, 0), (4, 4), (1, 4), (1, -2), (2, -2), (2, 3), (3, 3), (3, 1), (0, 1)],
+        # Twice round the same triangle.
+        [(0, 0), (1, 0), (0, 1), (0, 0), (1, 0), (0, 1)],
+    ],
+)
+def test_what_crosses_itself_is_said(flat):
+    vertices = np.column_stack([flat, np.zeros(len(flat))])
+    chart = sc.unwrap(vertices, [0, len(flat)], np.arange(len(flat))).charts[0]
+    assert "1 self-intersecting polygon: split as a fan" in chart.message
+
+
+def test_bent_walls_and_faces_in_their_windows():
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        corners, points = bridged.random_wall(rng)
+        _, chart = unwrapped(bridged.in_space(rng, points, bend=0.3), corners)
+        assert chart.flipped == 0 and "self-intersecting" not in chart.message
+    # The pane shares the edges of the hole.
+    points = np.concatenate([SQUARE, HOLE])
+    wall, pane = [0, 4, 5, 6, 7, 4, 0, 1, 2, 3], [7, 6, 5, 4]
+    vertices = np.column_stack([points, np.zeros(8)])
+    result = sc.unwrap(vertices, [0, 10, 14], wall + pane)
+    assert [list(chart.faces) for chart in result.charts] == [[0, 1]]
+    assert off_similar(result.uv, points[wall + pane]) < 1e-6
+
+
+def test_seams_are_suggested_on_walls_with_windows():
+    corners, points = bridged.random_wall(np.random.default_rng(3))
+    lifted = np.column_stack([points, np.zeros(len(points))])
+    assert len(sc.suggest_seams(lifted, [0, len(corners)], corners)) == 0
+
+
+def test_islands_without_area_are_points():
+    square = np.column_stack([SQUARE, np.zeros(4)])
+    line = [(9, 0, 0), (10, 0, 0), (12, 0, 0), (14, 0, 0)]
+    vertices = np.concatenate([square, line, [(5, 5, 5)] * 3])
+    result = sc.unwrap(vertices, [0, 4, 8, 11], np.arange(11))
+    assert [chart.status for chart in result.charts] == ["solved"] * 3
+    for face, corners in ((1, slice(4, 8)), (2, slice(8, 11))):
+        assert result.charts[face].message == "The island has no area: its map is a point."
+        assert result.charts[face].area == 0
+        assert np.ptp(result.uv[corners], axis=0).max() == 0
+    assert result.charts[0].message == ""
+    pinned = sc.unwrap(vertices, [0, 4, 8, 11], np.arange(11), pins={8: (0.25, 0.5)})
+    assert pinned.uv[8:].tolist() == [[0.25, 0.5]] * 3

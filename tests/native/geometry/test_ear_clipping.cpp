@@ -1,0 +1,59 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "geometry/ear_clipping.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+double area_of(const std::vector<Complex>& points, const std::vector<std::array<int, 3>>& triangles) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) area += signed_area(points[a], points[b], points[c]);
+  return area;
+}
+
+const std::vector<Complex> square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("ear_clipping");
+
+TEST_CASE("outlines with bridges, slits, spikes and corners twice are covered once") {
+  std::vector<Complex> keyhole = square;
+  keyhole.insert(keyhole.end(), {{0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}});
+  std::vector<Complex> slit = square;
+  slit.insert(slit.begin() + 1, {{2, 0}, {2, 2}, {2, 0}});
+  std::vector<Complex> spike = square;
+  spike.insert(spike.begin() + 2, {{6, 0}, {4, 0}});
+  std::vector<Complex> twice;
+  for (const Complex p : keyhole) twice.insert(twice.end(), {p, p});
+  for (const auto& [outline, area] : {std::pair(keyhole, 15.0), {slit, 16.0}, {spike, 16.0}, {twice, 15.0}}) {
+    const auto triangles = clip_ears(outline);
+    CHECK(triangles.size() == outline.size() - 2);
+    CHECK(area_of(outline, triangles) == doctest::Approx(area));
+    CHECK(covers_once(outline, triangles, 1e-9));
+  }
+}
+
+TEST_CASE("what covers a place twice or backwards is found, up to the tolerance") {
+  const std::vector<Complex> star{{1, 0}, {-0.8, 0.6}, {0.3, -0.95}, {0.3, 0.95}, {-0.8, -0.6}};
+  CHECK_FALSE(covers_once(star, clip_ears(star), 1e-9));
+  const std::vector<Complex> points{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.9, 0}, {0, 2}};
+  CHECK(covers_once(points, {{0, 1, 2}, {1, 3, 2}}, 1e-9));
+  CHECK_FALSE(covers_once(points, {{0, 2, 1}}, 1e-9));
+  CHECK_FALSE(covers_once(points, {{0, 1, 2}, {4, 3, 2}}, 1e-9));
+  CHECK(covers_once(points, {{0, 1, 2}, {4, 3, 2}}, 0.1));
+}
+
+TEST_CASE("a large polygon is clipped") {
+  std::vector<Complex> star;
+  for (int k = 0; k < 20000; ++k) star.push_back(std::polar(k % 2 == 0 ? 1.0 : 0.5, 2 * pi * k / 20000));
+  CHECK(area_of(star, clip_ears(star)) == doctest::Approx(0.5 * 20000 * 0.5 * std::sin(2 * pi / 20000)));
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
