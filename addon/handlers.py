@@ -61,7 +61,7 @@ def _before_load(*_arguments: object) -> None:
 def _after_load(*_arguments: object) -> None:
     tracking.follow(_edited())
     following.see()
-    # The switch is of the file that is open now.
+    # A file brings a window manager with a switch of its own.
     map_overlay.follow_switch()
 
 

@@ -46,7 +46,7 @@ def selected():
 
 
 def check_table():
-    """Compare beside an open Adjust Last Operation: no cell is written over the next one, nothing below the panel."""
+    """Compare beside open panels: no cell is written over the next one, and nothing below the panels."""
     drawn, comparison = {}, part_of_addon("overlay.comparison")
     draw_line, text_width = comparison.draw_line, part_of_addon("overlay.screen_text").text_width
 
@@ -59,6 +59,9 @@ def check_table():
         assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
     yield
     yield from drive.open_adjust_last_operation()
+    drive.area_of("VIEW_3D").spaces.active.show_region_ui = True
+    yield
+    yield
     point_at("VIEW_3D", 0.6, 0.6)
     comparison.draw_line = noted
     yield from drive.search("Compare Methods")
@@ -69,6 +72,9 @@ def check_table():
     xdotool("key", "Escape")
     yield from drive.until(lambda: part_of_addon("operators.job_operator").JobOperator._running is None)
     comparison.draw_line = draw_line
+    drive.area_of("VIEW_3D").spaces.active.show_region_ui = False
+    yield
+    yield
     region, panel = drive.region_of("VIEW_3D"), drive.region_of("VIEW_3D", "HUD")
     lines = sorted(drawn.values(), key=lambda line: (-line[1], line[0]))
     for (_, top, end, text), (start, next_top, _, following) in zip(lines, lines[1:]):
