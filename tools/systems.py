@@ -86,7 +86,7 @@ TRIXIE = System("trixie", (*COMMON, *FOR_BPY), "Blender 4.3.2 and bpy 5.2.3, wit
 FOR_EXTENSIONS = ("python3-cattr", "python3-requests", "python3-zstandard")
 SID = System(
     "sid",
-    (*COMMON, *FOR_EXTENSIONS, "imagemagick", "libgl1", "libgl1-mesa-dri", "xdotool"),
+    (*COMMON, *FOR_EXTENSIONS, "imagemagick", "libgl1", "libgl1-mesa-dri", "mesa-vulkan-drivers", "xdotool"),
     "Debian unstable's Blender, with a window",
 )
 ALL = (TRIXIE, SID)

@@ -11,10 +11,12 @@ from pathlib import Path
 
 import bmesh
 import bpy
+import gpu
 import numpy as np
 
 DRIVER = Path(sys.argv[sys.argv.index("--python") + 1])
-SCREENSHOTS, VERDICT = (Path(path) for path in sys.argv[sys.argv.index("--") + 1 :])
+SCREENSHOTS, VERDICT, BACKEND = sys.argv[sys.argv.index("--") + 1 :]  # "vulkan", empty for Blender's own choice
+SCREENSHOTS, VERDICT = Path(SCREENSHOTS), Path(VERDICT)
 PAUSE = 0.7  # seconds between steps; software rendering takes up to half of it
 
 
@@ -65,6 +67,9 @@ def run(sequence):
 
     def advance():
         try:
+            if BACKEND:
+                drawn_by = gpu.platform.backend_type_get()
+                assert drawn_by == BACKEND.upper(), f"drawn by {drawn_by}: is there no device for {BACKEND}?"
             next(sequence)
             return PAUSE
         except StopIteration:
