@@ -18,9 +18,9 @@ constexpr Eigen::Index max_dimension = 24;
 constexpr int patience = 2 * max_dimension;
 
 /// The Rayleigh-Ritz space; columns v with v^H (L + s M) v = 1, orthogonal to each other, mean-free.
-class RitzSpace {
+class DavidsonSpace {
  public:
-  RitzSpace(const ConformalEnergy& energy, const BoundaryForm& form, double shift, const QuotientForm& quotient)
+  DavidsonSpace(const ConformalEnergy& energy, const BoundaryForm& form, double shift, const QuotientForm& quotient)
       : energy_(energy), form_(form), shift_(shift), quotient_(quotient) {}
 
   /// Adds the direction of w, made orthogonal; leaves it out where nothing is left of it.
@@ -128,7 +128,7 @@ DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEn
                                  const Progress& progress) {
   DavidsonResult result;
   result.change = std::numeric_limits<double>::infinity();
-  RitzSpace space(energy, form, shift, quotient);
+  DavidsonSpace space(energy, form, shift, quotient);
   const auto grow = [&](const ComplexVector& direction) {
     report(progress, 1.0 - 1.0 / (1.0 + 0.05 * result.solves), "eigenproblem");
     ComplexVector w;

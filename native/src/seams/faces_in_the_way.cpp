@@ -11,7 +11,6 @@
 #include "geometry/quad_splits.h"
 #include "graph/disjoint_sets.h"
 #include "graph/listening.h"
-#include "quality/box_tree.h"
 #include "quality/overlap.h"
 
 namespace spectral_conformal {
