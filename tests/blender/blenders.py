@@ -15,6 +15,8 @@ from tools.steps import ROOT
 
 ADDON = ROOT / "addon"
 PYTEST_RUNNER = Path(__file__).with_name("run_pytest.py")
+# For Python's path: what it imports when it starts.
+STARTUP = Path(__file__).with_name("startup")
 # Blenders that are not built for Debian leave PYTHONPATH alone unless they are told.
 BACKGROUND = ("--background", "--factory-startup", "--python-use-system-env", "--python-exit-code", "1")
 
@@ -75,7 +77,7 @@ class Blender:
             "BLENDER_USER_CONFIG": str(folder / "config"),
             "BLENDER_USER_DATAFILES": str(folder / "datafiles"),
             "PYTHONPATH": os.pathsep.join(
-                filter(None, [str(ROOT), *map(str, self.packages), os.environ.get("PYTHONPATH")])
+                filter(None, [str(ROOT), str(STARTUP), *map(str, self.packages), os.environ.get("PYTHONPATH")])
             ),
         }
 

@@ -38,7 +38,7 @@ def environ(tmp_path_factory):
     """The environment in which `spectral_unwrap` is a package: that of a checkout in a folder of this name."""
     folder = tmp_path_factory.mktemp("packages")
     (folder / "spectral_unwrap").symlink_to(ROOT / "addon", target_is_directory=True)
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])}
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(folder), str(ROOT), str(blenders.STARTUP)])}
 
 
 def start(environ, *arguments, command=WITH_FAULTS, python=None):
@@ -65,7 +65,8 @@ def door(blender, folder, environ):
     for path in blender.module():
         (folder / "module" / path.name).symlink_to(path)
     command = (*blenders.BACKGROUND, "--python", str(ROOT / "addon" / "__main__.py"), "--")
-    return command, blenders.system_blender(), {**environ, "PYTHONPATH": str(folder / "module")}
+    path = os.pathsep.join([str(folder / "module"), str(blenders.STARTUP)])
+    return command, blenders.system_blender(), {**environ, "PYTHONPATH": path}
 
 
 def report_of(out, name):

@@ -19,6 +19,9 @@ from tests.interface import session
 from tests.interface.session import override, screenshot
 
 COLORS = {"low": (0.16, 0.38, 0.85), "middle": (0.98, 0.86, 0.25), "high": (0.86, 0.12, 0.10)}
+SMALL, MEDIAN, LARGE = (0.13, 0.40, 0.80), (0.93, 0.93, 0.93), (0.85, 0.25, 0.14)
+# Of a face in the first and of one in the last column: where these are two times as wide on the map.
+LOOKS = {"SIZE": (MEDIAN, LARGE), "DENSITY": (SMALL, LARGE), "DEFECTS": ((0.45,) * 3,) * 2}
 # Of a displayed colour, out of 1: Blender mixes its editors in eight bits of linear colours, coarse where dark.
 NEARLY = 0.04
 
@@ -134,12 +137,17 @@ def steps():
     # The legend's numbers come when the mesh is left alone.
     yield from drive.until(lambda: all(found.islands_known for _, found, _ in overlay.views(bpy.context)))
     yield
-    for kind in ("SIZE", "DENSITY", "DEFECTS", "CHECKER"):
+    for kind, colors in LOOKS.items():
         shown.kind = kind
         assert not shown.use_range
         yield
         yield
-        screenshot(f"map_overlay_{kind.lower()}")
+        check_colors(f"map_overlay_{kind.lower()}", *colors)
+    shown.kind = "CHECKER"
+    yield
+    yield
+    square = pixel(faces_of_columns()[0], "map_overlay_checker")
+    assert min(np.abs(square - gray).max() for gray in (0.12, 0.92)) < NEARLY, square
     shown.kind = "ANGLE"
     shown.use_range, shown.range_low, shown.range_high = True, 1.0, 3.0
     # A face that is hidden is not drawn.

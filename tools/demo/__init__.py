@@ -36,15 +36,17 @@ def run(mesh: Path | None) -> int:
         folder.mkdir(parents=True)
     job = WORK / "job.json"
     job.write_text(json.dumps({"mesh": str(mesh) if mesh else None, "output": str(OUTPUT), "work": str(WORK)}))
-    blender = blender_command()
+    blender, environ = blender_command(), profile(WORK / "scripts")
     steps.run(
         "unwrapping in Blender, three methods",
         [*blender, HERE / "blender_unwrap.py", "--", job],
         log="demo",
-        environ=profile(WORK / "scripts"),
+        environ=environ,
     )
     steps.run("measuring and drawing the UV layout", [PYTHON, HERE / "measure.py", job], log="demo")
-    steps.run("rendering the checker texture", [*blender, HERE / "blender_render.py", "--", job], log="demo")
+    steps.run(
+        "rendering the checker texture", [*blender, HERE / "blender_render.py", "--", job], log="demo", environ=environ
+    )
     print()
     print(table(json.loads((OUTPUT / "report.json").read_text())))
     print()

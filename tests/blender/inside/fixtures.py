@@ -4,6 +4,8 @@
 A plugin and no conftest.py, which the pytest outside of Blender would import.
 """
 
+import warnings
+
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import pytest
@@ -12,7 +14,17 @@ ADDON = "spectral_unwrap"
 
 
 @pytest.fixture(autouse=True)
-def fresh_blender():
+def nothing_that_goes():
+    """Fail where what Python or Blender will remove is used: as exceptions, Blender forgets its warnings of setting."""
+    with warnings.catch_warnings(record=True) as found:
+        for category in (DeprecationWarning, PendingDeprecationWarning):
+            warnings.filterwarnings("always", category=category)
+        yield
+    assert not [f"{one.filename}:{one.lineno}: {one.message}" for one in found if "Deprecation" in one.category.__name__]
+
+
+@pytest.fixture(autouse=True)
+def fresh_blender(nothing_that_goes):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     # Loading the settings disables every add-on.
     assert addon_utils.enable(ADDON, default_set=True) is not None

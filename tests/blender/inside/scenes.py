@@ -253,11 +253,10 @@ def bumpy_grid(columns=6, rows=4, name="Bumpy grid", **options):
 def show_image(shown, width, height):
     """Give an object, not in edit mode, a material with an image of this size."""
     material = bpy.data.materials.new("Material")
-    if material.node_tree is None:
-        material.use_nodes = True
-    texture = material.node_tree.nodes.new("ShaderNodeTexImage")
+    nodes = importlib.import_module("spectral_unwrap.compatibility").shader_nodes(material)
+    texture = nodes.new("ShaderNodeTexImage")
     texture.image = bpy.data.images.new("Image", width, height)
-    material.node_tree.nodes.active = texture
+    nodes.active = texture
     shown.data.materials.append(material)
 
 
