@@ -180,9 +180,13 @@ def _solved_corners(properties):
     held = {name: float(np.float32(value)) if isinstance(value, float) else value for name, value in properties.items()}
     settings = _addon("unwrapping.last_settings").settings_of(SimpleNamespace(**held))
     edit_meshes = steps.read(bpy.context, settings)
+    # Nothing selected means all, unless the editor shows the UVs of what is selected only.
+    all_visible = not edit_meshes and not _addon("edit_mesh.selection").selects_uvs(bpy.context)
+    if all_visible:
+        edit_meshes = steps.read(bpy.context, settings, all_visible=True)
     found = {mesh.name: np.zeros(len(_chosen_corners(mesh)), dtype=bool) for mesh in _meshes()}
     for edit_mesh, solution in zip(edit_meshes, steps.solve(edit_meshes, settings)):
-        chosen = _chosen_corners(edit_mesh.mesh)
+        chosen = _chosen_corners(edit_mesh.mesh, all_visible)
         assert not (solution.solved_corners & ~chosen).any(), "faces were solved that are not selected, or hidden"
         found[edit_mesh.mesh.name] = solution.solved_corners
     return found

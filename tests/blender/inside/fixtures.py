@@ -20,7 +20,8 @@ def nothing_that_goes():
         for category in (DeprecationWarning, PendingDeprecationWarning):
             warnings.filterwarnings("always", category=category)
         yield
-    assert not [f"{one.filename}:{one.lineno}: {one.message}" for one in found if "Deprecation" in one.category.__name__]
+    used = [str(warning) for warning in found if "Deprecation" in warning.category.__name__]
+    assert not used
 
 
 @pytest.fixture(autouse=True)
