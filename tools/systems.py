@@ -87,7 +87,7 @@ FOR_EXTENSIONS = ("python3-cattr", "python3-requests", "python3-zstandard")
 SID = System(
     "sid",
     (*COMMON, *FOR_EXTENSIONS, "imagemagick", "libgl1", "libgl1-mesa-dri", "mesa-vulkan-drivers", "xdotool"),
-    "Debian unstable's Blender, with a window",
+    "Debian unstable's Blender, with a window, also under Vulkan",
 )
 ALL = (TRIXIE, SID)
 

@@ -15,8 +15,8 @@ import gpu
 import numpy as np
 
 DRIVER = Path(sys.argv[sys.argv.index("--python") + 1])
-SCREENSHOTS, VERDICT, BACKEND = sys.argv[sys.argv.index("--") + 1 :]  # "vulkan", empty for Blender's own choice
-SCREENSHOTS, VERDICT = Path(SCREENSHOTS), Path(VERDICT)
+SCREENSHOTS, VERDICT = (Path(path) for path in sys.argv[sys.argv.index("--") + 1 :][:2])
+BACKEND = "".join(sys.argv[sys.argv.index("--") + 3 :])  # "vulkan" or "opengl"; empty where Blender may choose
 PAUSE = 0.7  # seconds between steps; software rendering takes up to half of it
 
 
