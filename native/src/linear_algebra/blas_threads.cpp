@@ -106,6 +106,16 @@ struct Holders {
 /// How many this thread holds: one within another has nothing to do.
 thread_local int held_by_thread = 0;
 
+/// OpenBLAS takes 140 kB for each thread at its first call there (0.3.34), and where these are not to be had, the C
+/// library ends the process. Throws std::bad_alloc before it comes to that.
+void find_memory_for_thread() {
+  thread_local bool is_found = false;
+  if (is_found) return;
+  constexpr std::size_t ample = 1 << 19;
+  ::operator delete(::operator new(ample));
+  is_found = true;
+}
+
 Holders& holders() {
   static Holders of_process;
   return of_process;
@@ -123,7 +133,9 @@ void set_blas_thread_setting(int threads) {
 }
 
 BlasThreads::BlasThreads() : is_alone_(!serves_many()) {
-  if (!open_blas().has_threads() || held_by_thread++ > 0) return;
+  if (!open_blas().has_threads()) return;
+  find_memory_for_thread();
+  if (held_by_thread++ > 0) return;
   Holders& all = holders();
   if (is_alone_) {
     all.gate.lock();

@@ -158,7 +158,8 @@ class ChartUnwrapper {
     ComplexVector z;
     std::vector<std::size_t> acting;  ///< extenders
     Timings timings;
-    std::string description;  ///< see describe_chart; empty where nothing is to be kept
+    std::string description;       ///< see describe_chart; empty where nothing is to be kept
+    std::optional<Complex> point;  ///< of a chart without area, what it is where others have a map
   };
 
   /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first. Throws
@@ -183,7 +184,7 @@ class ChartUnwrapper {
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
       result.report.message = problem.what();
-      if (has_no_area(chart_, chart_.positions(cut_.mesh))) collapse(result);
+      if (has_no_area(chart_, chart_.positions(cut_.mesh))) result.point = mean_of_pins();
     } catch (const SolveFailure& problem) {
       result.report.message = problem.what();
     } catch (const std::bad_alloc&) {
@@ -261,15 +262,10 @@ class ChartUnwrapper {
     result.z = std::move(solution.z);
   }
 
-  /// The map of a chart without area: one point, so that it covers nothing, where its pins are.
-  void collapse(Solution& result) const {
-    Complex point = 0;
-    for (const auto& [vertex, pin] : pins_) point += pin / static_cast<double>(pins_.size());
-    result.acting.clear();
-    result.z = ComplexVector::Constant(chart_.n_vertices(), point);
-    result.report.solved = true;
-    result.report.mean_qc = result.report.max_qc = 1;
-    result.report.message = "The island has no area: its map is a point.";
+  Complex mean_of_pins() const {
+    Complex sum = 0;
+    for (const auto& [vertex, pin] : pins_) sum += pin;
+    return sum / static_cast<double>(std::max<std::size_t>(pins_.size(), 1));
   }
 
   const Cut& cut_;
@@ -284,20 +280,32 @@ class ChartUnwrapper {
   std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
 };
 
+/// Gives the corners of some faces, each at its vertex of the chart, their places in the map.
+template <class Map>
+void write_corners(const Cut& cut, const std::vector<int>& faces, const Map& map, Unwrap& result) {
+  for (const int face : faces) {
+    for (int c = cut.mesh.face_offsets[face]; c < cut.mesh.face_offsets[face + 1]; ++c) {
+      const Complex uv = map(cut.decomposition.chart_vertex_of_corner[c]);
+      result.uv.row(c) << uv.real(), uv.imag();
+      result.solved_corners[c] = true;
+    }
+  }
+}
+
+/// Charts without area, by their number in the result, and the point that each becomes.
+using Points = std::vector<std::pair<std::size_t, Complex>>;
+
 /// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused. Its
 /// map goes to `kept`, which may be null, unless there is no memory for it.
-void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, KeptMaps* kept = nullptr) {
+void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Points& points,
+         KeptMaps* kept = nullptr) {
   add_seconds(solution.timings, result.timings);
   if (solution.report.solved) {
     for (const std::size_t k : solution.acting) result.unused_extenders[k] = false;
-    for (const int face : solution.report.faces) {
-      for (int c = cut.mesh.face_offsets[face]; c < cut.mesh.face_offsets[face + 1]; ++c) {
-        const Complex uv = solution.z[cut.decomposition.chart_vertex_of_corner[c]];
-        result.uv.row(c) << uv.real(), uv.imag();
-        result.solved_corners[c] = true;
-      }
-    }
+    write_corners(
+        cut, solution.report.faces, [&](int vertex) { return solution.z[vertex]; }, result);
   }
+  if (solution.point) points.push_back({result.charts.size(), *solution.point});
   if (kept && !solution.description.empty()) {
     try {
       UnwrappedChart report = solution.report;
@@ -308,6 +316,20 @@ void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Ke
     }
   }
   result.charts.push_back(std::move(solution.report));
+}
+
+/// Where another chart has a map, those without area become points, which cover nothing; otherwise nothing is mapped.
+void add_points(const Cut& cut, const Points& points, Unwrap& result) {
+  const bool has_map = std::any_of(result.charts.begin(), result.charts.end(), [](const auto& c) { return c.solved; });
+  if (!has_map) return;
+  for (const auto& [i, point] : points) {
+    UnwrappedChart& report = result.charts[i];
+    report.solved = true;
+    report.mean_qc = report.max_qc = 1;
+    report.message = "The island has no area: its map is a point.";
+    write_corners(
+        cut, report.faces, [place = point](int) { return place; }, result);
+  }
 }
 
 /// A result without its charts.
@@ -440,6 +462,7 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   std::vector<Chart>& charts = cut.decomposition.charts;
   const ChartLoop loop(charts);
   const ExtendersOfCharts extenders(cut, options.extenders);
+  Points points;
   loop.run(
       progress,
       [&](int i, const Progress& going_on) {
@@ -452,7 +475,8 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
         return solution;
       },
       [&](int i) { return ChartUnwrapper(cut, charts[static_cast<std::size_t>(i)], options).out_of_memory(); },
-      [&](ChartUnwrapper::Solution&& solution) { add(cut, std::move(solution), result, kept); });
+      [&](ChartUnwrapper::Solution&& solution) { add(cut, std::move(solution), result, points, kept); });
+  add_points(cut, points, result);
   add_degenerate_faces(cut, result);
   return result;
 }
@@ -479,6 +503,7 @@ Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optio
   const Progress& progress = listening.progress();
   Unwrap result = empty_result(state_->cut, extenders.size());
   const ExtendersOfCharts extenders_of_charts(state_->cut, extenders);
+  Points points;
   state_->loop.run(
       progress,
       [&](int i, const Progress& going_on) {
@@ -486,7 +511,8 @@ Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optio
                                                                  going_on);
       },
       [&](int i) { return state_->charts[static_cast<std::size_t>(i)].out_of_memory(); },
-      [&](ChartUnwrapper::Solution&& solution) { add(state_->cut, std::move(solution), result); });
+      [&](ChartUnwrapper::Solution&& solution) { add(state_->cut, std::move(solution), result, points); });
+  add_points(state_->cut, points, result);
   add_degenerate_faces(state_->cut, result);
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include "conformal/davidson.h"
 #include "conformal/eigenproblem.h"
+#include "conformal/extended_form.h"
 #include "conformal/shifted_factor.h"
 #include "meshes.h"
 
@@ -27,8 +28,7 @@ DavidsonResult davidson(const ConformalEnergy& energy, const BoundaryForm& form,
 
 TEST_CASE("a flat strip, most of whose eigenvalues lie below the shift, comes out as it is") {
   Mesh mesh = flat_grid(6001, 3);
-  mesh.positions.col(0) *= 1.0 / 6000;
-  mesh.positions.col(1) *= 1.0 / 6000;
+  for (Eigen::Vector3d& point : mesh.points) point /= 6000;
   const Patch patch(mesh);
   const ConformalEnergy energy = patch.energy(Weights::uniform);
   const BoundaryForm form = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
