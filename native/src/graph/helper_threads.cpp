@@ -1,5 +1,6 @@
 #include "graph/helper_threads.h"
 
+#include <exception>
 #include <new>
 #include <system_error>
 
@@ -14,6 +15,9 @@ HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) 
   try {
     const auto as_caller = [this, work, limit = ThreadLimit::current(), counter = WorkCounter::current(),
                             listening = Listening::current()] {
+      // The C++ library takes its memory for exceptions of a thread when the first is thrown there, and where that is
+      // for want of memory, the C library ends the process: it takes it here.
+      static_cast<void>(std::uncaught_exceptions());
       const ThreadBudget::Share::Member member(share_);
       const ThreadLimit of_caller(limit);
       const WorkCounter::Share with_caller(counter);
