@@ -20,19 +20,27 @@ def column(charts: Sequence[Any], name: str) -> np.ndarray:
 
 
 class PartOfCharts(Sequence):
-    """The charts of one of several joined meshes, with its own faces."""
+    """The charts of one of several joined meshes, or of a subdivided one, with the faces of that mesh."""
 
-    def __init__(self, charts: Sequence[Any], first_face: int, last: Any | None = None) -> None:  # noqa: ANN401 - a record
+    def __init__(
+        self,
+        charts: Sequence[Any],
+        first_face: int = 0,
+        last: Any | None = None,  # noqa: ANN401 - a record
+        face_of_face: np.ndarray | None = None,
+    ) -> None:
         """Take the `charts` of a result for all, without those of other meshes.
 
         Args:
             charts: of this mesh alone.
             first_face: the mesh's, among all.
             last: another chart, of which only some faces are this mesh's; None for none.
+            face_of_face: the face of this mesh that each of its faces there is a part of; None where they are the same.
         """
         self._charts = charts
         self._first_face = first_face
         self._last = [] if last is None else [last]
+        self._face_of_face = face_of_face
 
     def __len__(self) -> int:
         """Return how many charts there are."""
@@ -64,4 +72,5 @@ class PartOfCharts(Sequence):
         return self._own(self._charts[place] if place < n else self._last[place - n])
 
     def _own(self, chart: Any) -> Any:  # noqa: ANN401 - as above
-        return replace(chart, faces=chart.faces - self._first_face)
+        faces = chart.faces - self._first_face
+        return replace(chart, faces=faces if self._face_of_face is None else np.unique(self._face_of_face[faces]))

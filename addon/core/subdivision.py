@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .chart_records import PartOfCharts
 from .mesh import PolygonMesh
 from .solve import Solution, find_too_small_faces
 
@@ -36,6 +37,7 @@ class Subdivision:
             solution,
             uv=uv,
             chart_of_corner=chart,
+            charts=PartOfCharts(solution.charts, face_of_face=self.face_of_face),
             failed_islands=failed,
             too_small_faces=len(find_too_small_faces(self.coarse, uv, chart)),
         )

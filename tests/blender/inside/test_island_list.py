@@ -174,3 +174,13 @@ def test_list_report_and_legend_have_one_worst(shape, reports):
     assert angles.endswith(" worst")
     assert float(angles.split()[-2]) == worst, (angles, rows())
     assert np.isclose(view.qc.max(), worst, atol=0.006)
+
+
+def test_an_island_of_a_subdivided_mesh_has_the_faces_of_the_mesh():
+    grid = scenes.bumpy_grid(8, 6)
+    grid.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_unwrap(use_subsurf_data=True) == {"FINISHED"}
+    (row,) = rows()
+    assert "48 faces" in row
+    assert click(0) == {grid.name: set(range(48))}
