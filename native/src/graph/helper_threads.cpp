@@ -17,7 +17,7 @@ HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) 
                             listening = Listening::current()] {
       // The C++ library takes its memory for exceptions of a thread when the first is thrown there, and where that is
       // for want of memory, the C library ends the process: it takes it here.
-      static_cast<void>(std::uncaught_exceptions());
+      static_cast<void>(std::current_exception());
       const ThreadBudget::Share::Member member(share_);
       const ThreadLimit of_caller(limit);
       const WorkCounter::Share with_caller(counter);
