@@ -2,11 +2,9 @@
 """Meshes told again later: after they were renamed, and after undo, which may make a data-block anew."""
 
 from collections.abc import Iterator
-from typing import Generic, TypeVar
+from typing import Any
 
 import bpy
-
-Value = TypeVar("Value")
 
 
 class Identity:
@@ -27,18 +25,21 @@ class Identity:
         return True
 
 
-class ByMesh(Generic[Value]):
-    """A value for each of some meshes."""
+class ByMesh:
+    """A value for each of some meshes.
+
+    No generic class: Python keeps those that were given a type, and with them `bpy`, until after Blender has ended.
+    """
 
     def __init__(self) -> None:
         """Hold none."""
-        self._values: list[tuple[Identity, Value]] = []
+        self._values: list[tuple[Identity, Any]] = []
 
-    def get(self, mesh: bpy.types.Mesh) -> Value | None:
+    def get(self, mesh: bpy.types.Mesh) -> Any:  # noqa: ANN401 - whatever was set
         """Return the value of a mesh; None without one."""
         return next(self._of(mesh), None)
 
-    def set(self, mesh: bpy.types.Mesh, value: Value) -> None:
+    def set(self, mesh: bpy.types.Mesh, value: Any) -> None:  # noqa: ANN401 - of whatever type
         """Give a mesh a value, in place of the one that it has."""
         self._values = [(identity, other) for identity, other in self._values if not identity.is_of(mesh)]
         self._values.append((Identity(mesh), value))
@@ -47,7 +48,7 @@ class ByMesh(Generic[Value]):
         """Hold none any more."""
         self._values.clear()
 
-    def _of(self, mesh: bpy.types.Mesh) -> Iterator[Value]:
+    def _of(self, mesh: bpy.types.Mesh) -> Iterator[Any]:
         return (value for identity, value in self._values if identity.is_of(mesh))
 
 

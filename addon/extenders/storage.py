@@ -29,7 +29,7 @@ class _Session:
     """Lists seen since the file was loaded, by the name of their layer, and lists of meshes before they had a layer."""
 
     lists: dict[str, list[Extender]] = field(default_factory=dict)
-    without_layer: ByMesh[list[Extender]] = field(default_factory=ByMesh)
+    without_layer: ByMesh = field(default_factory=ByMesh)
     is_writing: bool = False
 
 

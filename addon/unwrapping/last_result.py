@@ -24,7 +24,7 @@ class _Result:
     topology: int
 
 
-_results: ByMesh[_Result] = ByMesh()
+_results: ByMesh = ByMesh()
 
 
 def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> None:

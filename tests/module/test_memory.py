@@ -150,7 +150,8 @@ def test_seams_of_a_part_that_is_too_large_are_left_out_alone():
             return np.r_[v, w + [3, 0, 0]], *polygons(np.r_[t, s + len(v)])
 
         alone = closed(12)
-        # What all parts have in common takes 150 MB. With a limit, of which there is more than enough, no coarse copies are made, which take less memory.
+        # What all parts have in common takes 150 MB. With a limit of length, of which there is more than enough, no
+        # coarse copies are made, which take less memory.
         mesh = both(12, 300)
         cuts = limited(180, lambda: sc.suggest_cuts(*mesh, max_length=1000.0))
         assert cuts.message == (
