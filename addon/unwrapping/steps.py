@@ -83,7 +83,9 @@ def write(
     if summary.solved:
         without_bounds, left_tile = write_maps(settings, edit_meshes, solutions, while_writing)
     last_result.remember(edit_meshes, solutions)
-    warnings = _warnings(edit_meshes, settings, solutions)
+    # What is stretched on request is so everywhere.
+    strained = texts.strained(summary) if settings.options.stretch == 1.0 else ""
+    warnings = (*filter(None, [strained]), *_warnings(edit_meshes, settings, solutions))
     return Outcome(
         summary,
         without_bounds,
@@ -154,7 +156,6 @@ def reports(outcome: Outcome, seconds: float) -> list[tuple[str, str]]:
         ("INFO", texts.pinned(summary)),
         ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
         *(("INFO", note) for note in outcome.notes),
-        ("WARNING", texts.strained(summary)),
         *(("WARNING", warning) for warning in outcome.warnings),
         ("WARNING", texts.without_bounds(outcome.without_bounds)),
         ("WARNING", texts.failures(summary)),

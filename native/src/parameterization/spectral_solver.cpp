@@ -184,9 +184,11 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     result.converged = pair.converged && pair.residual < eigenproblem_residual_limit;
     return result.converged;
   };
-  // Where eigenvalues smaller than the shift lie close together, as on long strips.
+  // Where eigenvalues smaller than the shift lie close together, as on long strips, and the rounding of L is smaller
+  // still, as it is not beside the huge entries of thin triangles.
+  const bool is_above_rounding = std::numeric_limits<double>::epsilon() * max_diagonal() < attempt.relative_shift;
   const auto tell_apart = [&](const QuotientForm& quotient) {
-    if (attempt.exact_steps || (result.converged && result.change < result.change_limit)) return;
+    if (!is_above_rounding || attempt.exact_steps || (result.converged && result.change < result.change_limit)) return;
     DavidsonResult resolved =
         solve_by_davidson(factorization, *energy_, form, factor.shift, quotient, negligible_change, progress);
     result.solves += resolved.solves;

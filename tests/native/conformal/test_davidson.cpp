@@ -61,7 +61,8 @@ TEST_CASE("an indefinite form has its smallest positive quotient, one positive f
       [&](const ComplexVector& z) { return pulled.value(pulled.restrict(z)); },
       [&](const ComplexVector& z, double factor, ComplexVector& sum) { pulled.add_applied(z, factor, sum); }};
   const DavidsonResult result = davidson(energy, form, patch.positions, quotient, 1e-8);
-  CHECK(result.change < negligible);
+  // The next eigenvalue of such a form is near, so that rounding leaves more of it.
+  CHECK(result.change < resolved_change);
   ComplexVector r;
   const double lambda = eigen_residual(energy, quotient, result.z, r);
   CHECK(lambda > 0);
