@@ -166,7 +166,7 @@ class ChartUnwrapper {
   /// std::bad_alloc, without its factor: others need the memory.
   Solution solve(const ExtendersOfCharts& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress, const KeptMaps* kept = nullptr) {
-    Solution result{report_, {}, {}, {}, {}};
+    Solution result{report_, {}, {}, {}, {}, {}};
     if (!is_possible_) return result;
     SolveOptions options = options_;
     options.tolerance = tolerance;
@@ -196,7 +196,7 @@ class ChartUnwrapper {
 
   /// What became of a chart whose solve there is no memory for.
   Solution out_of_memory() const {
-    Solution result{report_, {}, {}, {}, {}};
+    Solution result{report_, {}, {}, {}, {}, {}};
     result.report.message = "There is too little memory for this island of " + std::to_string(report_.faces.size()) +
                             " faces; close other programs, or cut it into smaller ones with seams.";
     return result;
