@@ -7,6 +7,7 @@ import copy
 import dataclasses
 import itertools
 import warnings
+from collections.abc import Sequence
 
 import numpy as np
 import spectral_conformal as sc
@@ -260,7 +261,7 @@ def same(left, right):
         return type(left) is type(right) and all(same(getattr(left, n), getattr(right, n)) for n in names)
     if isinstance(left, np.ndarray):
         return left.shape == right.shape and left.tobytes() == right.tobytes()
-    if isinstance(left, list):
+    if isinstance(left, Sequence) and not isinstance(left, str):
         return len(left) == len(right) and all(itertools.starmap(same, zip(left, right)))
     if isinstance(left, float):
         return left == right or (left != left and right != right)

@@ -1,3 +1,6 @@
+import copy
+import pickle
+
 import numpy as np
 import pytest
 import spectral_conformal as sc
@@ -184,8 +187,44 @@ def test_nothing_selected():
     vertices, quads = meshes.saddle_quads(3)
     offsets, corners = meshes.polygons(quads)
     result = sc.unwrap(vertices, offsets, corners, selected_faces=np.zeros(4, bool))
-    assert result.charts == []
+    assert len(result.charts) == 0
     assert not result.solved_corners.any()
+
+
+def squares_and_a_line():
+    """Return five squares, apart and ever larger, and a face of two vertices between them, as arguments of unwrap."""
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    vertices = np.concatenate([(1 + k) * square + (10 * k, 0, 0) for k in range(5)])
+    return vertices, [0, 4, 8, 10, 14, 18, 22], [*range(8), 8, 9, *range(8, 20)]
+
+
+def test_charts_are_a_sequence():
+    charts = sc.unwrap(*squares_and_a_line()).charts
+    assert len(charts) == 6
+    assert [list(chart.faces) for chart in charts] == [[0], [1], [3], [4], [5], [2]]
+    assert charts[-1].status == charts[5].status == "failed" and "fewer than three" in charts[-1].message
+    with pytest.raises(IndexError):
+        charts[6]
+    for part, places in ((charts[1:3], [1, 2]), (charts[::-2], [5, 3, 1]), (charts[7:], [])):
+        assert [list(chart.faces) for chart in part] == [list(charts[place].faces) for place in places]
+        assert [chart.message for chart in part] == [charts[place].message for place in places]
+        assert list(part.n_faces) == [1] * len(places)
+        assert list(part.column("area")) == [charts[place].area for place in places]
+        assert list(part.column("status")) == [charts[place].status for place in places]
+    assert list(charts[::2].column("message")) == ["", "", ""] and charts.column("message")[5] == charts[5].message
+    # An array of a record is its own.
+    charts[0].faces[0] = 3
+    assert list(charts[0].faces) == [0]
+
+
+def test_charts_can_be_stored():
+    charts = sc.unwrap(*squares_and_a_line()).charts
+    for copied in (
+        pickle.loads(pickle.dumps(charts)),
+        copy.deepcopy(charts),
+        pickle.loads(pickle.dumps(charts[::-1]))[::-1],
+    ):
+        assert [repr(chart) for chart in copied] == [repr(chart) for chart in charts]
 
 
 def test_edge_of_three_faces_and_bow_tie_split_charts():

@@ -245,16 +245,6 @@ class Charts(Sequence[Chart]):
         for start in range(0, len(self), _RECORDS_AT_ONCE):
             yield from self._from(start, start + _RECORDS_AT_ONCE)
 
-    def __eq__(self, other: object) -> bool:
-        """Return whether the other, a list too, has equal records."""
-        if self is other:
-            return True
-        if not isinstance(other, (Charts, list)):
-            return NotImplemented
-        return len(self) == len(other) and all(mine == theirs for mine, theirs in zip(self, other))
-
-    __hash__ = None
-
     def __repr__(self) -> str:
         """Return a line about all of them."""
         solved = int(np.count_nonzero(self._rows["status"]))

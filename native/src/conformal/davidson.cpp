@@ -15,7 +15,7 @@ constexpr int n_frequencies = 4;
 constexpr Eigen::Index kept_dimension = 12;
 constexpr Eigen::Index max_dimension = 24;
 /// Solves that do not halve the change: rounding keeps it where it is.
-constexpr int patience = 2 * max_dimension;
+constexpr int solves_without_progress = 2 * max_dimension;
 
 /// The Rayleigh-Ritz space; columns v with v^H (L + s M) v = 1, orthogonal to each other, mean-free.
 class DavidsonSpace {
@@ -145,7 +145,7 @@ DavidsonResult solve_by_davidson(Factorization& factorization, const ConformalEn
   double halved = std::numeric_limits<double>::infinity();
   int halved_at = result.solves;
   ComplexVector r;
-  while (space.size() > 0 && result.solves - halved_at <= patience && space.solve()) {
+  while (space.size() > 0 && result.solves - halved_at <= solves_without_progress && space.solve()) {
     result.z = space.best();
     eigen_residual(energy, quotient, result.z, r);
     if (space.size() >= max_dimension) space.restart();

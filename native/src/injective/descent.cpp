@@ -31,10 +31,8 @@ class QuadraticForm {
         entries.emplace_back(high, low, 0.0);
       }
     }
-    matrix_.resize(n, n);
     still_working(element_nanoseconds * static_cast<double>(elements.size()));
-    call_while_listening(3 * element_nanoseconds * static_cast<double>(entries.size()),
-                         [&] { matrix_.setFromTriplets(entries.begin(), entries.end()); });
+    matrix_ = lower_triangle(n, entries);
     for (const DistortionElement& element : elements) {
       std::array<int, 3> entry{};
       for (int k = 0; k < 3; ++k) {

@@ -105,9 +105,7 @@ class TutteSystem {
       if (i >= 0 && j < 0) right_side[i] += edge.weight * z[edge.j];
       if (j >= 0 && i < 0) right_side[j] += edge.weight * z[edge.i];
     }
-    HermitianMatrix matrix(n_unknown_, n_unknown_);
-    call_while_listening(150 * static_cast<double>(entries.size()),
-                         [&] { matrix.setFromTriplets(entries.begin(), entries.end()); });
+    const HermitianMatrix matrix = lower_triangle(n_unknown_, entries);
     if (!analyzed_) factorization_->analyze(matrix);
     analyzed_ = true;
     if (!factorization_->factorize(matrix)) return false;

@@ -2,11 +2,23 @@
 
 #include <limits>
 
+#include "graph/parallel_calls.h"
 #include "linear_algebra/cholmod_factorization.h"
 #include "linear_algebra/eigen_factorization.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
+
+HermitianMatrix lower_triangle(Eigen::Index n, const std::vector<Eigen::Triplet<Complex>>& entries) {
+  constexpr double entry_nanoseconds = 150;
+  HermitianMatrix result;
+  call_while_listening(entry_nanoseconds * static_cast<double>(entries.size()), [&] {
+    if (n < 1) return;
+    result.resize(n, n);
+    result.setFromTriplets(entries.begin(), entries.end());
+  });
+  return result;
+}
 
 void check_factor_size(double nonzeros) {
   // Both libraries number the entries of a factor with ints here.

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "spectral_conformal/options.h"
 #include "spectral_conformal/types.h"
@@ -34,6 +35,9 @@ class Factorization {
   /// Entries of the factor, as stored: supernodes hold some zeros.
   virtual double factor_nonzeros() const = 0;
 };
+
+/// The lower triangle of an n x n matrix from its entries; those of one place are summed up. Heard by a listener.
+HermitianMatrix lower_triangle(Eigen::Index n, const std::vector<Eigen::Triplet<Complex>>& entries);
 
 /// Throws SolveFailure when a factor of this many nonzeros is too large for the index type, an int.
 void check_factor_size(double nonzeros);

@@ -325,6 +325,8 @@ void add_points(const Cut& cut, const Points& points, Unwrap& result) {
   for (const auto& [i, point] : points) {
     UnwrappedChart& report = result.charts[i];
     report.solved = true;
+    // L z = 0 for what is the same everywhere.
+    report.eigenvalue = report.residual = 0;
     report.mean_qc = report.max_qc = 1;
     report.message = "The island has no area: its map is a point.";
     write_corners(

@@ -128,7 +128,7 @@ class OverlapTest {
 
   /// Leaves out those that lie exactly on another one, of which many may, in its order of corners: what is found of one
   /// holds for all. Two stay where the faces differ, since pairs of one face do not count.
-  std::vector<int> one_of_each_stack(std::vector<int> some) {
+  std::vector<int> one_of_each_stack(const std::vector<int>& some) {
     const auto place_of = [this](int t) {
       const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
       return std::array<double, 6>{z_[a].real(), z_[a].imag(), z_[b].real(), z_[b].imag(), z_[c].real(), z_[c].imag()};

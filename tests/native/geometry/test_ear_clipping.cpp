@@ -15,18 +15,18 @@ double area_of(const std::vector<Complex>& points, const std::vector<std::array<
   return area;
 }
 
-const std::vector<Complex> square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+const std::vector<Complex> outer_square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
 
 }  // namespace
 
 TEST_SUITE_BEGIN("ear_clipping");
 
 TEST_CASE("outlines with bridges, slits, spikes and corners twice are covered once") {
-  std::vector<Complex> keyhole = square;
+  std::vector<Complex> keyhole = outer_square;
   keyhole.insert(keyhole.end(), {{0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}});
-  std::vector<Complex> slit = square;
+  std::vector<Complex> slit = outer_square;
   slit.insert(slit.begin() + 1, {{2, 0}, {2, 2}, {2, 0}});
-  std::vector<Complex> spike = square;
+  std::vector<Complex> spike = outer_square;
   spike.insert(spike.begin() + 2, {{6, 0}, {4, 0}});
   std::vector<Complex> twice;
   for (const Complex p : keyhole) twice.insert(twice.end(), {p, p});

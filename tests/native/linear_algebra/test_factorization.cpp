@@ -37,6 +37,15 @@ TEST_CASE("every backend solves to 1e-12, and they agree") {
   }
 }
 
+TEST_CASE("entries of one place are summed up") {
+  const HermitianMatrix matrix = lower_triangle(2, {{0, 0, 1.0}, {1, 0, Complex(0, 2)}, {0, 0, 3.0}, {1, 1, 1.0}});
+  CHECK(matrix.nonZeros() == 3);
+  CHECK(matrix.coeff(0, 0) == Complex(4));
+  CHECK(matrix.coeff(1, 0) == Complex(0, 2));
+  CHECK(lower_triangle(3, {}).rows() == 3);
+  CHECK(lower_triangle(0, {}).rows() == 0);
+}
+
 TEST_CASE("solves on selected vertices are parts of the whole solve") {
   const HermitianMatrix matrix = shifted_energy(30);
   const int n = static_cast<int>(matrix.cols());
