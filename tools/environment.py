@@ -311,7 +311,8 @@ def system_blender_version() -> tuple[int, ...]:
 def native_inputs() -> str:
     """Return what the stamp of the native module holds."""
     own = (*NATIVE_INPUTS, Path(solver_libraries.__file__).relative_to(ROOT))
-    return steps.digest([OPENBLAS, *(ROOT / name for name in own)])
+    cholmod = solver_libraries.state_of(solver_libraries.cholmod_of_system())
+    return steps.digest([OPENBLAS, cholmod, *(ROOT / name for name in own)])
 
 
 def is_native_module_built() -> bool:

@@ -38,8 +38,7 @@ def make(python: Path) -> None:
         shutil.rmtree(FOLDER, ignore_errors=True)
         return
     origin = openblas_of(python)
-    contents = (hashlib.sha256(path.read_bytes()).hexdigest() for path in (origin, systems, Path(__file__)))
-    state = steps.digest(contents)
+    state = steps.digest([state_of(origin), state_of(systems), state_of(Path(__file__))])
     if steps.is_done(FOLDER.name, state) and OPENBLAS.is_file() and CHOLMOD.is_file():
         return
     shutil.rmtree(FOLDER, ignore_errors=True)
@@ -73,6 +72,11 @@ def cholmod_of_system() -> Path | None:
     path = Path(told)
     # A bare name: not found.
     return path.resolve() if path.is_absolute() else None
+
+
+def state_of(library: Path | None) -> str:
+    """Return what changes with a file's content."""
+    return hashlib.sha256(library.read_bytes()).hexdigest() if library else "none"
 
 
 def openblas_of(python: Path) -> Path:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -11,8 +12,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tools import steps
-from tools.environment import PYTHON
+from tools import licences, solver_libraries, steps
+from tools.environment import PYTHON, VENV, site_packages
 from tools.steps import BUILD, StepError
 
 # Compilers' libraries keep their names: their functions carry versions, and one copy serves a whole process.
@@ -45,6 +46,7 @@ def repair(wheel: Path, folder: Path) -> Path:
     (repaired,) = (folder / "repaired").glob("*.whl")
     with unpacked(repaired, folder) as content:
         prefix_symbols(content, folder / "symbols.txt")
+        add_licences(content)
     return folder / repaired.name
 
 
@@ -66,6 +68,25 @@ def pack(content: Path, folder: Path, *, log: str) -> None:
     """Pack an unpacked wheel into `folder`, named by its tags; equal files give equal bytes."""
     command = [PYTHON, "-m", "wheel", "pack", "--dest-dir", folder, content]
     steps.run(f"packing a wheel of {content.name}", command, log=log, environ=EARLIEST)
+
+
+def add_licences(content: Path) -> None:
+    """Put the licences of all that is in an unpacked wheel of this machine beside the project's own."""
+    (bill,) = content.glob("*.dist-info/sboms/auditwheel.cdx.json")
+    parts = json.loads(bill.read_text())["components"]
+    packages = {part["name"] for part in parts if part["purl"].startswith("pkg:deb/")}
+    if solver_libraries.CHOLMOD.is_file():
+        packages.add("libsuitesparse-dev")
+    installed = site_packages(VENV)
+    files = {
+        **licences.of_headers(),
+        **{name: licences.of_debian(name) for name in packages},
+        "pybind11": licences.of_pip(installed, "pybind11"),
+        "openblas-and-libgfortran": licences.of_pip(installed, "scipy_openblas32"),
+    }
+    (folder,) = content.glob("*.dist-info/licenses")
+    for name, text in licences.texts(files).items():
+        (folder / name).write_bytes(text)
 
 
 def prefix_symbols(content: Path, names: Path) -> None:

@@ -208,6 +208,19 @@ def test_packaged_libraries_need_each_other_and_the_bare_system_only(packages, t
         )
 
 
+def test_packages_hold_the_licences_of_what_others_have_written(packages, tmp_path):
+    unpack_wheel(packages["extension"], tmp_path)
+    (folder,) = tmp_path.glob("*.dist-info/licenses")
+    texts = {path.stem: path.read_text() for path in folder.glob("*.txt")}
+    if "legacy" in packages:
+        with zipfile.ZipFile(packages["legacy"]) as archive:
+            assert {Path(name).stem for name in archive.namelist() if "/licenses/" in name} == set(texts)
+    assert "OpenBLAS" in texts["openblas-and-libgfortran"]
+    assert "CHOLMOD" in texts["libsuitesparse-dev"]
+    assert "Boost Software License" in texts["boost"]
+    assert {"cgal", "eigen", "spectra", "pybind11", "libmetis5"} <= set(texts)
+
+
 def test_module_solves_with_the_openblas_that_it_brings_along():
     """The system's may be the reference BLAS, or older than the processor."""
     show = "import spectral_conformal as sc; print(sc.__file__); print(sc.build_info()['blas'])"

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from tools import steps
 from tools.cross import compilers, native, parts
 from tools.cross.targets import PYTHONS, WHEELS, Target
 from tools.environment import PYTHON
+from tools.licences import of_debian, of_headers, of_pip, texts
 from tools.steps import ROOT, StepError
 from tools.wheels import pack as pack_wheel
 from tools.wheels import python_tag
@@ -18,8 +18,6 @@ from tools.wheels import python_tag
 PACKAGE = ROOT / "native" / "python" / "spectral_conformal"
 METADATA = parts.CROSS / "metadata"
 LOG = "cross-wheels"
-DEBIAN_COPYRIGHT = Path("/usr/share/doc")
-DEBIAN_LICENCES = Path("/usr/share/common-licenses")
 
 
 def make(target: Target) -> list[Path]:
@@ -92,32 +90,17 @@ def licences(target: Target) -> dict[str, bytes]:
     source = parts.suitesparse()
     suitesparse = ("AMD", "CAMD", "CCOLAMD", "CHOLMOD", "COLAMD")
     files = {
-        "openblas-and-libgfortran": next(parts.openblas(target).glob("*.dist-info/licenses/LICENSE*")),
-        "pybind11": next((parts.PARTS / "pybind11").glob("*.dist-info/licenses/LICENSE*")),
-        "cgal": DEBIAN_COPYRIGHT / "libcgal-dev" / "copyright",
-        "eigen": DEBIAN_COPYRIGHT / "libeigen3-dev" / "copyright",
-        "spectra": DEBIAN_COPYRIGHT / "libspectra-dev" / "copyright",
+        **of_headers(),
+        "openblas-and-libgfortran": of_pip(parts.openblas(target), "scipy_openblas32"),
+        "pybind11": of_pip(parts.PARTS / "pybind11", "pybind11"),
         "metis": source / "metis-5.1.0" / "LICENSE.txt",
         **{f"suitesparse-{name.lower()}": source / name / "Doc" / "License.txt" for name in suitesparse},
     }
-    # What the texts above name and do not repeat.
-    files |= {f"text-of-{name.lower()}": DEBIAN_LICENCES / name for name in ("Apache-2.0", "LGPL-2.1", "MPL-2.0")}
     if target.system == "Windows":
-        files["mingw-w64"] = DEBIAN_COPYRIGHT / "mingw-w64-common" / "copyright"
-        files["libgcc-and-libstdc++"] = DEBIAN_COPYRIGHT / "gcc-mingw-w64-base" / "copyright"
+        files["mingw-w64"] = of_debian("mingw-w64-common")
+        files["libgcc-and-libstdc++"] = of_debian("gcc-mingw-w64-base")
     else:
         libraries = compilers.ZIG.parent / "lib"
         files |= {f"llvm-{name}": libraries / name / "LICENSE.TXT" for name in ("libcxx", "libcxxabi", "libunwind")}
         files["zig-compiler-rt"] = compilers.ZIG.parent / "LICENSE"
-    if missing := [str(path) for path in files.values() if not path.is_file()]:
-        raise StepError(f"Licence texts that have to go into the wheel are missing: {', '.join(missing)}")
-    return {**{f"{name}.txt": path.read_bytes() for name, path in files.items()}, "boost.txt": boost_licence()}
-
-
-def boost_licence() -> bytes:
-    """Return Boost's licence; Debian's list of all its authors has 2 MB."""
-    (path,) = sorted(DEBIAN_COPYRIGHT.glob("libboost1.*-dev/copyright"))[:1]
-    found = re.search(r"Boost Software License - Version 1\.0 - August.*(?:\n .*)+", path.read_text())
-    if not found:
-        raise StepError(f"{path} has no text of the Boost Software License.")
-    return re.sub(r"\n (\.$)?", "\n", found[0], flags=re.MULTILINE).encode() + b"\n"
+    return texts(files)
