@@ -7,6 +7,9 @@
 
 #ifdef _WIN32
 #include <windows.h>
+// Macros for compilers of 16 bits, and ordinary words in the sources that are compiled together with this one.
+#undef near
+#undef far
 #else
 #include <dlfcn.h>
 #endif
