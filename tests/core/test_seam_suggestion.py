@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from spectral_unwrap.core import native, seam_suggestion
+from spectral_unwrap.core import native, seam_suggestion, texts
 from spectral_unwrap.core.mesh import PolygonMesh
 from spectral_unwrap.core.seam_suggestion import Options, Search, Suggestion
 
@@ -66,6 +66,19 @@ def test_refused_mesh_does_not_stop_the_others(module):
     suggestion = seam_suggestion.suggest([square(), square()], Options())
     assert [cut.mesh for cut in suggestion.cuts] == [1]
     assert suggestion.errors == ("no mesh", "")
+
+
+def test_a_mesh_too_large_for_the_memory_fails_alone(module):
+    module.cuts = [[[[0, 1]]], MemoryError("std::bad_alloc"), [[[1, 2]]]]
+    suggestion = seam_suggestion.suggest([square(), square(), square()], Options())
+    assert [cut.mesh for cut in suggestion.cuts] == [0, 2]
+    assert suggestion.errors == ("", texts.TOO_LITTLE_MEMORY_FOR_MESH, "")
+
+
+def test_no_memory_for_any_mesh_is_that_error(module):
+    module.cuts = [MemoryError("std::bad_alloc"), MemoryError("std::bad_alloc")]
+    with pytest.raises(MemoryError):
+        seam_suggestion.suggest([square(), square()], Options())
 
 
 def test_options_and_seams_reach_the_module(module):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import spectral_conformal
-from spectral_unwrap.core import native
+from spectral_unwrap.core import native, texts
 from spectral_unwrap.core import solve as solving
 from spectral_unwrap.core.mesh import PolygonMesh
 from spectral_unwrap.core.options import Options
@@ -268,6 +268,48 @@ def test_a_refused_mesh_leaves_the_others_of_its_batch():
     assert "vertex 7" in second.error
     assert_same(first, solve(separated_cube(), Options()))
     assert_same(third, solve(curved_patch(0), Options()))
+
+
+def with_memory_for(n_vertices, monkeypatch):
+    """Let the solver fail for want of memory where it gets more vertices."""
+    unwrap = spectral_conformal.unwrap
+
+    def limited(vertices, *arguments, **options):
+        if len(vertices) > n_vertices:
+            raise MemoryError
+        return unwrap(vertices, *arguments, **options)
+
+    monkeypatch.setattr(spectral_conformal, "unwrap", limited)
+
+
+@pytest.mark.parametrize("constraints", [{}, {"extenders": ((0, 1, 0.5),)}])
+def test_a_mesh_too_large_for_the_memory_fails_alone(constraints, monkeypatch):
+    # With constraints none is joined with others.
+    meshes = [replace(mesh, **constraints) for mesh in (separated_cube(), curved_patch(0), separated_cube())]
+    alone = solve(meshes[0], Options())
+    with_memory_for(len(CUBE_VERTICES), monkeypatch)
+    reported = []
+    first, second, third = solve_all(meshes, Options(), lambda fraction, _phase: reported.append(fraction))
+    assert_same(first, alone)
+    assert_same(third, alone)
+    assert second.error == texts.TOO_LITTLE_MEMORY_FOR_MESH
+    assert not second.solved_corners.any()
+    assert len(second.charts) == 0
+    assert max(reported) == reported[-1] == pytest.approx(1.0)
+
+
+def test_no_memory_for_any_mesh_is_that_error(monkeypatch):
+    with_memory_for(0, monkeypatch)
+    with pytest.raises(MemoryError):
+        solve_all([separated_cube(), curved_patch(0)], Options())
+
+
+def test_no_memory_for_all_in_one_mesh_is_no_error(monkeypatch):
+    meshes = [curved_patch(k) for k in range(3)]
+    alone = [solve(mesh, Options()) for mesh in meshes]
+    with_memory_for(len(meshes[0].vertices), monkeypatch)
+    for solution, expected in zip(solve_all(meshes, Options()), alone):
+        assert_same(solution, expected)
 
 
 def test_the_solver_gets_no_more_at_once_than_the_limit(monkeypatch):
