@@ -16,8 +16,11 @@ Progress progress_of(const pybind11::object& callable);
 /// by Ctrl-C alone.
 class HeardWork {
  public:
-  explicit HeardWork(const char* phase, const pybind11::object& callable = pybind11::none())
-      : callable_(callable), progress_(progress_of(callable_)), listening_(progress_, phase) {}
+  /// A handle, as an object that is made for the call ends after it, without the GIL.
+  explicit HeardWork(const char* phase, pybind11::handle callable = Py_None)
+      : callable_(pybind11::reinterpret_borrow<pybind11::object>(callable)),
+        progress_(progress_of(callable_)),
+        listening_(progress_, phase) {}
 
  private:
   pybind11::object callable_;
