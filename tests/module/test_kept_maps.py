@@ -52,6 +52,18 @@ def test_the_same_again_is_not_solved_again():
     assert "factorization" not in again.timings
 
 
+def test_an_island_without_area_is_a_point_again_where_another_has_a_map():
+    vertices = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (5, 0, 0), (6, 0, 0), (8, 0, 0.0)])
+    face_offsets, corners = [0, 3, 6], np.arange(6)
+    kept = sc.KeptMaps()
+    for selected in ([False, True], [True, True], [True, True], [False, True]):
+        given = {"selected_faces": np.array(selected)}
+        expected = sc.unwrap(vertices, face_offsets, corners, **given)
+        check_same(sc.unwrap(vertices, face_offsets, corners, **given, kept_maps=kept), expected)
+        assert expected.solved_corners.tolist() == [all(selected)] * 6
+    assert len(kept) == 1
+
+
 def test_after_a_seam_changed_only_the_islands_at_it_are_solved():
     mesh, seams = grid()
     kept = sc.KeptMaps()

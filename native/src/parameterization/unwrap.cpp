@@ -306,7 +306,8 @@ void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Po
         cut, solution.report.faces, [&](int vertex) { return solution.z[vertex]; }, result);
   }
   if (solution.point) points.push_back({result.charts.size(), *solution.point});
-  if (kept && !solution.description.empty()) {
+  // What becomes of one without area depends on the other charts.
+  if (kept && !solution.point && !solution.description.empty()) {
     try {
       UnwrappedChart report = solution.report;
       report.reused = false;
