@@ -37,19 +37,25 @@ class Arguments:
     front: np.ndarray
     pins: dict = field(default_factory=dict)
     extenders: list = field(default_factory=list)
+    changes: int = 0
 
     def arrays(self):
         return [value for value in vars(self).values() if isinstance(value, np.ndarray)]
 
     def change(self):
-        """Make every argument another one in place, all of them such that a call that got them would be no error."""
+        """Make every argument another one in place, back and forth: a call that gets a mixture of both is no error."""
+        self.changes += 1
+        there = self.changes % 2 == 1
         for array in self.arrays():
-            if array.dtype == np.bool_:
+            if array is self.face_offsets:
+                # Of two quads a triangle and a pentagon.
+                array[1:-1:2] += -1 if there else 1
+            elif array.dtype == np.bool_:
                 np.logical_not(array, out=array)
             elif array.dtype == np.int32:
-                array[...] = array[::-1].copy() if array is not self.face_offsets else array.max()
+                array[...] = array[::-1].copy()
             else:
-                array[...] = array[::-1].copy() * 1.5
+                array[...] = array[::-1].copy() * (1.5 if there else 1 / 1.5)
         # Of another size each time, as an iteration would notice.
         self.pins.update({len(self.pins) % 20: (0.5, len(self.pins))})
         self.extenders[:] = [(1, 30, 0.01)] * (1 + len(self.extenders) % 7)

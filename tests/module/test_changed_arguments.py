@@ -39,6 +39,15 @@ def test_no_memory_is_shared_with_the_caller(name, monkeypatch):
             assert not np.shares_memory(array, other), array
 
 
+@pytest.mark.parametrize("name", CALLS)
+def test_changed_arguments_are_no_error(name):
+    # Otherwise all calls but the first beside a thread that changes them would end before there is anything to harm.
+    arguments = some_arguments()
+    for _ in range(4):
+        arguments.change()
+        CALLS[name](arguments, None)
+
+
 @pytest.mark.parametrize("name", WITH_PROGRESS)
 def test_a_progress_function_that_changes_arguments_changes_nothing(name):
     expected = CALLS[name](some_arguments(), None)
