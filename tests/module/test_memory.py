@@ -153,19 +153,38 @@ def test_seams_of_a_part_that_is_too_large_are_left_out_alone():
         # What all parts have in common takes 150 MB. With a limit of length, of which there is more than enough, no
         # coarse copies are made, which take less memory.
         mesh = both(12, 300)
-        cuts = limited(180, lambda: sc.suggest_cuts(*mesh, max_length=1000.0))
+        # In one thread what is heard, and when there is too little memory, is always the same.
+        sc.limit_threads(1)
+        heard = []
+        options = dict(max_length=1000.0)
+        cuts = limited(180, lambda: sc.suggest_cuts(*mesh, **options, progress=lambda *call: heard.append(call)))
         assert cuts.message == (
             "There is too little memory to look for seams in 1 part of the mesh, of up to 178802 vertices; close other "
             "programs, or select fewer faces."
         ), cuts.message
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            found = limited(180, lambda: sc.suggest_seams(*mesh, max_length=1000.0))
+            found = limited(180, lambda: sc.suggest_seams(*mesh, **options))
         assert len(found), "no seams"
         assert np.array_equal(found, np.concatenate(cuts)), (found, cuts)
         assert found.max() < len(alone[0]), found.max()
-        heard = [str(warning.message) for warning in caught if warning.category is RuntimeWarning]
-        assert heard == [cuts.message], heard
+        warned = [str(warning.message) for warning in caught if warning.category is RuntimeWarning]
+        assert warned == [cuts.message], warned
+
+        # The search that ends so is heard, and may be cancelled, on its way.
+        left = [len(heard) // 2]
+
+        def listen(fraction, phase):
+            left[0] -= 1
+            return left[0] > 0
+
+        assert heard[left[0]][1] == "seams", heard[left[0]]
+        try:
+            limited(180, lambda: sc.suggest_cuts(*mesh, **options, progress=listen))
+        except sc.Cancelled:
+            assert left[0] == 0, left
+        else:
+            raise AssertionError("not cancelled")
     """
     run(textwrap.dedent(PARTS) + textwrap.dedent(program))
 
