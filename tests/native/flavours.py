@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import pybind11
+
 from tools import environment, solver_libraries
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,6 +34,9 @@ FLAVOURS = {
         "CMAKE_CXX_COMPILER": "clang++",
         "CMAKE_CXX_FLAGS_DEBUG": "-O1 -g1",
         "SPECTRAL_CONFORMAL_FUZZERS": "ON",
+        "SPECTRAL_CONFORMAL_PYTHON": "ON",
+        "Python_EXECUTABLE": sys.executable,
+        "pybind11_DIR": pybind11.get_cmake_dir(),
         "SPECTRAL_CONFORMAL_SANITIZE": "fuzzer-no-link,address,undefined",
     },
     # Runs one executable only; the others have no threads. OpenBLAS, CHOLMOD and METIS are not instrumented.
