@@ -210,3 +210,12 @@ def test_bad_arguments_of_a_polygon_mesh_are_named(arguments, said):
     arguments = {"face_offsets": [0, 4], "corner_vertices": [0, 1, 2, 3], **arguments}
     with pytest.raises(ValueError, match=said):
         sc.unwrap(SQUARE, **arguments)
+
+
+@pytest.mark.parametrize("kind", [float, object, str, "M8[s]", [("x", "f8"), ("y", "i4")]])
+def test_no_indices_are_none_whatever_their_type(kind):
+    none = np.zeros(0, kind)
+    result = sc.unwrap(SQUARE, [0, 4], np.arange(4), seam_edges=none.reshape(0, 2))
+    assert result.charts[0].status == "solved"
+    with pytest.raises(ValueError, match="The mesh has no faces"):
+        sc.unwrap(SQUARE, [0], none)

@@ -159,7 +159,7 @@ def checked_vertices(vertices: npt.ArrayLike) -> npt.NDArray[np.float64]:
 def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int32]:
     array = checked_array(values, name)
     if array.size == 0:
-        array = array.astype(np.int32)
+        array = np.zeros(array.shape, np.int32)
     if array.dtype.kind not in "iu":
         raise ValueError(f"{name} must hold integers, not {array.dtype}.")
     if array.ndim != 1:
