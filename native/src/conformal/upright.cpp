@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,8 @@ constexpr double same_axis = 0.02;  // in radians
 constexpr double straight_fraction = 0.18;
 // In radians, just below 3 degrees, at which regular outlines have edges.
 constexpr double straight_angle = 0.05232;
+// Of a regular octagon, half runs along two of its sides and across.
+constexpr double main_fraction = 0.55;
 // Of an outline that is not, how much larger its box may get to be exactly upright.
 constexpr double larger_box = 0.1;
 
@@ -172,12 +175,21 @@ class OutlineDirections {
   }
   /// Whether enough of it runs along the sides of the rectangle for an eye to see it lean.
   bool is_straight(const Rectangle& rectangle) const {
-    const double angle = side_angle(rectangle.direction);
-    // Those beyond either end of the quarter turn are at the other one.
-    const double along = length_between(angle - straight_angle, angle + straight_angle) +
-                         length_between(angle - quarter - straight_angle, angle - quarter + straight_angle) +
-                         length_between(angle + quarter - straight_angle, angle + quarter + straight_angle);
-    return along >= straight_fraction * lengths_.back();
+    return length_along(side_angle(rectangle.direction)) >= straight_fraction * lengths_.back();
+  }
+  /// The direction along and across which clearly more of it runs than in all others together, as that of a cross or of
+  /// a letter L does; none for most.
+  std::optional<Complex> main_direction() const {
+    double most = 0;
+    double main = 0;
+    for (const double angle : angles_) {
+      const double length = length_along(angle);
+      if (length <= most) continue;
+      most = length;
+      main = angle;
+    }
+    if (most < main_fraction * lengths_.back()) return std::nullopt;
+    return std::polar(1.0, main);
   }
 
  private:
@@ -187,6 +199,13 @@ class OutlineDirections {
   static double side_angle(Complex line) {
     const double angle = std::arg(line);
     return angle - quarter * std::floor(angle / quarter);
+  }
+  /// Of the edges that run within `straight_angle` of a direction.
+  double length_along(double angle) const {
+    // Those beyond either end of the quarter turn are at the other one.
+    return length_between(angle - straight_angle, angle + straight_angle) +
+           length_between(angle - quarter - straight_angle, angle - quarter + straight_angle) +
+           length_between(angle + quarter - straight_angle, angle + quarter + straight_angle);
   }
   double length_between(double first, double last) const {
     const auto begin = std::lower_bound(angles_.begin(), angles_.end(), first);
@@ -258,13 +277,25 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   const std::vector<Moment> moments = moments_of(boundary);
   Preferences preferred = preferences(w, mass, positions);
 
-  const std::vector<Complex> axes = mirror_axes(moments);
+  // Where most of the outline runs along one direction and across, that is upright: not an axis, as of a cross,
+  // between.
+  const OutlineDirections outline(boundary);
+  const std::optional<Complex> main_direction = outline.main_direction();
+  const auto is_between = [&](Complex direction) {
+    const Complex turn = main_direction ? direction / *main_direction : 1;
+    return std::min(std::abs(turn.real()), std::abs(turn.imag())) > std::sin(straight_angle);
+  };
+  std::vector<Complex> axes = mirror_axes(moments);
+  axes.erase(std::remove_if(axes.begin(), axes.end(), is_between), axes.end());
   std::vector<Rectangle> rectangles;
   if (axes.empty()) {
     rectangles = smallest_rectangles(hull, equal_area);
-    const OutlineDirections outline(boundary);
+    const auto lies_between = [&](const Rectangle& r) { return is_between(r.direction); };
     const auto straight = [&](const Rectangle& r) { return outline.is_straight(r); };
-    if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
+    rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), lies_between), rectangles.end());
+    if (rectangles.empty()) {
+      rectangles = {bounding_rectangle(hull, *main_direction)};
+    } else if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
       const Complex highest = preferred.directions.front();
       const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));
       if (area_of(exact) <= area_of(rectangles.front()) * (1 + larger_box)) rectangles = {exact};

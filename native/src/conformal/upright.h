@@ -17,6 +17,8 @@ namespace spectral_conformal {
 ///   - an axis of its mirror symmetry, where it has one; if it has only one and the third coordinate is weak, that axis
 ///     stands;
 ///   - otherwise the smallest rectangle around its outer loop; of about equally small ones, the nearest.
+/// Where most of the outer loop runs along one direction and across, as of a letter L or a cross, neither may lie
+/// between: without an axis or a smallest rectangle along it, that direction itself is taken.
 /// A map without symmetry or straight borders is exactly upright where its bounding box then is hardly larger.
 /// Between quarter turns that are about equally near, the other coordinates decide, and where no coordinate tells
 /// directions apart, the shape: higher than wide, the broader end down.

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "conformal/upright.h"
 #include "meshes.h"
@@ -142,11 +144,35 @@ TEST_CASE("a symmetric map stands on its axis though a smaller rectangle leans")
   CHECK(is_near(Sheet(plane, floor_of).angle(), 0));
   const double lying = Sheet(plane, [](double x, double y) { return Eigen::Vector3d(y, -x, 0); }).angle();
   CHECK((is_near(lying, 0) || is_near(lying, 180)));
-  // Sheared, it is not symmetric any more and has a side of its own upright.
+  // Sheared, with no right angle, it is not symmetric any more and has a side of its own upright.
   const Sheet sheared(plane, [](double x, double y) { return Eigen::Vector3d(x, 0, y); });
   ComplexVector z = sheared.flat;
-  for (Complex& p : z) p += 0.3 * p.imag();
+  for (Complex& p : z) p += 0.6 * p.imag();
   CHECK_FALSE(is_near(sheared.angle(z), 0));
+}
+
+TEST_CASE("straight outlines decide before axes and small rectangles: a letter L, a cross, stairs") {
+  // Of squares in a plane, by row and column.
+  const std::vector<std::vector<std::pair<int, int>>> shapes{
+      {{0, 0}, {0, 1}, {1, 0}},
+      {{0, 1}, {1, 0}, {1, 1}, {1, 2}, {2, 1}},
+      {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 0}, {1, 1}, {1, 2}, {2, 0}, {2, 1}, {3, 0}},
+  };
+  for (const auto& squares : shapes) {
+    Mesh mesh;
+    std::map<int, int> number;
+    for (const auto& [row, column] : squares) {
+      std::vector<int> corners;
+      for (const int v : {6 * row + column, 6 * row + column + 1, 6 * row + column + 7, 6 * row + column + 6}) {
+        const auto [found, is_new] = number.emplace(v, static_cast<int>(mesh.points.size()));
+        if (is_new) mesh.points.emplace_back(v % 6, v / 6, 0);
+        corners.push_back(found->second);
+      }
+      mesh.add(corners);
+    }
+    CHECK(is_near(Sheet(mesh, floor_of).angle(), 0));
+    for (const double degrees : {-40.0, 0.0, 30.0}) CHECK(is_near(Sheet(mesh, leaning(degrees)).angle(), 0));
+  }
 }
 
 TEST_CASE("diagonals decide nothing: a triangulated square stands as its quad, whatever they are") {
