@@ -1,5 +1,6 @@
 // Work in which one thing is huge, for tests/native/test_growth.py, which counts its instructions at several sizes: the
 // name of a case and a size. What each makes ready before is not counted.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "mesh/corner_pins.h"
 #include "mesh/mirror_symmetry.h"
 #include "meshes.h"
+#include "spectral_conformal/box_packing.h"
 #include "spectral_conformal/kept_maps.h"
 #include "spectral_conformal/thread_limit.h"
 
@@ -149,7 +152,22 @@ std::function<void()> duplicate_polygons(int n) {
   return [=] { build_charts(mesh->view()); };
 }
 
+/// Boxes of random sizes; where one is far longer than all others, it lies in a strip of its own length.
+std::function<void()> packing(int n, double longest) {
+  std::mt19937 generator(1);
+  const auto size = [&] { return 0.1 + static_cast<double>(generator()) / 4294967296.0; };
+  std::vector<PackedBox> boxes(static_cast<std::size_t>(n));
+  for (PackedBox& box : boxes) {
+    box.width = size();
+    box.height = size();
+  }
+  boxes.front().width = std::max(boxes.front().width, longest);
+  return [=]() mutable { pack_boxes(boxes); };
+}
+
 const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
+    {"boxes", [](int n) { return packing(n, 0); }},
+    {"boxes, one of them long", [](int n) { return packing(n, n); }},
     {"eviction of kept maps", eviction},
     {"kept maps that are much alike", found_among_much_alike},
     {"upright: corners of the hull", upright_hull},

@@ -16,7 +16,7 @@ struct PackedBox {
 /// turned nor scaled; widths and heights must be finite and not negative. Returns the side.
 ///
 /// Skyline packing, lowest place first (Jylanki, "A Thousand Ways to Pack the Bin", 2010, section 4), of the boxes from
-/// high to low, in strips of several widths.
+/// high to low, in strips of several widths. n log n for many boxes (skyline.h).
 double pack_boxes(std::vector<PackedBox>& boxes);
 
 }  // namespace spectral_conformal

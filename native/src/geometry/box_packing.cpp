@@ -6,84 +6,32 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <utility>
 
-#include "graph/listening.h"
+#include "geometry/skyline.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// The upper border of what is packed in a strip, from left to right.
-class Skyline {
- public:
-  explicit Skyline(double width) : width_(width), segments_{{0, 0, width}} {}
-
-  /// Puts a box where its top is lowest, and there farthest left.
-  void put(PackedBox& box) {
-    std::size_t best = segments_.size();
-    double best_y = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < segments_.size() && segments_[i].x + box.width <= width_; ++i) {
-      const double y = height_over(i, box.width);
-      if (y < best_y) {
-        best = i;
-        best_y = y;
-      }
-    }
-    // A box as wide as the strip but for rounding.
-    if (best == segments_.size()) {
-      best = 0;
-      best_y = height_over(0, box.width);
-    }
-    still_working(10.0 * static_cast<double>(segments_.size()));
-    box.x = segments_[best].x;
-    box.y = best_y;
-    raise(best, box);
-  }
-
- private:
-  struct Segment {
-    double x = 0;
-    double y = 0;
-    double end = 0;
-  };
-
-  /// The largest height from where segment i begins on, as far as the width.
-  double height_over(std::size_t i, double width) const {
-    const double end = segments_[i].x + width;
-    double y = segments_[i].y;
-    for (std::size_t j = i + 1; j < segments_.size() && segments_[j].x < end; ++j) y = std::max(y, segments_[j].y);
-    return y;
-  }
-
-  void raise(std::size_t i, const PackedBox& box) {
-    const double end = box.x + box.width;
-    std::size_t last = i;
-    while (last < segments_.size() && segments_[last].end <= end) ++last;
-    const Segment raised{box.x, box.y + box.height, end};
-    if (last < segments_.size()) segments_[last].x = std::max(segments_[last].x, end);
-    if (last > i) {
-      segments_[i] = raised;
-      segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                      segments_.begin() + static_cast<std::ptrdiff_t>(last));
-    } else {
-      segments_.insert(segments_.begin() + static_cast<std::ptrdiff_t>(i), raised);
-    }
-  }
-
-  double width_;
-  std::vector<Segment> segments_;
-};
 
 using Order = std::vector<std::size_t>;
 
 /// Packs the boxes, in the given order, into a strip; returns the side of the square that holds them.
 double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes) {
+  // From so many segments on, a tree takes less time.
+  constexpr std::size_t many = 100;
   Skyline skyline(width);
+  std::optional<SkylineTree> tree;
   double side = 0;
   for (const std::size_t i : order) {
     PackedBox& box = boxes[i];
-    skyline.put(box);
+    if (!tree && skyline.segments().size() >= many) tree.emplace(skyline);
+    if (tree) {
+      tree->put(box);
+    } else {
+      skyline.put(box);
+    }
     side = std::max({side, box.x + box.width, box.y + box.height});
   }
   return side;

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "geometry/max_treap.h"
+#include "spectral_conformal/box_packing.h"
+
+namespace spectral_conformal {
+
+/// The upper border of the boxes that are packed in a strip [0, width] from below (Jylanki, "A Thousand Ways to Pack
+/// the Bin", 2010, section 4). A box is put where its top is lowest, and there farthest left. Each box looks along the
+/// whole border: for few boxes.
+class Skyline {
+ public:
+  explicit Skyline(double width) : width_(width), segments_{{0, 0, width}} {}
+
+  /// Sets the box's x and y.
+  void put(PackedBox& box);
+
+  struct Segment {
+    double x = 0;
+    double y = 0;
+    double end = 0;
+  };
+  double width() const { return width_; }
+  /// From left to right.
+  const std::vector<Segment>& segments() const { return segments_; }
+
+ private:
+  /// The largest height from where segment i begins on, as far as the width.
+  double height_over(std::size_t i, double width) const {
+    const double end = segments_[i].x + width;
+    double y = segments_[i].y;
+    for (std::size_t j = i + 1; j < segments_.size() && segments_[j].x < end; ++j) y = std::max(y, segments_[j].y);
+    return y;
+  }
+  void raise(std::size_t i, const PackedBox& box);
+
+  double width_;
+  std::vector<Segment> segments_;
+};
+
+/// The same for many boxes, which are put in the same places, bit for bit.
+///
+/// The level run of a segment is the longest piece of the border around it that is nowhere higher. The lowest place for
+/// a box is the beginning of a level run, since it can be moved left from anywhere else in it: of the lowest segment
+/// whose run is wide enough. Runs only shrink, so that the width found when one was last too narrow bounds it; segments
+/// in the order of their heights, with these bounds, are searched in O(log n), and so are the ends of a run. n log n in
+/// all where few runs shrink between two searches that try them.
+class SkylineTree {
+ public:
+  /// Begins with what is packed there.
+  explicit SkylineTree(const Skyline& skyline);
+
+  /// Sets the box's x and y.
+  void put(PackedBox& box);
+
+ private:
+  struct Segment {
+    double x = 0;
+    double y = 0;
+    double end = 0;
+    int before = MaxTreap::none;
+    int behind = MaxTreap::none;
+  };
+
+  const Segment& segment(int i) const { return segments_[static_cast<std::size_t>(i)]; }
+  Segment& segment(int i) { return segments_[static_cast<std::size_t>(i)]; }
+  struct Run {
+    int first = MaxTreap::none;  ///< segment
+    double y = 0;
+  };
+  /// The lowest run, and of these the farthest left, that is wide enough.
+  Run lowest_run(double width);
+  void insert_before(int at, double x, double y, double end);
+  void erase(int i);
+  void raise(int first, const PackedBox& box);
+
+  static constexpr int left_end = 0;   ///< infinitely high, as the right end
+  static constexpr int right_end = 1;  ///< begins at the strip's width
+  std::vector<Segment> segments_;      ///< also those that are no more
+  MaxTreap along_;                     ///< from left to right; values: heights
+  MaxTreap by_height_;  ///< from low to high, then from left to right; values: bounds of the runs' widths
+};
+
+}  // namespace spectral_conformal
