@@ -68,6 +68,17 @@ TOUCHING = {
     "coincident corners": np.repeat([*SQUARE, SQUARE[0], *HOLE, HOLE[0]], 2, axis=0),
     "a spike": [(0, 0), (2, 0), (4, 0), (6, 0), (4, 0), (4, 4), (0, 4)],
     "a slit": [(0, 0), (2, 0), (2, 2), (2, 0), (4, 0), (4, 4), (0, 4)],
+    "a spike along an edge": [(0, 0), (1, 2), (3, 3), (0, 3), (1, 3)],
+    "bridges in one line, a hole between them": [
+        *SQUARE,
+        SQUARE[0],
+        *((1, 1), (1, 2), (1.2, 1.2), (1, 1), (0, 0)),
+        *((2, 2), (2, 3), (3, 3), (3, 2), (2, 2)),
+    ],
+    "bridges in one line, a hole on their other side": [
+        *((0, 0), (2, 0), (2, 1), (1.5, 1), (1.5, 1.5), (2, 1), (2, 0)),
+        *((2, 2), (1.5, 2.5), (2, 3), (2.5, 2.5), (2, 2), (2, 0), (4, 0), (4, 4), (0, 4)),
+    ],
     "a bridge used twice": [*SQUARE, SQUARE[0], (1, 1), (0.5, 3), (0.7, 3), (1, 1), (0, 0), *HOLE, (1, 1)],
 }
 
@@ -77,7 +88,12 @@ def test_touching_outlines_are_covered_once(name):
     flat = np.array(TOUCHING[name], float)
     if bridged.area_of(flat) < 0:
         flat = flat[::-1]
-    vertices = bridged.in_space(np.random.default_rng(1), flat)
+    for seed in range(8):
+        check_covered_once(bridged.in_space(np.random.default_rng(seed), flat), flat)
+
+
+def check_covered_once(vertices, flat):
+    """Check the triangles of a polygon against its place in the plane."""
     triangles, _ = sc.face_triangles(vertices, [0, len(flat)], np.arange(len(flat)))
     a, b, c = (flat[triangles[:, k]] for k in range(3))
     areas = 0.5 * bridged.cross(b - a, c - a)

@@ -33,8 +33,9 @@ Obstacles obstacles_of(const std::vector<Complex>& outline) {
 
 class EarClipping {
  public:
-  explicit EarClipping(const std::vector<Complex>& outline)
+  EarClipping(const std::vector<Complex>& outline, double tolerance)
       : points_(outline),
+        tolerance_(tolerance),
         n_left_(static_cast<int>(outline.size())),
         obstacles_(obstacles_of(outline)),
         waiting_(outline.size()) {
@@ -80,8 +81,19 @@ class EarClipping {
   bool is_spike(int corner) const {
     const Complex back = point(previous_[corner]) - point(corner);
     const Complex on = point(next_[corner]) - point(corner);
+    if (back == 0.0 || on == 0.0) return true;
     constexpr double rounding = 1e-12;
-    return back == 0.0 || on == 0.0 || std::abs(cross(back, on)) <= rounding * dot(back, on);
+    const double along = dot(back, on);
+    const double between = std::abs(cross(back, on));
+    // The shorter edge ends so near the other one.
+    const double longer = std::max(std::abs(back), std::abs(on));
+    return between <= rounding * along || (along > 0 && between <= tolerance_ * longer);
+  }
+  /// Where a point lies beside the line from a to b: 1 left, -1 right, 0 nearer than the tolerance.
+  int side(Complex a, Complex b, Complex p) const {
+    if (tolerance_ == 0) return orientation(a, b, p);
+    const double height = cross(b - a, p - a);
+    return std::abs(height) <= tolerance_ * std::abs(b - a) ? 0 : height > 0 ? 1 : -1;
   }
 
   void add_candidate(int corner) {
@@ -96,8 +108,13 @@ class EarClipping {
     const Complex b = point(corner);
     const Complex c = point(after);
     const auto is_between = [&](Complex p) { return orientation(b, c, p) > 0 && orientation(b, p, a) > 0; };
+    PlaneBox box = PlaneBox::of({a, b, c});
+    for (int axis = 0; axis < 2; ++axis) {
+      box.low[axis] -= tolerance_;
+      box.high[axis] += tolerance_;
+    }
     int found = -1;
-    obstacles_.tree.for_each_meeting(PlaneBox::of({a, b, c}), [&](int k) {
+    obstacles_.tree.for_each_meeting(box, [&](int k) {
       const int other = obstacles_.corners[static_cast<std::size_t>(k)];
       if (is_clipped(other) || other == before || other == corner || other == after) return true;
       const Complex p = point(other);
@@ -107,7 +124,7 @@ class EarClipping {
         // Edges that leave the same place within the ear.
         blocks = is_between(point(next_[other])) || is_between(point(previous_[other]));
       } else {
-        const int least = std::min({orientation(a, b, p), orientation(b, c, p), orientation(c, a, p)});
+        const int least = std::min({side(a, b, p), side(b, c, p), side(c, a, p)});
         blocks = contact == Contact::blocks ? least >= 0 : least > 0;
       }
       if (blocks) found = other;
@@ -147,6 +164,7 @@ class EarClipping {
   }
 
   const std::vector<Complex>& points_;
+  double tolerance_;
   int n_left_;
   Obstacles obstacles_;
   std::vector<int> previous_;
@@ -170,7 +188,9 @@ bool is_beyond_a_side(const std::array<Complex, 3>& triangle, const std::array<C
 
 }  // namespace
 
-std::vector<std::array<int, 3>> clip_ears(const std::vector<Complex>& outline) { return EarClipping(outline).run(); }
+std::vector<std::array<int, 3>> clip_ears(const std::vector<Complex>& outline, double tolerance) {
+  return EarClipping(outline, tolerance).run();
+}
 
 bool covers_once(const std::vector<Complex>& points, const std::vector<std::array<int, 3>>& triangles,
                  double tolerance) {

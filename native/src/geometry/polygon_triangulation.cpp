@@ -260,12 +260,14 @@ bool triangulate_outline(const Eigen::Ref<const Positions>& corners, std::vector
   const std::vector<Complex> outline = projected(corners);
   if (outline.empty()) return false;
   if (OutlineTriangulation(outline).triangulate(triangles)) return true;
-  triangles = clip_ears(outline);
   // Corners that lie on an edge do so up to rounding, to single precision where they come from a file.
   constexpr double rounding = 1e-6;
   double extent = 0;
   for (const Complex p : outline) extent = std::max(extent, std::abs(p));
-  if (covers_once(outline, triangles, rounding * extent)) return true;
+  for (const double tolerance : {0.0, rounding * extent}) {
+    triangles = clip_ears(outline, tolerance);
+    if (covers_once(outline, triangles, rounding * extent)) return true;
+  }
   triangles.clear();
   return false;
 }

@@ -160,10 +160,11 @@ TEST_CASE("polygons on a line or at a point have as many triangles, and cross no
   }
 }
 
-TEST_CASE("bridges and lobes: every place is covered once, corners at one place told apart") {
+TEST_CASE("bridges, edges through corners and lobes: every place is covered once, corners at one place told apart") {
   const Points keyhole{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}};
+  const Points through_a_corner{{0, 0}, {1, 2}, {3, 3}, {0, 3}, {1, 3}};
   const Points lobes{{0, 0}, {2, 0}, {2, 2}, {0, 0}, {-1, 3}, {-2, 0}};
-  for (const Points& polygon : {keyhole, lobes}) {
+  for (const Points& polygon : {keyhole, through_a_corner, lobes}) {
     const PolygonTriangulation result = triangulate(tilted(polygon));
     CHECK(result.simple);
     REQUIRE(result.triangles.size() == polygon.size() - 2);
