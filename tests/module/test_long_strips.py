@@ -42,7 +42,9 @@ def check_exact(solution, flat):
     assert meshes.similarity_deviation(solution.uv, flat[:, :2]) < 1e-9
 
 
-@pytest.mark.parametrize("options", [{}, {"boundary": "vertex"}, {"weights": "inverse_area"}, {"method": "fiedler"}])
+@pytest.mark.parametrize(
+    "options", [{}, {"boundary": "vertex"}, {"weights": "inverse_area"}, {"method": "fiedler"}, {"method": "area"}]
+)
 def test_a_strip_comes_out_as_it_is_at_the_first_attempt(options):
     flat, triangles = strip(LENGTH)
     check_exact(sc.parameterize(flat, triangles, **options), flat)
@@ -60,6 +62,16 @@ def test_extenders_on_a_strip_find_the_map_without_distortion(strength):
     flat, triangles = strip(LENGTH)
     # Of energy 0, it has the smallest quotient as long as the form is positive for it.
     check_exact(sc.parameterize(flat, triangles, extenders=[(0, 3 * LENGTH // 2, strength)]), flat)
+
+
+@pytest.mark.parametrize("n", [LENGTH, 5 * LENGTH])
+def test_held_at_two_vertices_a_strip_comes_out_as_it_is(n):
+    """Its smallest eigenvalues are near the rounding of the factor, or below."""
+    flat, triangles = strip(n)
+    check_exact(sc.parameterize(flat, triangles, method="lscm"), flat)
+    # Pinned by the user, at another size.
+    ends = {0: (0, 0), 3 * n: (1, 0)}
+    check_exact(sc.parameterize(flat, triangles, pins=ends), flat)
 
 
 @pytest.mark.slow

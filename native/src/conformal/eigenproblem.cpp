@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "conformal/correction.h"
 #include "conformal/start_vector.h"
@@ -125,15 +127,15 @@ ComplexVector dense_eigenvector(const ReducedOperator& op) {
 class AreaOperator {
  public:
   using Scalar = double;
-  /// matrix: L, which must outlive this.
-  AreaOperator(const ConformalEnergy& energy, const HermitianMatrix& matrix) : energy_(energy), matrix_(matrix) {}
-  Eigen::Index rows() const { return 2 * matrix_.rows(); }
+  AreaOperator(const ConformalEnergy& energy, std::shared_ptr<const HermitianMatrix> matrix)
+      : energy_(energy), matrix_(std::move(matrix)) {}
+  Eigen::Index rows() const { return 2 * matrix_->rows(); }
   Eigen::Index cols() const { return rows(); }
   /// A z, A being minus the imaginary part of L: A_ij = -i Im L_ij.
   void apply(const ComplexVector& z, ComplexVector& result) const {
     result.setZero(z.size());
-    for (int column = 0; column < matrix_.outerSize(); ++column) {
-      for (HermitianMatrix::InnerIterator it(matrix_, column); it; ++it) {
+    for (int column = 0; column < matrix_->outerSize(); ++column) {
+      for (HermitianMatrix::InnerIterator it(*matrix_, column); it; ++it) {
         const Complex entry(0, -it.value().imag());
         if (it.row() == column || entry == 0.0) continue;
         result[it.row()] += entry * z[column];
@@ -143,16 +145,24 @@ class AreaOperator {
   }
   double value(const ComplexVector& z) const { return energy_.area_form(z); }
   void perform_op(const double* x, double* y) const {
-    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
+    const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_->rows());
     ComplexVector out;
     apply(in, out);
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
+    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_->rows()) = out;
   }
 
  private:
   const ConformalEnergy& energy_;
-  const HermitianMatrix& matrix_;
+  std::shared_ptr<const HermitianMatrix> matrix_;  ///< L
 };
+
+QuotientForm quotient_form(const AreaOperator& area) {
+  return {[area](const ComplexVector& z) { return area.value(z); },
+          [area, image = ComplexVector()](const ComplexVector& z, double factor, ComplexVector& sum) mutable {
+            area.apply(z, image);
+            sum += factor * image;
+          }};
+}
 
 class ShiftedOperator {
  public:
@@ -252,9 +262,9 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress) {
   const Eigen::Index n = energy.n_vertices();
-  const HermitianMatrix matrix = energy.matrix();
+  const auto matrix = std::make_shared<const HermitianMatrix>(energy.matrix());
   AreaOperator area(energy, matrix);  // Spectra wants it mutable
-  ShiftedOperator shifted(factorization, matrix, form, shift, progress);
+  ShiftedOperator shifted(factorization, *matrix, form, shift, progress);
   const ComplexVector on_boundary = start_vector(form, options.start);
   ComplexVector start = ComplexVector::Zero(n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
@@ -272,12 +282,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   const Eigen::VectorXd real = solver.eigenvectors(1);
   result.vector = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   result.mu = solver.eigenvalues()[0];
-  const QuotientForm quotient{
-      [&area](const ComplexVector& z) { return area.value(z); },
-      [&area, form_part = ComplexVector()](const ComplexVector& z, double factor, ComplexVector& sum) mutable {
-        area.apply(z, form_part);
-        sum += factor * form_part;
-      }};
+  const QuotientForm quotient = quotient_form(area);
   CorrectionOptions corrections;
   corrections.max_corrections = 30;                   // a bound: they end by themselves where they no longer fall
   corrections.negligible = 0.01 * options.tolerance;  // so that what Lanczos left does not show in the result
@@ -287,6 +292,10 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   result.residual = correction.change;
   result.converged = result.residual < resolved_change && result.vector.allFinite() && area.value(result.vector) > 0;
   return result;
+}
+
+QuotientForm area_quotient(const ConformalEnergy& energy) {
+  return quotient_form(AreaOperator(energy, std::make_shared<const HermitianMatrix>(energy.matrix())));
 }
 
 }  // namespace spectral_conformal

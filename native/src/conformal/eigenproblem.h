@@ -2,6 +2,7 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
+#include "conformal/correction.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
@@ -41,5 +42,8 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 /// by Lanczos in the inner product of L + s M on whole vectors, then inverse iterations that take the shift out.
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress);
+
+/// A as a form. It holds a matrix of its own, and refers to the energy.
+QuotientForm area_quotient(const ConformalEnergy& energy);
 
 }  // namespace spectral_conformal

@@ -1,8 +1,13 @@
 #include "conformal/lscm.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
+
+#include "conformal/correction.h"
 
 namespace spectral_conformal {
 namespace {
@@ -21,6 +26,125 @@ HermitianMatrix free_block(const HermitianMatrix& matrix, const std::vector<int>
   block.finalize();
   return block;
 }
+
+/// A solution in progress: L z = 0 at the free vertices.
+class PinnedSystem {
+ public:
+  PinnedSystem(const ConformalEnergy& energy, const std::vector<int>& free_index, int n_free, Factorization& factor,
+               ComplexVector& z, const Progress& progress)
+      : energy_(energy),
+        free_index_(free_index),
+        n_free_(n_free),
+        factor_(factor),
+        z_(z),
+        centre_(z.mean()),
+        progress_(progress) {}
+
+  /// Steps by all of what the factor makes of the residual, as long as they halve it.
+  void refine() {
+    constexpr int max_solves = 4;  // the first and its refinements, which end by themselves where rounding is reached
+    double before = std::numeric_limits<double>::infinity();
+    ComplexVector rhs;
+    ComplexVector step;
+    for (int k = 0; k < max_solves; ++k) {
+      residual(rhs);
+      const double norm = rhs.norm();
+      if (!(norm < 0.5 * before)) break;  // rounding is reached
+      before = norm;
+      factor_.solve(rhs, step);
+      add(step, -1);
+      change_ = relative(step);
+    }
+  }
+
+  /// Conjugate gradients, preconditioned by the factor, for where its rounding, or its shift, is as large as the
+  /// smallest eigenvalues of L: those of long strips. L is applied triangle by triangle, which resolves them.
+  void conjugate_gradients() {
+    constexpr double negligible = 1e-10;
+    constexpr int steps_without_progress = 48;
+    Eigen::VectorXd diagonal;
+    Eigen::VectorXd beside;
+    ComplexVector r, before, w, p, image, whole;
+    double rho = 0;
+    double alpha = 0;
+    double halved = std::numeric_limits<double>::infinity();
+    change_ = halved;
+    for (int k = 0, halved_at = 0; k - halved_at <= steps_without_progress; ++k) {
+      report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve");
+      before.swap(r);
+      residual(r);
+      r = -r;
+      factor_.solve(r, w);
+      // Of Polak and Ribiere: the residual is that of z, not one that is carried along.
+      const double rho_before = rho;
+      rho = r.dot(w).real();
+      if (rho == 0) {
+        change_ = 0;
+        return;
+      }
+      const double beta = k == 0 ? 0 : std::max(0.0, rho - before.dot(w).real()) / rho_before;
+      // The Lanczos matrix of the same steps has the eigenvalues of the preconditioned L, the smallest among them.
+      if (k > 0) {
+        change_ = relative(w) / least_eigenvalue(diagonal, beside);
+        if (!(change_ > negligible)) return;
+        if (change_ < 0.5 * halved) {
+          halved = change_;
+          halved_at = k;
+        }
+        beside.conservativeResize(k);
+        beside[k - 1] = std::sqrt(beta) / alpha;
+      }
+      p = k == 0 ? w : ComplexVector(w + beta * p);
+      scatter(p, whole);
+      const double curvature = energy_.apply(whole, image);
+      const double last = k == 0 ? 0 : beta / alpha;
+      alpha = r.dot(p).real() / curvature;
+      if (!(alpha > 0) || !std::isfinite(alpha)) return;
+      diagonal.conservativeResize(k + 1);
+      diagonal[k] = 1 / alpha + last;
+      add(p, alpha);
+    }
+  }
+
+  /// What is left of the error, relative to z.
+  double change() const { return change_; }
+
+ private:
+  void residual(ComplexVector& r) {
+    energy_.apply(z_, gradient_);
+    r.resize(n_free_);
+    for (std::size_t v = 0; v < free_index_.size(); ++v) {
+      if (free_index_[v] >= 0) r[free_index_[v]] = gradient_[static_cast<Eigen::Index>(v)];
+    }
+  }
+  void add(const ComplexVector& step, double factor) {
+    for (std::size_t v = 0; v < free_index_.size(); ++v) {
+      if (free_index_[v] >= 0) z_[static_cast<Eigen::Index>(v)] += factor * step[free_index_[v]];
+    }
+  }
+  void scatter(const ComplexVector& free, ComplexVector& whole) const {
+    whole.setZero(z_.size());
+    for (std::size_t v = 0; v < free_index_.size(); ++v) {
+      if (free_index_[v] >= 0) whole[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
+    }
+  }
+  double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - centre_).matrix().norm(); }
+  static double least_eigenvalue(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues()[0];
+  }
+
+  const ConformalEnergy& energy_;
+  const std::vector<int>& free_index_;
+  int n_free_;
+  Factorization& factor_;
+  ComplexVector& z_;
+  Complex centre_;
+  const Progress& progress_;
+  ComplexVector gradient_;
+  double change_ = std::numeric_limits<double>::infinity();
+};
 
 }  // namespace
 
@@ -48,32 +172,34 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
   if (n_free == 0) return result;
 
   report(progress, 0.1, "factorization");
-  const HermitianMatrix block = free_block(matrix, free_index, n_free);
+  HermitianMatrix block = free_block(matrix, free_index, n_free);
   const auto factorization = make_factorization(backend, n_free);
   factorization->analyze(block);
-  if (!factorization->factorize(block)) {
-    result.is_factorized = false;
-    return result;
+  const bool is_definite = factorization->factorize(block);
+  if (!is_definite) {
+    // The smallest eigenvalues of a long strip are below the rounding of the factor: as little as makes it definite.
+    bool is_factorized = false;
+    double given = 0;
+    for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {
+      for (int v = 0; v < n_free; ++v) {
+        Complex& diagonal = block.valuePtr()[block.outerIndexPtr()[v]];
+        diagonal *= (1 + relative_shift) / (1 + given);
+      }
+      given = relative_shift;
+      is_factorized = factorization->factorize(block);
+      if (is_factorized) break;
+    }
+    if (!is_factorized) {
+      result.is_factorized = false;
+      return result;
+    }
   }
   report(progress, 0.8, "solve");
-  constexpr int max_solves = 4;  // the first and its refinements, which end by themselves where rounding is reached
+  PinnedSystem system(energy, free_index, n_free, *factorization, result.vector, progress);
+  if (is_definite) system.refine();
+  if (!(system.change() < resolved_change)) system.conjugate_gradients();
+  result.change = system.change();
   ComplexVector gradient;
-  ComplexVector rhs(n_free);
-  ComplexVector step(n_free);
-  double previous = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < max_solves; ++k) {
-    energy.apply(result.vector, gradient);
-    for (int v = 0; v < n; ++v) {
-      if (free_index[v] >= 0) rhs[free_index[v]] = gradient[v];
-    }
-    const double norm = rhs.norm();
-    if (!(norm < 0.5 * previous)) break;  // rounding is reached
-    previous = norm;
-    factorization->solve(rhs, step);
-    for (int v = 0; v < n; ++v) {
-      if (free_index[v] >= 0) result.vector[v] -= step[free_index[v]];
-    }
-  }
   energy.apply(result.vector, gradient);
   double largest_diagonal = 0;
   double square = 0;

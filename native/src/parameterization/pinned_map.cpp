@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "conformal/correction.h"
 #include "conformal/lscm.h"
 #include "conformal/placement.h"
 #include "mesh/boundary_loops.h"
@@ -80,6 +81,7 @@ SpectralMap solve_pinned(const SpectralSolver& solver, const Pins& pins, const P
   check.turning_number = map.turning_number;
   check.may_be_mirrored = hold;
   map.rejection = check_map(z, check);
+  if (map.rejection == Rejection::none && !(solution.change < resolved_change)) map.rejection = Rejection::unresolved;
   if (map.rejection != Rejection::none) return map;
   map.z = z.head(patch.n_vertices);
   if (hold) {

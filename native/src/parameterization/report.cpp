@@ -59,7 +59,7 @@ std::string advice_for(const SpectralMap& map, const SolveOptions& options) {
     }
     if (map.rejection == Rejection::collapsed) return "pin other vertices, or merge vertices by distance.";
     if (map.rejection == Rejection::no_area) return "use the spectral method, or pin other vertices.";
-    return "clean up degenerate faces, or pin other vertices.";
+    return "clean up degenerate faces, cut an island that is very long, or pin other vertices.";
   }
   if (options.has_extenders_or_rigidity()) {
     const bool rigid = options.hole_rigidity.value_or(0) != 0;

@@ -217,7 +217,9 @@ SpectralSolver::Eigenvector SpectralSolver::eigenvector(const SolveOptions& opti
     }
   } else if (options.method == Method::area) {
     // B = A (section 3.3).
-    if (take(solve_area_eigenproblem(factorization, *energy_, form, factor.shift, iteration, progress))) {
+    take(solve_area_eigenproblem(factorization, *energy_, form, factor.shift, iteration, progress));
+    if (!result.converged) tell_apart(area_quotient(*energy_));
+    if (result.converged) {
       result.lambda = energy_->value(result.z) / energy_->area_form(result.z);
     }
   } else {
