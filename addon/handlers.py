@@ -7,7 +7,7 @@ They run often, most of the time for nothing that concerns the add-on, and leave
 import bpy
 from bpy.app.handlers import persistent
 
-from . import operators
+from . import identity, operators
 from .core import kept_maps
 from .extenders import storage, tracking
 from .live import adjusted_map, following
@@ -54,6 +54,7 @@ def _before_load(*_arguments: object) -> None:
     tracking.forget()
     storage.forget()
     map_overlay.forget()
+    identity.forget()
     kept_maps.forget()
 
 
@@ -118,4 +119,5 @@ def unregister() -> None:
         bpy.app.timers.unregister(_begin)
     following.stop()
     tracking.forget()
+    identity.forget()
     kept_maps.forget()

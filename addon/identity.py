@@ -1,55 +1,61 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes told again later: after they were renamed, and after undo, which may make a data-block anew."""
 
-from collections.abc import Iterator
-from typing import Any
+from dataclasses import dataclass
 
 import bpy
 
 
+@dataclass(eq=False)
 class Identity:
-    """Which mesh one is, as long as the file is open."""
+    """Which mesh one is, as long as the file is open.
 
-    def __init__(self, mesh: bpy.types.Mesh) -> None:
-        """Take the mesh."""
-        self._key = _key(mesh)
-        self._name = mesh.name_full
-
-    def is_of(self, mesh: bpy.types.Mesh) -> bool:
-        """Return whether it is this mesh; one that redo made anew is told by its name."""
-        if _key(mesh) != self._key:
-            if mesh.name_full != self._name or any(_key(other) == self._key for other in bpy.data.meshes):
-                return False
-            self._key = _key(mesh)
-        self._name = mesh.name_full
-        return True
-
-
-class ByMesh:
-    """A value for each of some meshes.
-
-    No generic class: Python keeps those that were given a type, and with them `bpy`, until after Blender has ended.
+    Attributes:
+        key: what Blender tells it by.
+        name: the full name that it had when it was seen last.
     """
 
-    def __init__(self) -> None:
-        """Hold none."""
-        self._values: list[tuple[Identity, Any]] = []
+    key: int
+    name: str
 
-    def get(self, mesh: bpy.types.Mesh) -> Any:  # noqa: ANN401 - whatever was set
-        """Return the value of a mesh; None without one."""
-        return next(self._of(mesh), None)
 
-    def set(self, mesh: bpy.types.Mesh, value: Any) -> None:  # noqa: ANN401 - of whatever type
-        """Give a mesh a value, in place of the one that it has."""
-        self._values = [(identity, other) for identity, other in self._values if not identity.is_of(mesh)]
-        self._values.append((Identity(mesh), value))
+_by_key: dict[int, Identity] = {}
+_by_name: dict[str, Identity] = {}
 
-    def clear(self) -> None:
-        """Hold none any more."""
-        self._values.clear()
 
-    def _of(self, mesh: bpy.types.Mesh) -> Iterator[Any]:
-        return (value for identity, value in self._values if identity.is_of(mesh))
+def of(mesh: bpy.types.Mesh) -> Identity:
+    """Return which mesh this is, the same object each time; one that redo made anew is told by its name."""
+    key, name = _key(mesh), mesh.name_full
+    if key not in _by_key and name in _by_name:
+        _look_again()
+    found = _by_key.setdefault(key, Identity(key, name))
+    if found.name != name and _by_name.get(found.name) is found:
+        del _by_name[found.name]
+    found.name = name
+    _by_name[name] = found
+    return found
+
+
+def forget() -> None:
+    """Forget all meshes, as another file has others."""
+    _by_key.clear()
+    _by_name.clear()
+
+
+def _look_again() -> None:
+    """Tell all meshes of the file once: those that have gone give way to those that have come with their names."""
+    names = {_key(mesh): mesh.name_full for mesh in bpy.data.meshes}
+    gone = {found.name: found for key, found in _by_key.items() if key not in names}
+    for key, name in names.items():
+        if key in _by_key:
+            _by_key[key].name = name
+        elif name in gone:
+            anew = _by_key[key] = _by_key.pop(gone.pop(name).key)
+            anew.key = key
+    _by_name.clear()
+    # Of a name that another has taken, the one that is there.
+    for found in sorted(_by_key.values(), key=lambda each: each.key in names):
+        _by_name[found.name] = found
 
 
 def _key(mesh: bpy.types.Mesh) -> int:

@@ -16,11 +16,11 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem
 
-from .. import editors, names
+from .. import editors, identity, names
 from ..core import extender_pairs as core
 from ..core import texts
 from ..core.extender_pairs import Extender
-from ..identity import ByMesh
+from ..identity import Identity
 from .strength import STRENGTH_LIMIT
 
 
@@ -29,7 +29,7 @@ class _Session:
     """Lists seen since the file was loaded, by the name of their layer, and lists of meshes before they had a layer."""
 
     lists: dict[str, list[Extender]] = field(default_factory=dict)
-    without_layer: ByMesh = field(default_factory=ByMesh)
+    without_layer: dict[Identity, list[Extender]] = field(default_factory=dict)
     is_writing: bool = False
 
 
@@ -186,7 +186,7 @@ def restore(mesh: bpy.types.Mesh) -> None:
     known = [name for name in layers if name in _session.lists]
     if known:
         extenders, name = _session.lists[known[0]], known[0]
-    elif not layers and (without_layer := _session.without_layer.get(mesh)) is not None:
+    elif not layers and (without_layer := _session.without_layer.get(identity.of(mesh))) is not None:
         extenders, name = without_layer, ""
     else:
         return
@@ -206,7 +206,7 @@ def _identify(bm: BMesh, mesh: bpy.types.Mesh, vertices: Sequence[int]) -> dict[
     """Return the identifiers of vertices, given by index; those without one get one."""
     layer = _layer(bm, mesh)
     if layer is None:
-        _session.without_layer.set(mesh, _read(mesh))
+        _session.without_layer[identity.of(mesh)] = _read(mesh)
         name = core.layer_name(names.EXTENDER_LAYER_PREFIX, _read(mesh))
         layer = bm.verts.layers.int.new(name)
         setattr(mesh, names.EXTENDER_LAYER_PROPERTY, name)

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .. import names
+from .. import identity, names
 from ..core import chart_records, texts
 from ..core.charts import is_island
 from ..core.mesh import PolygonMesh
@@ -78,20 +78,22 @@ def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
 def _islands_of(edit_meshes: Sequence[EditMesh], charts: Sequence[Sequence[Any]]) -> list[_Island]:
     found = []
     for edit_mesh, of_mesh in zip(edit_meshes, charts):
-        polygons, identity = edit_mesh.polygons, Identity(edit_mesh.mesh)
+        polygons, mesh = edit_mesh.polygons, identity.of(edit_mesh.mesh)
         for index in _worst_first(of_mesh)[:_MAX_ROWS].tolist():
-            found.append(_Island(identity, polygons.topology, polygons.selected_faces, of_mesh[index]))
+            found.append(_Island(mesh, polygons.topology, polygons.selected_faces, of_mesh[index]))
     return found
 
 
 def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> list[_Island]:
     """Return the islands of the list but for those of the `solved` faces of these meshes, (F,) bool each."""
 
+    by_mesh = {identity.of(each.mesh): (each.polygons.topology, faces) for each, faces in zip(edit_meshes, solved)}
+
     def stays(island: _Island) -> bool:
-        for edit_mesh, faces in zip(edit_meshes, solved):
-            if island.mesh.is_of(edit_mesh.mesh):
-                return island.topology == edit_mesh.polygons.topology and not faces[island.chart.faces].any()
-        return True
+        if island.mesh not in by_mesh:
+            return True
+        topology, faces = by_mesh[island.mesh]
+        return island.topology == topology and not faces[island.chart.faces].any()
 
     return [island for island in _islands if stays(island)]
 
@@ -125,7 +127,7 @@ def select(context: bpy.types.Context, index: int) -> None:
         return
     island = _islands[index]
     for edit_object in context.objects_in_mode_unique_data if context.mode == "EDIT_MESH" else ():
-        if not island.mesh.is_of(edit_object.data):
+        if identity.of(edit_object.data) is not island.mesh:
             continue
         edit_mesh = read_mesh(edit_object, all_visible=True)
         if not island.is_one_of(edit_mesh.polygons):

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from .. import identity
 from ..core.solve import Solution
 from ..edit_mesh.read import EditMesh
-from ..identity import ByMesh
+from ..identity import Identity
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class _Result:
     topology: int
 
 
-_results: ByMesh = ByMesh()
+_results: dict[Identity, _Result] = {}
 
 
 def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> None:
@@ -32,21 +33,22 @@ def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> 
     for edit_mesh, solution in zip(edit_meshes, solutions):
         polygons = edit_mesh.polygons
         failed = solution.failed_islands.copy()
-        before = _results.get(edit_mesh.mesh)
+        mesh = identity.of(edit_mesh.mesh)
+        before = _results.get(mesh)
         if before is not None and before.topology == polygons.topology and before.failed_islands.max(initial=-1) >= 0:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        _results.set(edit_mesh.mesh, _Result(failed, polygons.topology))
+        _results[mesh] = _Result(failed, polygons.topology)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
     """Return whether a mesh was unwrapped since the file was opened, whether it has changed or not."""
-    return _results.get(mesh) is not None
+    return identity.of(mesh) in _results
 
 
 def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
     """Return the failed island of every face, (F,) intp, -1 for others; None without one for its topology."""
-    result = _results.get(edit_mesh.mesh)
+    result = _results.get(identity.of(edit_mesh.mesh))
     return result.failed_islands if result is not None and result.topology == edit_mesh.polygons.topology else None
 
 

@@ -83,9 +83,7 @@ def write(
     if summary.solved:
         without_bounds, left_tile = write_maps(settings, edit_meshes, solutions, while_writing)
     last_result.remember(edit_meshes, solutions)
-    # What is stretched on request is so everywhere.
-    strained = texts.strained(summary) if settings.options.stretch == 1.0 else ""
-    warnings = (*filter(None, [strained]), *_warnings(edit_meshes, settings, solutions))
+    warnings = _warnings(summary, edit_meshes, settings, solutions)
     return Outcome(
         summary,
         without_bounds,
@@ -121,9 +119,13 @@ def write_maps(
     return placement.without_bounds, left_tile
 
 
-def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> tuple[str, ...]:
-    """Return what extenders and stretching could not do."""
+def _warnings(
+    summary: Summary, edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]
+) -> tuple[str, ...]:
+    """Return which islands need seams, and what extenders and stretching could not do."""
     warnings = [
+        # What is stretched on request is so everywhere.
+        texts.strained(summary) if settings.options.stretch == 1.0 else "",
         texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
         texts.too_small(sum(solution.too_small_faces for solution in solutions)),
         texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
