@@ -6,13 +6,15 @@ import bpy
 from ..core.free_room import Box
 
 
-def of(area: bpy.types.Area, region: bpy.types.Region) -> tuple[Box, ...]:
+def of(area: bpy.types.Area, region: bpy.types.Region, with_sidebar: bool = True) -> tuple[Box, ...]:
     """Return the parts of a region that the editor's other regions cover, in pixels from its lower left corner.
 
-    Where these lie beside it, as without Blender's Region Overlap, that is nothing.
+    Where these lie beside it, as without Blender's Region Overlap, that is nothing. The sidebar, which counts if
+    `with_sidebar`, is seen through below its panels.
     """
+    uncounted = {"WINDOW"} if with_sidebar else {"WINDOW", "UI"}
     # A region that is hidden is one pixel wide or high.
-    others = [each for each in area.regions if each.type != "WINDOW" and min(each.width, each.height) > 1]
+    others = [each for each in area.regions if each.type not in uncounted and min(each.width, each.height) > 1]
     boxes = [(each.x - region.x, each.y - region.y, each.width, each.height) for each in others]
     return tuple(
         (max(x, 0.0), max(y, 0.0), min(x + width, float(region.width)), min(y + height, float(region.height)))

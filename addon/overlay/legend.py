@@ -24,8 +24,8 @@ _CHOSEN = {
 _WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
 _LABELS = 1.3 * LINE
 _BACKGROUND = (0.08, 0.08, 0.08, 0.72)
-# Where letters are smaller than four pixels nobody reads them.
-_LEAST_SCALE = 0.4
+# Smaller letters, of less than seven pixels, are not read.
+_LEAST_SCALE = 0.6
 
 
 def colors_of(kind: str, opacity: float) -> Colors:
@@ -41,18 +41,21 @@ def colors_of(kind: str, opacity: float) -> Colors:
 def draw(
     context: bpy.types.Context, kind: str, colors: Colors, low_high: tuple[float, float], lines: Sequence[str]
 ) -> None:
-    """Draw the legend in the lower right corner that other regions leave free, smaller where it does not fit."""
+    """Draw the legend in the lower right corner that other regions leave free, smaller where it does not fit.
+
+    Where it could not be read there, the sidebar counts as free; where not there either, everything does.
+    """
     low, high = low_high
     labels = () if kind == texts.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
     lines = (texts.look(kind), *lines)
     scale = context.preferences.system.ui_scale
     width, height = _size(lines, labels, scale)
-    region = context.region
+    area, region = context.area, context.region
     size = (float(region.width), float(region.height))
-    room = free_room.lower_right(size, covers.of(context.area, region), width, height)
-    if room is None or scale * (room[2] - room[0]) / width < _LEAST_SCALE:
-        # Below what covers everything: sidebars are seen through beside their panels.
-        room = free_room.lower_right(size, (), width, height)
+    for covered in (covers.of(area, region), covers.of(area, region, with_sidebar=False), ()):
+        room = free_room.lower_right(size, covered, width, height)
+        if room is not None and scale * (room[2] - room[0]) / width >= _LEAST_SCALE:
+            break
     scale *= (room[2] - room[0]) / width
     distance, padding = _DISTANCE * scale, _PADDING * scale
     left, bottom, right, top = room[0] + distance, room[1] + distance, room[2] - distance, room[3] - distance
