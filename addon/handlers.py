@@ -60,10 +60,10 @@ def _before_load(*_arguments: object) -> None:
 
 @persistent
 def _after_load(*_arguments: object) -> None:
-    tracking.follow(_edited())
-    following.see()
     # A file brings a window manager with a switch of its own.
-    map_overlay.follow_switch()
+    _begin()
+    # From 5.0 on, meshes that were saved in edit mode are in it only afterwards.
+    _begin_soon()
 
 
 def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
@@ -78,11 +78,26 @@ def _edited() -> list[bpy.types.Mesh]:
     """Return the meshes in edit mode; none, without looking at any, in another mode."""
     if bpy.context.mode != "EDIT_MESH":
         return []
-    return [edit_object.data for edit_object in bpy.context.objects_in_mode_unique_data]
+    meshes = [edit_object.data for edit_object in bpy.context.objects_in_mode_unique_data]
+    return [mesh for mesh in meshes if mesh.is_editmode]
+
+
+def _begin_soon() -> None:
+    """Take up what `_begin` does as soon as Blender is done with what it does now; never in background mode."""
+    _begin_never()
+    if not bpy.app.background:
+        # Registered anew: one that was due already would come within what Blender does now.
+        bpy.app.timers.register(_begin, first_interval=0.0, persistent=True)
+
+
+def _begin_never() -> None:
+    """Take back what `_begin_soon` has arranged."""
+    if bpy.app.timers.is_registered(_begin):
+        bpy.app.timers.unregister(_begin)
 
 
 def _begin() -> None:
-    """Take up the meshes in edit mode, and the overlay, where the add-on is enabled in the middle of it."""
+    """Take up the meshes in edit mode, and the overlay, where the add-on or a file comes in the middle of it."""
     tracking.follow(_edited())
     following.see()
     map_overlay.follow_switch()
@@ -107,16 +122,14 @@ def register() -> None:
     for event, handler in _HANDLERS:
         getattr(bpy.app.handlers, event).append(handler)
     # While add-ons are enabled Blender does not let them see its data.
-    if not bpy.app.background:
-        bpy.app.timers.register(_begin, first_interval=0.0)
+    _begin_soon()
 
 
 def unregister() -> None:
     """Remove the handlers and timers, and let all meshes go."""
     for event, handler in _HANDLERS:
         getattr(bpy.app.handlers, event).remove(handler)
-    if bpy.app.timers.is_registered(_begin):
-        bpy.app.timers.unregister(_begin)
+    _begin_never()
     following.stop()
     tracking.forget()
     identity.forget()

@@ -196,7 +196,10 @@ def _follow_strengths(edit_object: bpy.types.Object, strengths: Mapping[Edge, fl
 
 def _edited() -> list[bpy.types.Object]:
     """Return one object for every mesh in edit mode."""
-    return list(bpy.context.objects_in_mode_unique_data) if bpy.context.mode == "EDIT_MESH" else []
+    if bpy.context.mode != "EDIT_MESH":
+        return []
+    # While a file is opened they are not in it yet.
+    return [edit_object for edit_object in bpy.context.objects_in_mode_unique_data if edit_object.data.is_editmode]
 
 
 def _renew(edit_object: bpy.types.Object) -> Snapshot | None:

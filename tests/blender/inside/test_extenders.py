@@ -310,6 +310,22 @@ def test_list_and_vertices_are_saved_with_the_file(tmp_path):
         assert pairs(grid) == [(6, 8), (2, 3)]
 
 
+def test_a_file_that_was_saved_in_edit_mode_is_followed(tmp_path, capfd):
+    grid = edit_grid()
+    add(grid, [6, 8])
+    bpy.context.scene.spectral_unwrap_live = True
+    path = str(tmp_path / "scene.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    # As Blender does by itself with a window.
+    module("handlers")._begin()
+    mesh = bpy.data.meshes["Grid"]
+    assert mesh.is_editmode
+    assert module("extenders.tracking").track(mesh) is not None
+    assert list(module("live.following")._state.snapshots) == [mesh.as_pointer()]
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
 def test_copy_of_the_object_has_extenders_of_its_own():
     grid = edit_grid()
     add(grid, [6, 8])
