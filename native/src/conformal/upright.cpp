@@ -115,8 +115,10 @@ std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   }
   for (std::size_t n = 3; n < max_order; n += 2) size[n] = std::sqrt(size[n - 1] * size[n + 1]);
   std::vector<Moment> moments;
+  moments.reserve(exponents.size());
   for (const auto& [p, q] : exponents) {
-    moments.push_back({p - q, integrals(p, q) / area / size[static_cast<std::size_t>(p + q)]});
+    const double bound = size[static_cast<std::size_t>(p) + static_cast<std::size_t>(q)];
+    moments.push_back({p - q, integrals(p, q) / area / bound});
   }
   return moments;
 }

@@ -85,7 +85,7 @@ class OverlapTest {
     if (z_.size() == 0) return result();
     std::vector<int> numbers(triangles_.size());
     std::iota(numbers.begin(), numbers.end(), 0);
-    const Subset all = subset(one_of_each_stack(std::move(numbers)));
+    const Subset all = subset(one_of_each_stack(numbers));
     for_each_triangle([&](std::size_t t) {
       if (!overlaps(t)) find_overlaps(t, all, tests_pair, true);
     });
