@@ -28,7 +28,7 @@ import sys  # noqa: E402
 import time  # noqa: E402
 import zipfile  # noqa: E402
 from collections import Counter  # noqa: E402
-from collections.abc import Callable, Iterable, Iterator  # noqa: E402
+from collections.abc import Callable, Iterable, Iterator, Sequence  # noqa: E402
 from pathlib import Path  # noqa: E402
 
 import numpy as np  # noqa: E402
@@ -342,7 +342,7 @@ def flattened(value: object, name: str = "") -> Iterator[tuple[str, np.ndarray]]
     elif isinstance(value, dict):
         for key, entry in value.items():
             yield from flattened(entry, f"{name}[{key}]")
-    elif isinstance(value, (list, tuple)):
+    elif isinstance(value, Sequence):
         columns: dict[str, list[np.ndarray]] = {}
         for entry in value:
             for key, array in flattened(entry):
