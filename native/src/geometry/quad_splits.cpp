@@ -39,12 +39,12 @@ std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& tri
       result.push_back(static_cast<int>(t));
       continue;
     }
-    still_working(40);
     const bool second = second_split_is_better({area(t), area(t + 1), area(t + 2), area(t + 3)});
     const int chosen = static_cast<int>(t) + (second ? 2 : 0);
     result.insert(result.end(), {chosen, chosen + 1});
     t += 3;
   }
+  still_working(10 * static_cast<double>(triangles.size()));
   return result;
 }
 
