@@ -67,46 +67,61 @@ struct Moment {
 
 constexpr int max_order = 6;
 
-/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline, by Green's theorem: those of
-/// -i/2 w^p conj(w)^(q + 1) / (q + 1) dw along it, by the Gauss rule that is exact for each edge.
+/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline: those over the triangles between
+/// the centre, from which w is taken, and the edges. There w is s times a point of the edge, 0 <= s <= 1, so that each
+/// is the mean of w^p conj(w)^q along the edge times cross(start, end) / (p + q + 2). The Gauss rule is exact for it.
 class RegionIntegrals {
  public:
   RegionIntegrals(const std::vector<Complex>& outline, Complex centre) {
-    // Exact to the degree 7: p + q + 1 <= 7.
+    // Exact to the degree 7.
     constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
                                           0.9305681557970263};
     constexpr std::array<double, 4> weights{0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
                                             0.17392742256872692};
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Complex start = outline[i] - centre;
-      const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
+      const Complex end = outline[(i + 1) % outline.size()] - centre;
+      const double weight = cross(start, end);
       for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const Complex w = start + nodes[k] * edge;
-        // Times conj(w)^(q + 1) w^q, then once more by w for each p.
-        Complex base = weights[k] * Complex(0, -0.5) * edge * std::conj(w);
-        for (int q = 0; 2 * q <= max_order; ++q, base *= std::norm(w)) {
-          Complex term = base / (q + 1.0);
-          for (int p = q; p + q <= max_order; ++p, term *= w) sum(p, q) += term;
+        const Complex w = start + nodes[k] * (end - start);
+        const double square = std::norm(w);
+        Complex power = weights[k] * weight;
+        for (std::size_t harmonic = 0; harmonic < max_order; ++harmonic, power *= w) {
+          Complex term = power;
+          for (std::size_t q = 0; harmonic + 2 * q <= max_order; ++q, term *= square) sums_[harmonic][q] += term;
         }
       }
     }
   }
-  Complex operator()(int p, int q) const { return sums_[static_cast<std::size_t>(p)][static_cast<std::size_t>(q)]; }
+  Complex operator()(int p, int q) const {
+    return sums_[static_cast<std::size_t>(p - q)][static_cast<std::size_t>(q)] / (p + q + 2.0);
+  }
 
  private:
-  Complex& sum(int p, int q) { return sums_[static_cast<std::size_t>(p)][static_cast<std::size_t>(q)]; }
-  std::array<std::array<Complex, max_order / 2 + 1>, max_order + 1> sums_{};
+  std::array<std::array<Complex, max_order / 2 + 1>, max_order> sums_{};
 };
+
+/// The area of that region, and its first moment.
+std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) {
+  double area = 0;
+  Complex moment = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex start = outline[i];
+    const Complex end = outline[(i + 1) % outline.size()];
+    area += cross(start, end) / 2;
+    moment += cross(start, end) / 6 * (start + end);
+  }
+  return {area, moment};
+}
 
 /// Of the region within an outline, counter-clockwise, so that they do not depend on how the inside is triangulated.
 /// None where it runs round as much backwards.
 std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   constexpr std::array<std::array<int, 2>, 8> exponents = {
       {{2, 0}, {2, 1}, {3, 0}, {3, 1}, {4, 0}, {3, 2}, {4, 1}, {5, 0}}};
-  const RegionIntegrals about_origin(outline, 0);
-  const double area = about_origin(0, 0).real();
+  const auto [area, moment] = area_and_moment(outline);
   if (!(area > 0)) return {};
-  const RegionIntegrals integrals(outline, about_origin(1, 0) / area);
+  const RegionIntegrals integrals(outline, moment / area);
   // E[|w|^n], for odd n a bound by those beside it.
   std::array<double, max_order + 1> size{};
   for (int n = 2; n <= max_order; n += 2) {
@@ -220,10 +235,12 @@ class OutlineDirections {
   std::vector<double> lengths_{0.0};  ///< of all edges before each, and of all
 };
 
-double deviation(Complex turned) { return std::abs(std::arg(turned / up)); }
+/// From up, in radians.
+double deviation(Complex turned) { return std::abs(std::arg(turned * std::conj(up))); }
 
 /// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
 void keep_nearest(std::vector<Complex>& turns, Complex direction, double tolerance) {
+  if (turns.size() < 2) return;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Complex turn : turns) nearest = std::min(nearest, deviation(turn * direction));
   const auto is_farther = [&](Complex turn) { return deviation(turn * direction) > nearest + tolerance; };
@@ -300,7 +317,9 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
     } else if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
       const Complex highest = preferred.directions.front();
       const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));
-      if (area_of(exact) <= area_of(rectangles.front()) * (1 + larger_box)) rectangles = {exact};
+      const auto is_smaller = [](const Rectangle& a, const Rectangle& b) { return area_of(a) < area_of(b); };
+      const Rectangle& smallest = *std::min_element(rectangles.begin(), rectangles.end(), is_smaller);
+      if (area_of(exact) <= area_of(smallest) * (1 + larger_box)) rectangles = {exact};
     }
   } else {
     double smallest = std::numeric_limits<double>::infinity();
