@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,8 +38,9 @@ constexpr double same_axis = 0.02;  // in radians
 // An outline is straight where this fraction of it runs within 3 degrees along its smallest rectangle: of a circle 7 %
 // does, of a regular octagon half; no regular outline is at the limit.
 constexpr double straight_fraction = 0.18;
-// In radians, just below 3 degrees, at which regular outlines have edges.
-constexpr double straight_angle = 0.05232;
+// The sine and cosine of just below 3 degrees, at which regular outlines have edges.
+constexpr double straight_sine = 0.0523;
+constexpr double straight_cosine = 0.998631418;
 // Of a regular octagon, half runs along two of its sides and across.
 constexpr double main_fraction = 0.55;
 // Of an outline that is not, how much larger its box may get to be exactly upright.
@@ -180,62 +182,78 @@ class OutlineDirections {
     edges.reserve(outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
-      edges.emplace_back(side_angle(edge), std::abs(edge));
+      if (edge != 0.0) edges.emplace_back(side(edge), std::abs(edge));
     }
     std::sort(edges.begin(), edges.end());
-    angles_.reserve(edges.size());
+    sides_.reserve(edges.size());
     lengths_.reserve(edges.size() + 1);
-    for (const auto& [angle, length] : edges) {
-      angles_.push_back(angle);
+    for (const auto& [place, length] : edges) {
+      sides_.push_back(place);
       lengths_.push_back(lengths_.back() + length);
     }
   }
   /// Whether enough of it runs along the sides of the rectangle for an eye to see it lean.
   bool is_straight(const Rectangle& rectangle) const {
-    return length_along(side_angle(rectangle.direction)) >= straight_fraction * lengths_.back();
+    return length_along(rectangle.direction) >= straight_fraction * lengths_.back();
   }
-  /// The direction along and across which clearly more of it runs than in all others together, as that of a cross or of
-  /// a letter L does; none for most.
+  /// Of directions along and across which clearly more of it runs than in all others together, as of a cross or of a
+  /// letter L, that of most; none for most outlines.
   std::optional<Complex> main_direction() const {
     double most = 0;
-    double main = 0;
-    for (const double angle : angles_) {
-      const double length = length_along(angle);
+    Complex main = 0;
+    for (const double place : sides_) {
+      const Complex direction(1 - place, place);
+      const double length = length_along(direction);
       if (length <= most) continue;
       most = length;
-      main = angle;
+      main = direction;
     }
     if (most < main_fraction * lengths_.back()) return std::nullopt;
-    return std::polar(1.0, main);
+    return main / std::abs(main);
   }
 
  private:
-  static constexpr double quarter = pi / 2;
-
-  /// Of a line, modulo a quarter turn.
-  static double side_angle(Complex line) {
-    const double angle = std::arg(line);
-    return angle - quarter * std::floor(angle / quarter);
+  /// Of a line modulo a quarter turn, 0 to 1 as its angle: an angle itself would take an arc tangent for each edge.
+  static double side(Complex line) {
+    double x = line.real();
+    double y = line.imag();
+    if (y < 0 || (y == 0 && x < 0)) std::tie(x, y) = std::pair(-x, -y);
+    if (x <= 0) std::tie(x, y) = std::pair(y, -x);
+    return y / (x + y);
   }
-  /// Of the edges that run within `straight_angle` of a direction.
-  double length_along(double angle) const {
+  /// Of the edges that run within 3 degrees of a direction or across.
+  double length_along(Complex direction) const {
+    constexpr Complex turn(straight_cosine, straight_sine);
+    const double first = side(direction * std::conj(turn));
+    const double last = side(direction * turn);
     // Those beyond either end of the quarter turn are at the other one.
-    return length_between(angle - straight_angle, angle + straight_angle) +
-           length_between(angle - quarter - straight_angle, angle - quarter + straight_angle) +
-           length_between(angle + quarter - straight_angle, angle + quarter + straight_angle);
+    return first <= last ? length_between(first, last) : length_between(first, 1) + length_between(0, last);
   }
   double length_between(double first, double last) const {
-    const auto begin = std::lower_bound(angles_.begin(), angles_.end(), first);
-    const auto end = std::upper_bound(begin, angles_.end(), last);
-    return lengths_[static_cast<std::size_t>(end - angles_.begin())] -
-           lengths_[static_cast<std::size_t>(begin - angles_.begin())];
+    const auto begin = std::lower_bound(sides_.begin(), sides_.end(), first);
+    const auto end = std::upper_bound(begin, sides_.end(), last);
+    return lengths_[static_cast<std::size_t>(end - sides_.begin())] -
+           lengths_[static_cast<std::size_t>(begin - sides_.begin())];
   }
 
-  std::vector<double> angles_;        ///< of the edges, ascending
+  std::vector<double> sides_;         ///< of the edges, ascending
   std::vector<double> lengths_{0.0};  ///< of all edges before each, and of all
 };
 
-/// From up, in radians.
+/// Whether clearly more of an outline runs along a direction and across than in all others together.
+bool is_main_direction(const std::vector<Complex>& outline, Complex direction) {
+  double along = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
+    const double length = std::abs(edge);
+    const double off = std::min(std::abs(dot(direction, edge)), std::abs(cross(direction, edge)));
+    all += length;
+    if (off <= straight_sine * length) along += length;
+  }
+  return along >= main_fraction * all;
+}
+
 double deviation(Complex turned) { return std::abs(std::arg(turned * std::conj(up))); }
 
 /// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
@@ -298,19 +316,26 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
 
   // Where most of the outline runs along one direction and across, that is upright: not an axis, as of a cross,
   // between.
-  const OutlineDirections outline(boundary);
-  const std::optional<Complex> main_direction = outline.main_direction();
+  std::vector<Complex> axes = mirror_axes(moments);
+  const auto likely = std::find_if(axes.begin(), axes.end(), [&](Complex a) { return is_main_direction(boundary, a); });
+  std::optional<OutlineDirections> outline;
+  std::optional<Complex> main_direction;
+  if (likely == axes.end()) {
+    outline.emplace(boundary);
+    main_direction = outline->main_direction();
+  } else {
+    main_direction = *likely;
+  }
   const auto is_between = [&](Complex direction) {
     const Complex turn = main_direction ? direction / *main_direction : 1;
-    return std::min(std::abs(turn.real()), std::abs(turn.imag())) > std::sin(straight_angle);
+    return std::min(std::abs(turn.real()), std::abs(turn.imag())) > straight_sine;
   };
-  std::vector<Complex> axes = mirror_axes(moments);
   axes.erase(std::remove_if(axes.begin(), axes.end(), is_between), axes.end());
   std::vector<Rectangle> rectangles;
   if (axes.empty()) {
     rectangles = smallest_rectangles(hull, equal_area);
     const auto lies_between = [&](const Rectangle& r) { return is_between(r.direction); };
-    const auto straight = [&](const Rectangle& r) { return outline.is_straight(r); };
+    const auto straight = [&](const Rectangle& r) { return outline->is_straight(r); };
     rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), lies_between), rectangles.end());
     if (rectangles.empty()) {
       rectangles = {bounding_rectangle(hull, *main_direction)};
