@@ -99,7 +99,7 @@ class OverlapTest {
   /// Tests pairs with one of these only.
   std::vector<bool> with(std::vector<int> some) {
     if (z_.size() == 0) return result();
-    some = one_of_each_stack(std::move(some));
+    some = one_of_each_stack(some);
     test_with(subset(some), true);
     // Of these, what overlaps none of them may overlap others, which had found another of them first.
     some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlaps(t); }), some.end());
