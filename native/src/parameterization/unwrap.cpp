@@ -405,8 +405,8 @@ class ChartLoop {
           solution = give_up(first);
           ++given_up;
         }
-        write(*std::move(solution));
-        solution.reset();
+        // Its memory goes with it.
+        write(*std::exchange(solution, std::nullopt));
         ++first;
       }
     }
