@@ -195,10 +195,10 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
     }
   }
   report(progress, 0.8, "solve");
-  PinnedSystem system(energy, free_index, n_free, *factorization, result.vector, progress);
-  if (is_definite) system.refine();
-  if (!(system.change() < resolved_change)) system.conjugate_gradients();
-  result.change = system.change();
+  PinnedSystem equations(energy, free_index, n_free, *factorization, result.vector, progress);
+  if (is_definite) equations.refine();
+  if (!(equations.change() < resolved_change)) equations.conjugate_gradients();
+  result.change = equations.change();
   ComplexVector gradient;
   energy.apply(result.vector, gradient);
   double largest_diagonal = 0;
