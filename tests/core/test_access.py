@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # The commands that unwrap files, with which nothing begins but by a call of them on a command line.
 BATCH = {ROOT / "addon" / "__main__.py", *(ROOT / "addon" / "batch").glob("*.py")}
 MODULE = ROOT / "native" / "python" / "spectral_conformal"
-COMMAND = {MODULE / "__main__.py", MODULE / "_mesh_files.py"}
+COMMAND = {MODULE / "__main__.py", *(MODULE / "assets").glob("*.py")}
 PYTHON = sorted({*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")} - BATCH - COMMAND)
 CPP = sorted(path for kind in ("h", "cpp") for path in (ROOT / "native").rglob(f"*.{kind}"))
 
@@ -216,8 +216,8 @@ def test_the_batch_is_loaded_by_its_command_alone():
 
 def test_the_modules_command_is_loaded_by_itself_alone():
     for path in set(MODULE.glob("*.py")) - COMMAND:
-        assert not re.search(r"\b(_mesh_files|__main__)\b", path.read_text(encoding="utf-8")), path
-    assert "_mesh_files" in (MODULE / "__main__.py").read_text(encoding="utf-8")
+        assert not re.search(r"\b(assets|__main__)\b", path.read_text(encoding="utf-8")), path
+    assert "import _layout, assets" in (MODULE / "__main__.py").read_text(encoding="utf-8")
 
 
 def test_manifest_asks_for_what_the_batch_needs():

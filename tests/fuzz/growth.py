@@ -247,7 +247,7 @@ def pack_boxes(rng, mesh):
 
 def read_ply(rng, mesh):
     """A binary file."""
-    from spectral_conformal import _mesh_files
+    from spectral_conformal import assets
 
     header = (
         f"ply\nformat binary_little_endian 1.0\nelement vertex {len(mesh.vertices)}\n"
@@ -259,7 +259,7 @@ def read_ply(rng, mesh):
         file.write(header.encode() + mesh.vertices.astype("<f8").tobytes() + b"".join(rows))
 
     def read() -> None:
-        _mesh_files.read_mesh(Path(file.name))
+        assets.read(Path(file.name))
         Path(file.name).unlink()
 
     return read

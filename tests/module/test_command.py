@@ -85,8 +85,8 @@ def test_every_format_gets_the_map_of_unwrap(form, tmp_path, capsys):
         path = {"obj": write_obj, "off": write_off}[form](tmp_path / f"m.{form}", vertices, faces)
     else:
         path = write_ply(tmp_path / "m.ply", vertices, faces, form)
-    assert main([str(path)]) == 0
-    uv, written, _ = read_uv(tmp_path / "m_uv.obj")
+    assert main([str(path), "--out", str(tmp_path / "out.obj")]) == 0
+    uv, written, _ = read_uv(tmp_path / "out.obj")
     assert [[int(corner.split("/")[0]) - 1 for corner in face] for face in written] == faces
     expected = sc.unwrap(vertices, *meshes.polygons(faces))
     assert uv.min() >= 0
@@ -137,14 +137,21 @@ def test_islands_lie_apart_in_the_unit_square(tmp_path):
 
 PLY = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
 BROKEN = {
-    "index.obj": ("v 0 0 0\nf 1 2 3\n", "index.obj:2: there is no vertex 2; 1 stand before this line"),
+    "index.obj": ("v 0 0 0\nf 1 2 3\n", "index.obj:2: there is no vertex 2; the file has 1"),
     "word.obj": ("v 0 0 zero\n", "word.obj:1: could not convert string to float: 'zero'"),
     "short.obj": ("v 0 0\n", "short.obj:1: 'v' has too few numbers"),
     "two.obj": ("v 0 0 0\nv 0 0 1\nf 1 2\n", "two.obj:3: a face needs at least three corners"),
     "nan.obj": ("v 0 0 0\nv 1 0 0\nv nan 0 1\nf 1 2 3\n", "the position of vertex 3 is not finite"),
     "none.obj": ("v 0 0 0\n", "has no faces"),
     "empty.obj": ("", "has no faces"),
-    "mesh.stl": ("solid\n", "only .obj, .ply and .off files can be read"),
+    "relative.obj": (
+        "v 0 0 0\nf -1 -2 -3\nv 1 0 0\n",
+        "relative.obj:2: there is no vertex -2; 1 stand before this line",
+    ),
+    "mesh.3ds": ("solid\n", "only .obj, .off, .ply, .stl files can be read"),
+    "empty.stl": ("solid\nendsolid\n", "has no faces"),
+    "facet.stl": ("solid\nfacet\nvertex 0 0 0\nendfacet\n", "facet.stl:4: a facet has three vertices, this one has 1"),
+    "word.stl": ("solid\nvertex 0 0 zero\n", "word.stl:2: '0 0 zero' has something that is no number"),
     "begin.off": ("3 1 0\n", "begin.off:1: an OFF file begins with 'OFF'"),
     "counts.off": ("OFF\nthree\n", "counts.off:2: the numbers of vertices and faces are missing"),
     "ends.off": ("OFF\n3 1 0\n0 0 0\n", "3 vertices and 1 faces are announced, 1 lines follow"),
@@ -196,7 +203,7 @@ def test_options_are_those_of_the_records(tmp_path, capsys):
     [
         (["--hole-rigidity", "much"], "hole_rigidity must lie between"),
         (["--tolerance", "1"], "tolerance must"),
-        (["--out", "m.ply"], "--out must end with .obj"),
+        (["--out", "m.ply"], "--out must end with .obj, which m.obj can be written as"),
         (["--margin", "0.7"], "--margin must be"),
     ],
 )

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import _layout, _mesh_files
+from . import _layout, assets
 from ._options import _CHOICES, Options, SeamOptions, documented
 from ._results import Unwrap
 from ._seams import suggest_seams
@@ -34,9 +34,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     except ValueError as error:
         parser.error(str(error))
-    out = given.out or given.mesh.with_name(f"{given.mesh.stem}_uv.obj")
-    if out.suffix.lower() != ".obj":
-        parser.error(f"--out must end with .obj, the format that is written, not '{out.name}'.")
+    own = assets.written_as(given.mesh)
+    out = given.out or given.mesh.with_name(f"{given.mesh.stem}_uv{own}")
+    if out.suffix.lower() not in (own, ".obj"):
+        formats = " or ".join(dict.fromkeys((own, ".obj")))
+        parser.error(f"--out must end with {formats}, which {given.mesh.name} can be written as, not '{out.name}'.")
     if not 0.0 <= given.margin < 0.5:
         parser.error(f"--margin must be at least 0 and less than 0.5, not {given.margin:g}.")
     try:
@@ -54,7 +56,8 @@ def _unwrap_file(
     source: Path, out: Path, seams: str, margin: float, options: Options, seam_options: SeamOptions
 ) -> int:
     """Read, cut, unwrap, lay out, write, print; return the number of islands that failed."""
-    mesh = _mesh_files.read_mesh(source)
+    asset = assets.read(source)
+    mesh = asset.mesh
     polygons = mesh.vertices, mesh.face_offsets, mesh.corner_vertices
     edges = np.zeros((0, 2), dtype=np.int64)
     if mesh.corner_uv is not None:
@@ -65,7 +68,7 @@ def _unwrap_file(
     solved = np.array([chart.status == "solved" for chart in result.charts], dtype=bool)
     mapped = (result.chart_of_face >= 0) & solved[result.chart_of_face]
     chart = np.repeat(np.where(mapped, result.chart_of_face, -1), np.diff(mesh.face_offsets))
-    _mesh_files.write_obj(out, mesh, _layout.on_shelves(result.uv, chart, margin), mapped, source)
+    assets.write(out, asset, _layout.on_shelves(result.uv, chart, margin), mapped)
     print(_table(result))
     print(f"{solved.sum()} of {len(solved)} islands written to {out}")
     return int((~solved).sum())
@@ -84,10 +87,15 @@ def _table(result: Unwrap) -> str:
 def _parser() -> argparse.ArgumentParser:
     """Return the parser; its options of maps and seams are the fields of the records, with their documentation."""
     parser = argparse.ArgumentParser(
-        prog="python -m spectral_conformal", description="Unwrap an OBJ, PLY or OFF file and write it as OBJ with UVs."
+        prog="python -m spectral_conformal",
+        description="Unwrap an OBJ, PLY, OFF or STL file and write it with UVs.",
     )
     parser.add_argument("mesh", type=Path, help="the file; it is not changed unless it is also that of --out")
-    parser.add_argument("--out", type=Path, help="the OBJ file to write; by default <mesh>_uv.obj beside it")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        help="the file to write, in the format of the mesh or as OBJ; by default <mesh>_uv beside it",
+    )
     parser.add_argument(
         "--seams",
         choices=("keep", "suggest"),

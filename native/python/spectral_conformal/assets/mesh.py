@@ -1,0 +1,90 @@
+"""A polygon mesh as it stands in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+
+class AssetError(ValueError):
+    """A file cannot be read as a mesh; the message names file, line or element, and the violated condition."""
+
+
+@dataclass(frozen=True)
+class AssetMesh:
+    """A polygon mesh, vertices and faces in the file's order."""
+
+    vertices: npt.NDArray[np.float64]
+    """(V, 3)"""
+    face_offsets: npt.NDArray[np.int64]
+    """(faces + 1,) as in `unwrap`."""
+    corner_vertices: npt.NDArray[np.int64]
+    """(C,)"""
+    corner_uv: npt.NDArray[np.float64] | None = None
+    """(C, 2), not a number where a corner has none; None where the file has no UV map."""
+
+
+class Asset(Protocol):
+    """A file as it was read."""
+
+    suffix: str
+    """Of the files that `with_uv` makes, with the dot."""
+    mesh: AssetMesh
+
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
+        """Return the content of a file with a UV map in place of the one that it has.
+
+        Args:
+            uv: (C, 2).
+            mapped: (faces,) faces that have a map.
+        """
+        ...
+
+
+def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
+    """Return a mesh that there is something to unwrap of.
+
+    Raises:
+        AssetError: it has no faces, or a position that is not finite.
+    """
+    if len(mesh.face_offsets) == 1:
+        raise AssetError(f"{path}: has no faces; there is nothing to unwrap.")
+    missing = ~np.isfinite(mesh.vertices).all(axis=1)
+    if missing.any():
+        raise AssetError(f"{path}: the position of vertex {missing.argmax() + 1} is not finite.")
+    return mesh
+
+
+def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:
+    """Return where each face begins among the corners, and the number of corners, from how many each has."""
+    return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))]).astype(np.int64)
+
+
+def numbers(where: str, words: list[str], count: int) -> list[float]:
+    """Return the first `count` words as numbers.
+
+    Raises:
+        AssetError: there are fewer, or one is no number.
+    """
+    try:
+        found = [float(word) for word in words[:count]]
+    except ValueError:
+        raise AssetError(f"{where}: '{' '.join(words)}' has something that is no number.") from None
+    if len(found) < count:
+        raise AssetError(f"{where}: {count} numbers are needed, {len(found)} are there.")
+    return found
+
+
+def check_face(where: str, row: Iterable[int], n_vertices: int) -> None:
+    """Raise AssetError for a face with fewer than three corners, or with a vertex that does not exist."""
+    row = list(row)
+    if len(row) < 3:
+        raise AssetError(f"{where}: a face needs at least three corners.")
+    for index in row:
+        if not 0 <= index < n_vertices:
+            raise AssetError(f"{where}: there is no vertex {index}; {n_vertices} are numbered from 0.")

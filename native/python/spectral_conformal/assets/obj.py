@@ -1,0 +1,281 @@
+"""OBJ files as the lines that they are: geometry is read, UVs are written, every other byte stays.
+
+The format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer's manual.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from .edits import Integers, edited, numbered
+from .mesh import AssetError, AssetMesh, checked, offsets_of
+
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
+_BLANK = np.zeros(256, dtype=bool)
+_BLANK[list(b" \t\r\n\v\f")] = True
+_SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
+_OTHER, _POSITION, _UV, _FACE, _REFERRER = range(5)
+_KINDS = {b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER}
+# The numbers of a corner, 0 its vertex and 1 its UV, by its slashes: 1, 1/2, 1//3, 1/2/3.
+_FORMS = {(0, False): (0,), (1, False): (0, 1), (2, True): (0, 2), (2, False): (0, 1, 2)}
+
+
+class ObjAsset:
+    """An OBJ file; the bytes of its statements, and what they say of polygons."""
+
+    suffix = ".obj"
+
+    def __init__(self, path: Path) -> None:
+        """Read the file.
+
+        Raises:
+            AssetError: a line is broken, or there is no mesh.
+            OSError: the file cannot be opened.
+        """
+        self._path = path
+        self._data = path.read_bytes()
+        self._newline = b"\r\n" if b"\r\n" in self._data else b"\n" if b"\n" in self._data else b"\r"
+        self._find_statements()
+        self._find_words()
+        positions = self._table(_POSITION, 3)[:, :3]
+        uv = self._table(_UV, 1)
+        # A texture of one dimension has no v.
+        self._uv = np.c_[uv, np.zeros(len(uv))][:, :2]
+        self._faces = self._lines_of(_FACE)
+        sizes = np.diff(self._first_words)[self._faces] - 1
+        if (sizes < 3).any():
+            raise self._broken(self._faces[(sizes < 3).argmax()], "a face needs at least three corners")
+        self._corner_words = _ranges(self._first_words[self._faces] + 1, sizes)
+        corners, self._corner_uv = self._corners(np.repeat(self._faces, sizes), len(positions))
+        has_map = self._corner_uv.max(initial=-1) >= 0
+        found = np.vstack([self._uv, [[np.nan, np.nan]]])[self._corner_uv] if has_map else None
+        self.mesh = checked(path, AssetMesh(positions, offsets_of(sizes), corners, found))
+
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
+        """Return the file with another UV map.
+
+        Args:
+            uv: (C, 2), written to the last digit.
+            mapped: (faces,) faces without a map get no UVs.
+        """
+        corner_mapped = np.repeat(mapped, np.diff(self.mesh.face_offsets))
+        _, different, index = numbered(self.mesh.corner_vertices[corner_mapped], uv[corner_mapped])
+        first_face = self._faces[0]
+        lines_of_uv = self._lines_of(_UV)
+        referring, referred = self._references()
+        before = 0
+        if len(referring):
+            # What refers to UVs and is no face keeps them.
+            before = int(np.searchsorted(lines_of_uv, first_face))
+            referred = np.where(referred < before, referred, referred + len(different))
+            lines_of_uv = lines_of_uv[:0]
+        numbers = np.zeros(len(uv), dtype=np.int64)
+        numbers[corner_mapped] = before + 1 + index
+        words = np.append(self._corner_words, referring)
+        numbers = np.append(numbers, referred + 1)
+        starts, ends = self._word_starts[words], self._word_ends[words]
+        places = zip(starts.tolist(), ends.tolist(), numbers.tolist())
+        texts = [_with_number(self._data[start:end], number) for start, end, number in places]
+        texts += [b""] * len(lines_of_uv)
+        texts.append(b"".join(b"vt %r %r%s" % (u, v, self._newline) for u, v in different.tolist()))
+        starts = np.concatenate([starts, self._starts[lines_of_uv], [self._starts[first_face]]])
+        ends = np.concatenate([ends, np.append(self._starts, len(self._data))[lines_of_uv + 1], starts[-1:]])
+        return edited(self._data, starts, ends, texts)
+
+    def _references(self) -> tuple[Integers, Integers]:
+        """Return the words outside of faces that name a UV, and which each names."""
+        words, named = [], []
+        for line in self._lines_of(_REFERRER).tolist():
+            before = int(np.searchsorted(self._lines_of(_UV), line))
+            for word in range(self._first_words[line] + 1, self._first_words[line + 1]):
+                parts = self._data[self._word_starts[word] : self._word_ends[word]].split(b"/")
+                if len(parts) > 1 and parts[1]:
+                    words.append(word)
+                    named.append(self._index(line, parts[1], before, len(self._uv), "UV"))
+        return np.array(words, dtype=np.int64), np.array(named, dtype=np.int64)
+
+    # Statements and their words
+
+    def _find_statements(self) -> None:
+        """Find where each statement begins and ends, and of which kind it is."""
+        text = bytearray(self._data)
+        if text.startswith(_BYTE_ORDER_MARK):
+            text[: len(_BYTE_ORDER_MARK)] = b" " * len(_BYTE_ORDER_MARK)
+        if self._newline == b"\r":
+            text = text.replace(b"\r", b"\n")
+        # Blanks in place of what joins two lines: every byte stays where it is.
+        for found in _CONTINUATION.finditer(self._data):
+            if b"#" not in text[text.rfind(b"\n", 0, found.start()) + 1 : found.start()]:
+                text[found.start() : found.end()] = b" " * len(found[0])
+        if not text.endswith(b"\n"):
+            text += b"\n"
+        array = np.frombuffer(bytes(text), np.uint8)
+        self._ends = np.flatnonzero(array == ord("\n"))
+        self._starts = np.append(0, self._ends[:-1] + 1)
+        first = self._starts.copy()
+        indented = np.arange(len(first))
+        while len(indented := indented[(first[indented] < self._ends[indented]) & _BLANK[array[first[indented]]]]):
+            first[indented] += 1
+        padded = np.append(array, np.full(1 + max(map(len, _KINDS)), ord("\n"), np.uint8))
+        self._kinds = np.zeros(len(first), dtype=np.int8)
+        for word, kind in _KINDS.items():
+            is_word = _BLANK[padded[first + len(word)]]
+            for k, byte in enumerate(word):
+                is_word &= padded[first + k] == byte
+            self._kinds[is_word] = kind
+        # After numbers there may be a comment; names may hold a "#".
+        for place in np.flatnonzero(array == ord("#")).tolist():
+            line = int(np.searchsorted(self._ends, place))
+            if self._kinds[line] != _OTHER:
+                text[place : self._ends[line]] = b" " * (int(self._ends[line]) - place)
+        self._text = bytes(text)
+
+    def _find_words(self) -> None:
+        """Find where each word begins and ends, and which is the first of each statement."""
+        blank = _BLANK[np.frombuffer(self._text, np.uint8)]
+        after_blank = np.append(True, blank[:-1])
+        self._word_starts = np.flatnonzero(~blank & after_blank)
+        self._word_ends = np.flatnonzero(blank & ~after_blank)
+        self._first_words = np.searchsorted(self._word_starts, np.append(self._starts, len(self._text)))
+
+    def _lines_of(self, kind: int) -> Integers:
+        return np.flatnonzero(self._kinds == kind)
+
+    def _joined(self, lines: Integers) -> bytes:
+        """Return the text of these statements alone."""
+        breaks = np.flatnonzero(np.diff(lines) != 1)
+        firsts, lasts = lines[np.append(0, breaks + 1)], lines[np.append(breaks, -1)]
+        pieces = zip(self._starts[firsts].tolist(), (self._ends[lasts] + 1).tolist())
+        return b"".join([self._text[start:end] for start, end in pieces])
+
+    def _broken(self, line: int, problem: object) -> AssetError:
+        number = self._data.count(self._newline[-1:], 0, int(self._starts[line])) + 1
+        return AssetError(f"{self._path}:{number}: {problem}.")
+
+    # Numbers
+
+    def _table(self, kind: int, least: int) -> npt.NDArray[np.float64]:
+        """Return the numbers of all statements of a kind, of each as many as the shortest has."""
+        lines = self._lines_of(kind)
+        if not len(lines):
+            return np.zeros((0, least))
+        (word,) = (word for word, meant in _KINDS.items() if meant == kind)
+        counts = np.diff(self._first_words)[lines] - 1
+        if (counts < least).any():
+            raise self._broken(lines[(counts < least).argmax()], f"'{word.decode()}' has too few numbers")
+        flat = _parsed(self._joined(lines).translate(None, word), np.float64)
+        if flat is None or len(flat) != counts.sum():
+            flat = np.array([value for line in lines.tolist() for value in self._floats(line)])
+        return flat[(np.cumsum(counts) - counts)[:, None] + np.arange(counts.min())]
+
+    def _floats(self, line: int) -> list[float]:
+        words = self._text[self._starts[line] : self._ends[line]].decode(errors="replace").split()
+        try:
+            return [float(word) for word in words[1:]]
+        except ValueError as error:
+            raise self._broken(line, error) from None
+
+    def _corners(self, lines: Integers, n_vertices: int) -> tuple[Integers, Integers]:
+        """Return the vertex and the UV of every corner, -1 for none; `lines` has the statement of each."""
+        text = np.frombuffer(self._text, np.uint8)
+        starts, ends = self._word_starts[self._corner_words], self._word_ends[self._corner_words]
+        slashes = np.flatnonzero(text == ord("/"))
+        doubled = slashes[:-1][np.diff(slashes) == 1]
+        n_slashes = np.searchsorted(slashes, ends) - np.searchsorted(slashes, starts)
+        is_doubled = np.searchsorted(doubled, ends) > np.searchsorted(doubled, starts)
+        given = np.zeros((len(lines), 3), dtype=np.int64)
+        is_left = np.ones(len(lines), dtype=bool)
+        faces, face_of_corner = np.unique(lines, return_inverse=True)
+        for (count, double), fields in _FORMS.items():
+            is_of_form = (n_slashes == count) & (is_doubled == double)
+            whole = np.ones(len(faces), dtype=bool)
+            whole[face_of_corner[~is_of_form]] = False
+            if not whole.any():
+                continue
+            numbers = _parsed(self._joined(faces[whole]).translate(_SLASH_TO_BLANK, b"f"), np.int64)
+            corners = whole[face_of_corner]
+            if numbers is not None and len(numbers) == len(fields) * corners.sum():
+                given[np.flatnonzero(corners)[:, None], fields] = numbers.reshape(-1, len(fields))
+                is_left &= ~corners
+        vertices = self._resolved(given[:, 0], lines, _POSITION, n_vertices)
+        uv = self._resolved(given[:, 1], lines, _UV, len(self._uv))
+        for k in np.flatnonzero(is_left | (vertices < 0) | ((uv < 0) & (given[:, 1] != 0))).tolist():
+            vertices[k], uv[k] = self._corner(int(lines[k]), self._text[starts[k] : ends[k]], n_vertices)
+        return vertices, uv
+
+    def _resolved(self, given: Integers, lines: Integers, kind: int, total: int) -> Integers:
+        """Return indices from 0 of those that count from 1, or back from the last one before; -1 for what is none."""
+        before = np.searchsorted(self._lines_of(kind), lines) if (given < 0).any() else 0
+        result = np.where(given > 0, given - 1, before + given)
+        return np.where((given == 0) | (result < 0) | (result >= total), -1, result)
+
+    def _corner(self, line: int, word: bytes, n_vertices: int) -> tuple[int, int]:
+        """Return what one corner names, and raise for what does not exist."""
+        vertex, *others = word.split(b"/")
+        before = [int(np.searchsorted(self._lines_of(kind), line)) for kind in (_POSITION, _UV)]
+        of_uv = self._index(line, others[0], before[1], len(self._uv), "UV") if others and others[0] else -1
+        return self._index(line, vertex, before[0], n_vertices, "vertex"), of_uv
+
+    def _index(self, line: int, word: bytes, before: int, total: int, what: str) -> int:
+        try:
+            value = int(word)
+        except ValueError:
+            raise self._broken(line, f"'{word.decode(errors='replace')}' is no number of a {what}") from None
+        index = value - 1 if value > 0 else before + value
+        if value == 0 or not 0 <= index < total:
+            known = f"{before} stand before this line" if value < 0 else f"the file has {total}"
+            raise self._broken(line, f"there is no {what} {value}; {known}")
+        return index
+
+
+@dataclass(frozen=True)
+class PlainAsset:
+    """A mesh of a format that holds no UVs: written as OBJ."""
+
+    mesh: AssetMesh
+    suffix = ".obj"
+
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
+        """Return an OBJ file; positions and UVs to the last digit."""
+        mesh = self.mesh
+        corner_mapped = np.repeat(mapped, np.diff(mesh.face_offsets))
+        _, different, index = numbered(mesh.corner_vertices[corner_mapped], uv[corner_mapped])
+        numbers = np.zeros(len(uv), dtype=np.int64)
+        numbers[corner_mapped] = 1 + index
+        rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
+        rows += [f"vt {u!r} {v!r}" for u, v in different.tolist()]
+        corners = [f"{v}/{t}" if t else str(v) for v, t in zip((mesh.corner_vertices + 1).tolist(), numbers.tolist())]
+        bounds = zip(mesh.face_offsets[:-1].tolist(), mesh.face_offsets[1:].tolist())
+        rows += [f"f {' '.join(corners[first:last])}" for first, last in bounds]
+        return "".join(f"{row}\n" for row in rows).encode()
+
+
+def _with_number(corner: bytes, number: int) -> bytes:
+    """Return a corner, such as 1/2/3, with another UV, or without one for 0."""
+    vertex, *others = corner.split(b"/", 2)
+    if len(others) == 2 and others[1]:
+        return b"%b/%b/%b" % (vertex, b"%d" % number if number else b"", others[1])
+    return b"%b/%d" % (vertex, number) if number else vertex
+
+
+def _parsed(text: bytes, kind: type) -> npt.NDArray | None:
+    """Return the numbers in a text, None where something else is in it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            return np.fromstring(text, dtype=kind, sep=" ")
+        except (DeprecationWarning, ValueError, OverflowError):
+            return None
+
+
+def _ranges(starts: Integers, counts: Integers) -> Integers:
+    """Return start, start + 1, ... of each, one after the other."""
+    offsets = offsets_of(counts)
+    return np.repeat(starts - offsets[:-1], counts) + np.arange(offsets[-1])

@@ -1,0 +1,61 @@
+"""Meshes of STL files, whose triangles share no vertices: those in one place are made one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from .mesh import AssetError, AssetMesh, checked, numbers
+from .obj import PlainAsset
+
+_HEADER = 80
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def read_stl(path: Path) -> PlainAsset:
+    """Read an STL file, text or binary.
+
+    Raises:
+        AssetError: the content is broken.
+        OSError: the file cannot be opened.
+    """
+    data = path.read_bytes()
+    # Binary files, too, may begin with "solid": their length tells.
+    announced = int.from_bytes(data[_HEADER : _HEADER + 4], "little")
+    is_binary = len(data) >= _HEADER + 4 + announced * _TRIANGLE.itemsize and b"\0" in data[: _HEADER + 4]
+    if data.lstrip()[:5].lower() == b"solid" and not is_binary:
+        corners = _of_text(path, data)
+    elif len(data) < _HEADER + 4:
+        raise AssetError(f"{path}: ends before the number of triangles.")
+    elif len(data) < _HEADER + 4 + announced * _TRIANGLE.itemsize:
+        raise AssetError(f"{path}: {announced} triangles are announced, and the file ends before.")
+    else:
+        corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3).astype(np.float64)
+    # -0.0 is in the place of 0.0.
+    vertices, first, corner_vertices = np.unique(corners + 0.0, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    offsets = np.arange(0, len(corners) + 1, 3, dtype=np.int64)
+    return PlainAsset(checked(path, AssetMesh(vertices[order], offsets, rank[corner_vertices.ravel()])))
+
+
+def _of_text(path: Path, data: bytes) -> npt.NDArray[np.float64]:
+    corners, in_facet = [], 0
+    for number, line in enumerate(data.decode("utf-8", errors="replace").splitlines(), 1):
+        words = line.split()
+        if not words:
+            continue
+        word = words[0].lower()
+        if word == "vertex":
+            corners.append(numbers(f"{path}:{number}", words[1:], 3))
+            in_facet += 1
+        elif word == "endfacet":
+            if in_facet != 3:
+                raise AssetError(f"{path}:{number}: a facet has three vertices, this one has {in_facet}.")
+            in_facet = 0
+    if in_facet:
+        raise AssetError(f"{path}: ends within a facet.")
+    return np.array(corners, dtype=np.float64).reshape(-1, 3)

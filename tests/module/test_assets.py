@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files with all that they may hold: what is read, and that writing UVs leaves every other byte."""
+
+import re
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+from spectral_conformal import assets
+
+CASES = Path(__file__).resolve().parents[3] / "shared" / "cases" / "cli"
+# Two quads side by side, with an idle vertex.
+POSITIONS = [(0, 0, 0), (1, 0, 0), (1, 1, 0.2), (0, 1, 0), (2, 0, 0), (2, 1, 0), (9, 9, 9)]
+QUADS = [(0, 1, 2, 3), (1, 4, 5, 2)]
+# Of the corners: the quads share no UV, so that vertices 1 and 2 have two.
+UV = np.array([(0, 0), (0.1, 0), (0.1, 1 / 3), (0, 0.4), (0.5, 0.5), (0.9, 0.5), (0.9, 0.9), (0.5, 0.9)])
+VERTICES = "".join(f"v {x} {y} {z}\n" for x, y, z in POSITIONS)
+BOTH = np.ones(2, bool)
+
+
+def save(path, content):
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+def with_uv(path, uv=UV, mapped=BOTH):
+    """Write UVs and return the content of the new file and what is read of it."""
+    new = path.with_name(f"new{path.suffix}")
+    assets.write(new, assets.read(path), uv, mapped)
+    return new.read_bytes(), assets.read(new).mesh
+
+
+def check_mesh(mesh, uv=UV):
+    assert mesh.vertices.tolist() == [list(map(float, row)) for row in POSITIONS]
+    assert mesh.face_offsets.tolist() == [0, 4, 8]
+    assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
+    assert np.array_equal(mesh.corner_uv, uv, equal_nan=True)
+
+
+# OBJ
+
+OBJ = {
+    "plain": VERTICES + "f 1 2 3 4\nf 2 5 6 3\n",
+    "no end of line": VERTICES + "f 1 2 3 4\nf 2 5 6 3",
+    "before its vertices": "f 1 2 3 4\nf 2 5 6 3\n" + VERTICES,
+    "byte order mark": "\ufeff" + VERTICES + "f 1 2 3 4\nf 2 5 6 3\n",
+    "CR LF": (VERTICES + "\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 2//1 5//1 6//1 3//1\n").replace(
+        "\n", "\r\n"
+    ),
+    "CR": (VERTICES + "f 1 2 3 4\nf 2 5 6 3\n").replace("\n", "\r"),
+    "names with #": "mtllib scene #1.mtl\no Cube#3\n"
+    + VERTICES
+    + "usemtl Grey #1\nf 1 2 3 4\nusemtl M#25\nf 2 5 6 3\n",
+    "Latin 1": b"mtllib w\xe4nde.mtl\no B\xfcro\n" + VERTICES.encode() + b"f 1 2 3 4\nf 2 5 6 3\n",
+    "two blanks": VERTICES.replace("v ", "v  ") + "f  1  2  3\t4 \n  f 2 5 6 3\n",
+    "continued": VERTICES + "f 1 2 \\\n 3 4 # four\n# no \\\nf 2 5 6\\\n   3\n",
+    "colours": VERTICES.replace("\n", " 0.5 0.25 1\n") + "#MRGB ff00aa11\nf 1 2 3 4\nf 2 5 6 3\n",
+    "comments": VERTICES.replace("\n", " # v\n") + "f 1 2 3 4 # f 1 2 3\nf 2 5 6 3 #\n",
+    "relative": VERTICES + "vt 0 0\nvt 1 1\nf -7/-2 -6/-1 -5/1 -4/2\nf -6 -3 -2 -5\n",
+    "mixed": VERTICES + "vt 0\nvn 0 0 1\nf 1/1 2 3//1 4/1/1\nf 2/1/ 5 6 3\ns off\ng a b\nl 1 2\np 3\n",
+    "UVs between": VERTICES
+    + "vt 0 0\nf 1/1 2/1 3/1 4/1\nusemtl a\nvt 1 1\nf 2/2 5/2 6/2 3/2\ncstype bezier\ncurv 0 1 1 2\n",
+}
+
+
+# A statement with all the lines that it goes on in, but no comment.
+STATEMENT = re.compile(rb"(?:#[^\r\n]*|(?:\\\n|[^\r\n])*)(?:\r?\n|\r)?")
+
+
+def others(content):
+    """Return the statements without UVs, and faces without theirs, as bytes."""
+    found = [statement for statement in STATEMENT.findall(content) if statement.split()[:1] != [b"vt"]]
+    without = re.compile(rb"(\d)/-?\d*(/-?\d+)?/?")
+    return [without.sub(rb"\1\2", one) if one.split()[:1] == [b"f"] else one for one in found]
+
+
+@pytest.mark.parametrize("name", OBJ)
+def test_every_other_byte_of_an_obj_stays(name, tmp_path):
+    path = save(tmp_path / "m.obj", OBJ[name])
+    before = path.read_bytes()
+    content, mesh = with_uv(path)
+    check_mesh(mesh)
+    assert others(content) == others(before)
+    # Once more gives the same file.
+    assert with_uv(save(tmp_path / "again.obj", content))[0] == content
+
+
+def test_line_elements_keep_their_uvs(tmp_path):
+    """Before, among and behind the faces, counted from the first UV or back from the last."""
+    uv = "".join(f"vt {k} {k}\n" for k in range(4))
+    content = (
+        VERTICES + "l 1 2\n" + uv + "l 1/2 2/-1\nf 1/1 2/2 3/3 4/4\nvt 8 8\nf 2/5 5/5 6/5 3/5\nvt 9 9\nl 5/5 6/-1 3/1\n"
+    )
+    new, mesh = with_uv(save(tmp_path / "m.obj", content))
+    check_mesh(mesh)
+    lines = new.decode().splitlines()
+    coordinates = [line.split()[1:] for line in lines if line.startswith("vt")]
+    named = [
+        [coordinates[int(word.split("/")[1]) - 1][0] for word in line.split()[1:]]
+        for line in lines
+        if "l " in line and "/" in line
+    ]
+    # -1 of the first line is the fourth; what has moved is counted from the first.
+    assert [line for line in lines if line.startswith("l")][:2] == ["l 1 2", "l 1/2 2/4"]
+    assert named == [["1", "3"], ["8", "9", "0"]]
+
+
+def test_faces_without_a_map_get_no_uvs(tmp_path):
+    path = save(tmp_path / "m.obj", VERTICES + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 2/1 5/1 6/1 3/1\n")
+    content, mesh = with_uv(path, mapped=np.array([False, False]))
+    assert mesh.corner_uv is None and b"vt" not in content
+    assert content.splitlines()[-2:] == [b"f 1//1 2//1 3//1 4//1", b"f 2 5 6 3"]
+
+
+def test_positions_and_uvs_to_the_last_digit(tmp_path):
+    rng = np.random.default_rng(1)
+    positions = (1e7 + rng.random((8, 3))).tolist() + (1e-5 * rng.random((8, 3))).tolist()
+    rows = "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in positions) + "f 1 2 3 4 5 6 7 8\nf 9 10 11 12 13 14 15 16\n"
+    uv = rng.random((16, 2))
+    for name in ("m.obj", "m.off"):
+        if name == "m.off":
+            rows = "OFF\n16 2 0\n" + "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in positions)
+            rows += "8 0 1 2 3 4 5 6 7\n8 8 9 10 11 12 13 14 15\n"
+        new = tmp_path / "new.obj"
+        assets.write(new, assets.read(save(tmp_path / name, rows)), uv, BOTH)
+        mesh = assets.read(new).mesh
+        assert mesh.vertices.tolist() == positions and mesh.corner_uv.tolist() == uv.tolist()
+
+
+# PLY
+
+TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "int": "i4", "uint": "u4", "float": "f4", "double": "f8"}
+PLAIN = {"vertex": [("x", "float"), ("y", "float"), ("z", "float")], "face": [("vertex_indices", "uchar int")]}
+RICH = {
+    "vertex": [
+        ("red", "uchar"),
+        ("x", "double"),
+        ("y", "double"),
+        ("z", "double"),
+        ("nx", "float"),
+        ("quality", "short"),
+    ],
+    "edge": [("vertex1", "int"), ("vertex2", "int")],
+    "face": [("label", "uint"), ("vertex_index", "uchar uchar"), ("flags", "int")],
+    "material": [("weights", "int double")],
+}
+ON_VERTICES = {**PLAIN, "vertex": [("s", "double"), *PLAIN["vertex"], ("t", "float"), ("alpha", "uchar")]}
+ON_CORNERS = {**PLAIN, "face": [("texcoord", "uchar float"), *PLAIN["face"], ("texnumber", "int")]}
+LAYOUTS = {"plain": PLAIN, "rich": RICH, "on vertices": ON_VERTICES, "on corners": ON_CORNERS}
+
+
+def values(element, name, row):
+    """Return what a row of a made file has: numbers that tell row and property apart."""
+    if name in ("x", "y", "z"):
+        return [POSITIONS[row]["xyz".index(name)]]
+    if name in ("vertex_indices", "vertex_index"):
+        return QUADS[row]
+    if name == "texcoord":
+        return [0.25] * 8
+    if name == "weights":
+        return [0.1] * row
+    return [row + len(name)]
+
+
+def ply(layout, form, rows=None):
+    """Return a PLY file, and of each element the rows as bytes; blanks and digits as other programs write them."""
+    counts = {"vertex": 7, "face": 2, "edge": 1, "material": 2}
+    order = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}[form]
+    header, body = f"ply\nformat {form} 1.0\ncomment TextureFile a.png\n", b""
+    for element, properties in layout.items():
+        header += f"element {element} {counts[element]}\n"
+        for name, kind in properties:
+            header += f"property {'list ' if ' ' in kind else ''}{kind} {name}\n"
+        for row in range(counts[element]):
+            parts = []
+            for name, kind in properties:
+                found = values(element, name, row)
+                count, *last = [TYPES[word] for word in kind.split()]
+                if order:
+                    parts += [np.array(len(found), order + count).tobytes()] * len(last)
+                    parts.append(np.array(found, order + (last or [count])[0]).tobytes())
+                else:
+                    parts += [b"%d" % len(found)] * len(last) + [b"%.2f" % n if n % 1 else b"%d" % n for n in found]
+            body += b"".join(parts) if order else b"  ".join(parts) + b" \n"
+    return header.encode() + b"end_header\n" + body
+
+
+FORMS = pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
+
+
+def rows_of(content):
+    """Read a PLY file plainly: the rows of each element as {name: numbers}, of text as they are written."""
+    head, body = content.split(b"end_header\n", 1)
+    words = [line.split() for line in head.decode().splitlines()]
+    order = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}[words[1][1]]
+    text, result, at = iter(body.split()), {}, 0
+
+    def take(count, kind):
+        nonlocal at
+        if not order:
+            return [next(text).decode() for _ in range(count)]
+        found = np.frombuffer(body, order + TYPES[kind], count, at)
+        at += found.nbytes
+        return found.tolist()
+
+    elements = [k for k, line in enumerate(words) if line[0] == "element"]
+    for first, last in zip(elements, [*elements[1:], len(words)]):
+        rows = result[words[first][1]] = []
+        for _ in range(int(words[first][2])):
+            row = {}
+            for line in words[first + 1 : last]:
+                is_list = line[1] == "list"
+                count = int(take(1, line[2])[0]) if is_list else 1
+                row[line[-1]] = take(count, line[-2])
+            rows.append(row)
+    assert next(text, None) is None if not order else at == len(body)
+    return result
+
+
+def without(row, *names):
+    return {name: found for name, found in row.items() if name not in names}
+
+
+@FORMS
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_every_other_property_of_a_ply_stays(layout, form, tmp_path):
+    path = save(tmp_path / "m.ply", ply(LAYOUTS[layout], form))
+    mesh = assets.read(path).mesh
+    expected = {
+        "on vertices": np.array([(v + 1.0, v + 1.0) for quad in QUADS for v in quad]),
+        "on corners": np.full((8, 2), 0.25),
+    }
+    assert np.allclose(mesh.vertices, POSITIONS)
+    assert (mesh.corner_uv is None) == (layout not in expected)
+    if layout in expected:
+        assert mesh.corner_uv.tolist() == expected[layout].tolist()
+    content, new = with_uv(path)
+    assert np.abs(new.corner_uv - UV).max() < 1e-7
+    assert new.vertices[new.corner_vertices].tolist() == mesh.vertices[mesh.corner_vertices].tolist()
+    before, after = rows_of(path.read_bytes()), rows_of(content)
+    assert before.keys() == after.keys()
+    for element in before.keys() - {"vertex", "face"}:
+        assert after[element] == before[element]
+    (indices,) = {"vertex_index", "vertex_indices"} & set(before["face"][0])
+    faces = zip(before["face"], after["face"])
+    assert all(without(one, "texcoord", indices) == without(two, "texcoord", indices) for one, two in faces)
+    if layout == "on corners":
+        assert after["vertex"] == before["vertex"]
+        assert [row[indices] for row in after["face"]] == [row[indices] for row in before["face"]]
+        return
+    # Two vertices have a second UV, and so a copy with all that they have.
+    kept = [without(row, "s", "t") for row in after["vertex"]]
+    assert kept == [without(before["vertex"][v], "s", "t") for v in (*range(7), 1, 2)]
+    assert content.startswith(path.read_bytes().split(b"element vertex")[0])
+
+
+@FORMS
+def test_a_ply_gets_wider_lists_where_they_are_needed(form, tmp_path):
+    """129 corners need 258 numbers, and more than 255 vertices; unsigned bytes hold 255."""
+    n = 200
+    angles = 2 * np.pi * np.arange(n) / n
+    rows = np.c_[np.cos(angles), np.sin(angles), 0 * angles]
+    uv = np.random.default_rng(2).random((2 * n, 2)).astype("f4")
+    for face in ("property list uchar uchar vertex_indices", None):
+        face = face or "property list uchar uchar vertex_indices\nproperty list uchar float texcoord"
+        head = f"ply\nformat {form} 1.0\nelement vertex {n}\nproperty float x\nproperty float y\nproperty float z\n"
+        content = (head + f"element face 2\n{face}\nend_header\n").encode()
+        last = [0] if "texcoord" in face else []
+        if form == "ascii":
+            lines = [*rows.tolist(), *[[n, *range(n), *last]] * 2]
+            content += "".join(" ".join(map(str, line)) + "\n" for line in lines).encode()
+        else:
+            order = ">" if "big" in form else "<"
+            content += rows.astype(order + "f4").tobytes() + (bytes([n, *range(n)]) + bytes(last)) * 2
+        new, mesh = with_uv(save(tmp_path / "m.ply", content), uv)
+        assert np.array_equal(mesh.corner_uv.astype("f4"), uv)
+        assert (b"list int float texcoord" if last else b"list uchar int vertex_indices") in new
+
+
+def test_a_ply_with_lines_of_windows(tmp_path):
+    path = save(tmp_path / "m.ply", ply(PLAIN, "ascii").replace(b"\n", b"\r\n"))
+    content, mesh = with_uv(path)
+    assert np.abs(mesh.corner_uv - UV).max() < 1e-7
+    assert content.count(b"\n") == content.count(b"\r\n")
+
+
+# Others
+
+
+def test_counts_of_an_off_file_may_follow_at_once(tmp_path):
+    rows = "7 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS) + "4 0 1 2 3\n4 1 4 5 2\n"
+    for begin in ("OFF", "OFF\n", "off ", "COFF\n", "# made here\nOFF\n\n"):
+        mesh = assets.read(save(tmp_path / "m.off", begin + rows)).mesh
+        assert mesh.vertices.tolist() == [list(map(float, row)) for row in POSITIONS]
+        assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
+
+
+@pytest.mark.parametrize("form", ["text", "binary", "binary that begins as text"])
+def test_triangles_of_an_stl_share_vertices(form, tmp_path):
+    triangles = np.array([[POSITIONS[v] for v in face] for face in [(0, 1, 2), (0, 2, 3), (1, 4, 5)]], "f4")
+    if form == "text":
+        rows = "".join(
+            "facet normal 0 0 1\n outer loop\n"
+            + "".join(f"  vertex {x} {y} {z}\n" for x, y, z in one)
+            + " endloop\nendfacet\n"
+            for one in triangles.tolist()
+        )
+        content = f"solid a\n{rows}endsolid a\n".encode()
+    else:
+        begin = b"solid " if "text" in form else b"made by"
+        content = begin.ljust(80, b"\0") + struct.pack("<I", 3)
+        content += b"".join(bytes(12) + one.astype("<f4").tobytes() + b"\1\2" for one in triangles)
+    mesh = assets.read(save(tmp_path / "m.stl", content)).mesh
+    assert mesh.corner_vertices.tolist() == [0, 1, 2, 0, 2, 3, 1, 4, 5]
+    assert np.array_equal(mesh.vertices[mesh.corner_vertices].reshape(3, 3, 3), triangles)
+
+
+def test_nothing_is_replaced_by_what_cannot_be_read_again(tmp_path, monkeypatch):
+    path = save(tmp_path / "m.obj", OBJ["plain"])
+    asset = assets.read(path)
+    monkeypatch.setattr(Path, "read_bytes", lambda self: b"")
+    with pytest.raises(OSError, match="cannot be read again"):
+        assets.write(path, asset, UV, BOTH)
+    monkeypatch.undo()
+    assert path.read_text() == OBJ["plain"]
+    assert [found.name for found in tmp_path.iterdir()] == ["m.obj"]
+
+
+@pytest.mark.skipif(not CASES.is_dir(), reason="the shared cases are not beside the project")
+@pytest.mark.parametrize(
+    "name", ["bomshift.obj", "hash.obj", "latin.obj", "linesx.obj", "wedge.obj", "wedge.ply", "modelnet.off"]
+)
+def test_cases_of_others(name, tmp_path):
+    asset = assets.read(CASES / name)
+    assert (asset.mesh.corner_uv is not None) == (name in ("linesx.obj", "wedge.obj", "wedge.ply"))
+    new = tmp_path / f"new{asset.suffix}"
+    assets.write(new, asset, UV, BOTH)
+    assert np.abs(assets.read(new).mesh.corner_uv - UV).max() < 1e-7
+    if asset.suffix == ".obj" and name != "modelnet.off":
+        assert others(new.read_bytes()) == others((CASES / name).read_bytes())
