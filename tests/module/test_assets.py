@@ -24,11 +24,16 @@ def save(path, content):
     return path
 
 
+def only(asset):
+    (mesh,) = asset.meshes
+    return mesh
+
+
 def with_uv(path, uv=UV, mapped=BOTH):
     """Write UVs and return the content of the new file and what is read of it."""
     new = path.with_name(f"new{path.suffix}")
-    assets.write(new, assets.read(path), uv, mapped)
-    return new.read_bytes(), assets.read(new).mesh
+    assets.write(new, assets.read(path), [assets.UvMap(uv, mapped)])
+    return new.read_bytes(), only(assets.read(new))
 
 
 def check_mesh(mesh, uv=UV):
@@ -123,8 +128,8 @@ def test_positions_and_uvs_to_the_last_digit(tmp_path):
             rows = "OFF\n16 2 0\n" + "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in positions)
             rows += "8 0 1 2 3 4 5 6 7\n8 8 9 10 11 12 13 14 15\n"
         new = tmp_path / "new.obj"
-        assets.write(new, assets.read(save(tmp_path / name, rows)), uv, BOTH)
-        mesh = assets.read(new).mesh
+        assets.write(new, assets.read(save(tmp_path / name, rows)), [assets.UvMap(uv, BOTH)])
+        mesh = only(assets.read(new))
         assert mesh.vertices.tolist() == positions and mesh.corner_uv.tolist() == uv.tolist()
 
 
@@ -226,7 +231,7 @@ def without(row, *names):
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_every_other_property_of_a_ply_stays(layout, form, tmp_path):
     path = save(tmp_path / "m.ply", ply(LAYOUTS[layout], form))
-    mesh = assets.read(path).mesh
+    mesh = only(assets.read(path))
     expected = {
         "on vertices": np.array([(v + 1.0, v + 1.0) for quad in QUADS for v in quad]),
         "on corners": np.full((8, 2), 0.25),
@@ -291,7 +296,7 @@ def test_a_ply_with_lines_of_windows(tmp_path):
 def test_counts_of_an_off_file_may_follow_at_once(tmp_path):
     rows = "7 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in POSITIONS) + "4 0 1 2 3\n4 1 4 5 2\n"
     for begin in ("OFF", "OFF\n", "off ", "COFF\n", "# made here\nOFF\n\n"):
-        mesh = assets.read(save(tmp_path / "m.off", begin + rows)).mesh
+        mesh = only(assets.read(save(tmp_path / "m.off", begin + rows)))
         assert mesh.vertices.tolist() == [list(map(float, row)) for row in POSITIONS]
         assert mesh.corner_vertices.tolist() == [*QUADS[0], *QUADS[1]]
 
@@ -311,7 +316,7 @@ def test_triangles_of_an_stl_share_vertices(form, tmp_path):
         begin = b"solid " if "text" in form else b"made by"
         content = begin.ljust(80, b"\0") + struct.pack("<I", 3)
         content += b"".join(bytes(12) + one.astype("<f4").tobytes() + b"\1\2" for one in triangles)
-    mesh = assets.read(save(tmp_path / "m.stl", content)).mesh
+    mesh = only(assets.read(save(tmp_path / "m.stl", content)))
     assert mesh.corner_vertices.tolist() == [0, 1, 2, 0, 2, 3, 1, 4, 5]
     assert np.array_equal(mesh.vertices[mesh.corner_vertices].reshape(3, 3, 3), triangles)
 
@@ -321,7 +326,7 @@ def test_nothing_is_replaced_by_what_cannot_be_read_again(tmp_path, monkeypatch)
     asset = assets.read(path)
     monkeypatch.setattr(Path, "read_bytes", lambda self: b"")
     with pytest.raises(OSError, match="cannot be read again"):
-        assets.write(path, asset, UV, BOTH)
+        assets.write(path, asset, [assets.UvMap(UV, BOTH)])
     monkeypatch.undo()
     assert path.read_text() == OBJ["plain"]
     assert [found.name for found in tmp_path.iterdir()] == ["m.obj"]
@@ -333,9 +338,9 @@ def test_nothing_is_replaced_by_what_cannot_be_read_again(tmp_path, monkeypatch)
 )
 def test_cases_of_others(name, tmp_path):
     asset = assets.read(CASES / name)
-    assert (asset.mesh.corner_uv is not None) == (name in ("linesx.obj", "wedge.obj", "wedge.ply"))
+    assert (only(asset).corner_uv is not None) == (name in ("linesx.obj", "wedge.obj", "wedge.ply"))
     new = tmp_path / f"new{asset.suffix}"
-    assets.write(new, asset, UV, BOTH)
-    assert np.abs(assets.read(new).mesh.corner_uv - UV).max() < 1e-7
+    assets.write(new, asset, [assets.UvMap(UV, BOTH)])
+    assert np.abs(only(assets.read(new)).corner_uv - UV).max() < 1e-7
     if asset.suffix == ".obj" and name != "modelnet.off":
         assert others(new.read_bytes()) == others((CASES / name).read_bytes())

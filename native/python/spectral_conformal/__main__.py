@@ -57,21 +57,35 @@ def _unwrap_file(
 ) -> int:
     """Read, cut, unwrap, lay out, write, print; return the number of islands that failed."""
     asset = assets.read(source)
-    mesh = asset.mesh
+    results = [_unwrapped(mesh, seams, options, seam_options) for mesh in asset.meshes]
+    charts, mapped, first = [], [], 0
+    for result in results:
+        solved = result.charts.column("status") == "solved"
+        mapped.append((result.chart_of_face >= 0) & solved[result.chart_of_face])
+        charts.append(np.where(mapped[-1], first + result.chart_of_face, -1))
+        first += len(solved)
+    sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in asset.meshes])
+    uv = _layout.on_shelves(
+        np.concatenate([result.uv for result in results]), np.repeat(np.concatenate(charts), sizes), margin
+    )
+    parts = np.split(uv, np.cumsum([len(result.uv) for result in results])[:-1])
+    assets.write(out, asset, [assets.UvMap(*each) for each in zip(parts, mapped)])
+    failed = 0
+    for mesh, result in zip(asset.meshes, results):
+        print(*([mesh.name] if mesh.name else []), _table(result), sep="\n")
+        failed += int((result.charts.column("status") != "solved").sum())
+    print(f"{first - failed} of {first} islands written to {out}")
+    return failed
+
+
+def _unwrapped(mesh: assets.AssetMesh, seams: str, options: Options, seam_options: SeamOptions) -> Unwrap:
     polygons = mesh.vertices, mesh.face_offsets, mesh.corner_vertices
     edges = np.zeros((0, 2), dtype=np.int64)
     if mesh.corner_uv is not None:
         edges = _layout.map_seams(mesh.face_offsets, mesh.corner_vertices, mesh.corner_uv)
     if seams == "suggest":
         edges = np.concatenate([edges, suggest_seams(*polygons, seam_edges=edges, options=seam_options)])
-    result = unwrap(*polygons, seam_edges=edges, options=options)
-    solved = np.array([chart.status == "solved" for chart in result.charts], dtype=bool)
-    mapped = (result.chart_of_face >= 0) & solved[result.chart_of_face]
-    chart = np.repeat(np.where(mapped, result.chart_of_face, -1), np.diff(mesh.face_offsets))
-    assets.write(out, asset, _layout.on_shelves(result.uv, chart, margin), mapped)
-    print(_table(result))
-    print(f"{solved.sum()} of {len(solved)} islands written to {out}")
-    return int((~solved).sum())
+    return unwrap(*polygons, seam_edges=edges, options=options)
 
 
 def _table(result: Unwrap) -> str:

@@ -6,20 +6,27 @@ Own code, since no library that we know keeps what it does not read, or says whi
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-import numpy.typing as npt
-
-from .mesh import Asset, AssetError, AssetMesh
+from .gltf import GltfAsset
+from .mesh import Asset, AssetError, AssetMesh, UvMap
 from .obj import ObjAsset, PlainAsset
 from .off import read_off
 from .ply import PlyAsset
 from .stl import read_stl
 
-__all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "read", "write", "written_as"]
+__all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "UvMap", "read", "write", "written_as"]
 
-_READERS = {".obj": ObjAsset, ".off": read_off, ".ply": PlyAsset, ".stl": read_stl}
+_READERS = {
+    ".glb": GltfAsset,
+    ".gltf": GltfAsset,
+    ".obj": ObjAsset,
+    ".off": read_off,
+    ".ply": PlyAsset,
+    ".stl": read_stl,
+}
+_WITHOUT_UV = (".off", ".stl")
 READABLE = tuple(_READERS)
 
 
@@ -38,35 +45,38 @@ def read(path: Path) -> Asset:
 
 def written_as(path: Path) -> str:
     """Return the suffix, with the dot, that a file gets when UVs are written: its own, if its format holds them."""
-    reader = _READERS.get(path.suffix.lower())
-    return getattr(reader, "suffix", PlainAsset.suffix)
+    suffix = path.suffix.lower()
+    return PlainAsset.suffix if suffix in _WITHOUT_UV else suffix
 
 
-def write(path: Path, asset: Asset, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> None:
-    """Write a file with a UV map, whole or not at all.
+def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> None:
+    """Write an asset with other UV maps, every file of it whole or not at all.
 
-    In the format of the asset all that it had is as it was; an OBJ file of another format has the mesh alone.
+    In its own format all that it had is as it was; an OBJ file of another format has the meshes alone.
 
     Args:
         path: where to, with the asset's suffix or .obj.
         asset: as it was read.
-        uv: (C, 2).
-        mapped: (faces,) faces without a map get no UVs.
+        maps: of each of its meshes.
 
     Raises:
         OSError: it cannot be written, or is not read back as it was written; what lay there is as it was.
     """
     if path.suffix.lower() != asset.suffix:
-        asset = PlainAsset(asset.mesh)
-    content = asset.with_uv(uv, mapped)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+        asset = PlainAsset(asset.meshes)
+    written = {}
     try:
-        with temporary.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        if temporary.read_bytes() != content:
-            raise OSError(f"{path}: what was written cannot be read again; is the disk full or failing?")
-        temporary.replace(path)
+        for target, content in asset.files(path, maps).items():
+            temporary = target.with_name(f".{target.name}.{os.getpid()}")
+            written[temporary] = target
+            with temporary.open("wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            if temporary.read_bytes() != content:
+                raise OSError(f"{target}: what was written cannot be read again; is the disk full or failing?")
+        for temporary, target in written.items():
+            temporary.replace(target)
     finally:
-        temporary.unlink(missing_ok=True)
+        for temporary in written:
+            temporary.unlink(missing_ok=True)

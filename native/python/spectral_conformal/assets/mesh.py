@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -27,23 +27,55 @@ class AssetMesh:
     """(C,)"""
     corner_uv: npt.NDArray[np.float64] | None = None
     """(C, 2), not a number where a corner has none; None where the file has no UV map."""
+    name: str = ""
+    """Of the mesh within its file; empty where that has one alone."""
+
+
+@dataclass(frozen=True)
+class UvMap:
+    """A UV map to be written."""
+
+    uv: npt.NDArray[np.float64]
+    """(C, 2)"""
+    mapped: npt.NDArray[np.bool_]
+    """(faces,) those that have a map."""
 
 
 class Asset(Protocol):
     """A file as it was read."""
 
     suffix: str
-    """Of the files that `with_uv` makes, with the dot."""
-    mesh: AssetMesh
+    """Of the files that are made of it, with the dot: its own, if its format holds UVs."""
+    meshes: Sequence[AssetMesh]
 
-    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the content of a file with a UV map in place of the one that it has.
+    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+        """Return, by path, the content of the files that this asset is with other UV maps.
 
         Args:
-            uv: (C, 2).
-            mapped: (faces,) faces that have a map.
+            out: where the file that names the others, the last one, is to lie.
+            maps: of each mesh.
         """
         ...
+
+
+class OneMeshAsset:
+    """A file of one mesh, and nothing beside it."""
+
+    mesh: AssetMesh
+
+    @property
+    def meshes(self) -> tuple[AssetMesh]:
+        """The mesh."""
+        return (self.mesh,)
+
+    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+        """Return the file with another UV map, by its path."""
+        (uv_map,) = maps
+        return {out: self.with_uv(uv_map.uv, uv_map.mapped)}
+
+    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
+        """Return the content of the file with another UV map; arguments as in `UvMap`."""
+        raise NotImplementedError
 
 
 def checked(path: Path, mesh: AssetMesh) -> AssetMesh:

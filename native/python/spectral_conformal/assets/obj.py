@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import re
 import warnings
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from .edits import Integers, edited, numbered
-from .mesh import AssetError, AssetMesh, checked, offsets_of
+from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
@@ -27,7 +27,7 @@ _KINDS = {b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _R
 _FORMS = {(0, False): (0,), (1, False): (0, 1), (2, True): (0, 2), (2, False): (0, 1, 2)}
 
 
-class ObjAsset:
+class ObjAsset(OneMeshAsset):
     """An OBJ file; the bytes of its statements, and what they say of polygons."""
 
     suffix = ".obj"
@@ -235,26 +235,33 @@ class ObjAsset:
         return index
 
 
-@dataclass(frozen=True)
 class PlainAsset:
-    """A mesh of a format that holds no UVs: written as OBJ."""
+    """Meshes of a format that holds no UVs, or of which another is asked for: written as OBJ."""
 
-    mesh: AssetMesh
     suffix = ".obj"
 
-    def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return an OBJ file; positions and UVs to the last digit."""
-        mesh = self.mesh
-        corner_mapped = np.repeat(mapped, np.diff(mesh.face_offsets))
-        _, different, index = numbered(mesh.corner_vertices[corner_mapped], uv[corner_mapped])
-        numbers = np.zeros(len(uv), dtype=np.int64)
-        numbers[corner_mapped] = 1 + index
-        rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
-        rows += [f"vt {u!r} {v!r}" for u, v in different.tolist()]
-        corners = [f"{v}/{t}" if t else str(v) for v, t in zip((mesh.corner_vertices + 1).tolist(), numbers.tolist())]
-        bounds = zip(mesh.face_offsets[:-1].tolist(), mesh.face_offsets[1:].tolist())
-        rows += [f"f {' '.join(corners[first:last])}" for first, last in bounds]
-        return "".join(f"{row}\n" for row in rows).encode()
+    def __init__(self, meshes: Sequence[AssetMesh]) -> None:
+        """Take the meshes, which become objects where they have names."""
+        self.meshes = meshes
+
+    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+        """Return an OBJ file, by its path; positions and UVs to the last digit."""
+        n_vertices, n_uv, rows = 0, 0, []
+        for mesh, uv_map in zip(self.meshes, maps):
+            corner_mapped = np.repeat(uv_map.mapped, np.diff(mesh.face_offsets))
+            _, different, index = numbered(mesh.corner_vertices[corner_mapped], uv_map.uv[corner_mapped])
+            numbers = np.zeros(len(uv_map.uv), dtype=np.int64)
+            numbers[corner_mapped] = n_uv + 1 + index
+            rows += [f"o {mesh.name}"] if mesh.name else []
+            rows += [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
+            rows += [f"vt {u!r} {v!r}" for u, v in different.tolist()]
+            vertices = (n_vertices + 1 + mesh.corner_vertices).tolist()
+            corners = [f"{v}/{t}" if t else str(v) for v, t in zip(vertices, numbers.tolist())]
+            bounds = zip(mesh.face_offsets[:-1].tolist(), mesh.face_offsets[1:].tolist())
+            rows += [f"f {' '.join(corners[first:last])}" for first, last in bounds]
+            n_vertices += len(mesh.vertices)
+            n_uv += len(different)
+        return {out: "".join(f"{row}\n" for row in rows).encode("utf-8", "surrogateescape")}
 
 
 def _with_number(corner: bytes, number: int) -> bytes:

@@ -51,4 +51,4 @@ def read_off(path: Path) -> PlainAsset:
         sizes.append(size)
         corners += row
     vertices = np.array(positions, dtype=np.float64).reshape(-1, 3)
-    return PlainAsset(checked(path, AssetMesh(vertices, offsets_of(sizes), np.array(corners, dtype=np.int64))))
+    return PlainAsset([checked(path, AssetMesh(vertices, offsets_of(sizes), np.array(corners, dtype=np.int64)))])

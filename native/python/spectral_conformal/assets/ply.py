@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .edits import Integers, edited, numbered
-from .mesh import AssetError, AssetMesh, check_face, checked, numbers, offsets_of
+from .mesh import AssetError, AssetMesh, OneMeshAsset, check_face, checked, numbers, offsets_of
 
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
@@ -72,7 +72,7 @@ class _Element:
         return next((self.properties[name] for name in names if name in self.properties), None)
 
 
-class PlyAsset:
+class PlyAsset(OneMeshAsset):
     """A PLY file, text or binary; its map are the UVs of its faces' corners or, without these, of its vertices."""
 
     suffix = ".ply"

@@ -39,7 +39,7 @@ def read_stl(path: Path) -> PlainAsset:
     rank = np.empty(len(order), dtype=np.int64)
     rank[order] = np.arange(len(order))
     offsets = np.arange(0, len(corners) + 1, 3, dtype=np.int64)
-    return PlainAsset(checked(path, AssetMesh(vertices[order], offsets, rank[corner_vertices.ravel()])))
+    return PlainAsset([checked(path, AssetMesh(vertices[order], offsets, rank[corner_vertices.ravel()]))])
 
 
 def _of_text(path: Path, data: bytes) -> npt.NDArray[np.float64]:

@@ -1,0 +1,455 @@
+"""glTF files, text or binary: geometry is read, UVs are written, all else stays as it is.
+
+The format: "glTF 2.0 Specification", Khronos Group, 2021 (ISO/IEC 12113). What holds no geometry is not looked at; what
+this code does not know of geometry is refused by name.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import struct
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+import numpy.typing as npt
+
+from .edits import Integers, numbered
+from .mesh import AssetError, AssetMesh, UvMap, checked
+
+_Json = dict[str, Any]
+
+_COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_FLOAT, _UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5121, 5123, 5125
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_GLB = b"glTF"
+_JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
+# Geometry that accessors do not tell.
+_COMPRESSED = {
+    "KHR_draco_mesh_compression": "compressed by Draco",
+    "EXT_meshopt_compression": "compressed by meshopt",
+    "KHR_meshopt_compression": "compressed by meshopt",
+}
+_UNTIL_ALIGNED = 4
+
+
+class GltfAsset:
+    """A glTF file: polygons for each of its meshes, triangles joined where they have equal positions."""
+
+    def __init__(self, path: Path, uv_set: int = 0) -> None:
+        """Read the file, and its buffers beside it.
+
+        Args:
+            path: of a .gltf or .glb file.
+            uv_set: n of the TEXCOORD_n that is read and written.
+
+        Raises:
+            AssetError: the content is broken, geometry is compressed, or there is none.
+            OSError: a file cannot be opened.
+        """
+        self._path = path
+        self._name = f"TEXCOORD_{uv_set}"
+        self._chunks: list[tuple[bytes, bytes]] = []
+        self._read(path.read_bytes())
+        self.suffix = ".glb" if self._chunks else ".gltf"
+        self.warnings: list[str] = []
+        try:
+            self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
+        except (KeyError, IndexError, TypeError) as error:
+            raise AssetError(f"{path}: the structure is broken: {type(error).__name__} {error}.") from error
+        self._meshes = [mesh for mesh in self._meshes if mesh.groups]
+        if not self._meshes:
+            raise AssetError(f"{path}: has no triangles; there is nothing to unwrap.")
+        self.meshes = [checked(path, mesh.polygons(self._name)) for mesh in self._meshes]
+
+    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+        """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
+        edit = _Edit(self)
+        for mesh, uv_map in zip(self._meshes, maps):
+            corner = 0
+            for group in mesh.groups:
+                size = len(group.corners)
+                mapped = np.repeat(uv_map.mapped, 3)[corner : corner + size]
+                edit.write_group(group, self._name, uv_map.uv[corner : corner + size], mapped)
+                corner += size
+        return edit.files(out)
+
+    # Reading
+
+    def _read(self, data: bytes) -> None:
+        if data[:4] != _GLB:
+            text = data
+        else:
+            if len(data) < 20 or struct.unpack_from("<I", data, 4)[0] != 2:
+                raise AssetError(f"{self._path}: is no binary glTF of version 2.")
+            at = 12
+            while at + 8 <= len(data):
+                length, kind = struct.unpack_from("<I4s", data, at)
+                if at + 8 + length > len(data):
+                    raise AssetError(f"{self._path}: ends within a chunk; the file is cut off.")
+                self._chunks.append((kind, data[at + 8 : at + 8 + length]))
+                at += 8 + length
+            if not self._chunks or self._chunks[0][0] != _JSON_CHUNK:
+                raise AssetError(f"{self._path}: the first chunk is not JSON.")
+            text = self._chunks[0][1]
+        try:
+            self.text = text.decode("utf-8-sig")
+            self.json: _Json = json.loads(self.text)
+        except ValueError as error:
+            raise AssetError(f"{self._path}: is no JSON: {error}.") from None
+        if not isinstance(self.json, dict):
+            raise AssetError(f"{self._path}: is no glTF, whose JSON is an object.")
+        binary = [content for kind, content in self._chunks[1:] if kind == _BINARY_CHUNK]
+        self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
+
+    def _buffer(self, buffer: _Json, binary: list[bytes]) -> bytes:
+        uri = buffer.get("uri")
+        if uri is None:
+            data = binary[0] if binary else b""
+        elif uri.startswith("data:"):
+            try:
+                data = base64.b64decode(uri.partition(",")[2], validate=True)
+            except binascii.Error as error:
+                raise AssetError(f"{self._path}: a buffer is no base64: {error}.") from None
+        else:
+            data = (self._path.parent / unquote(uri)).read_bytes()
+        if len(data) < buffer.get("byteLength", 0):
+            raise AssetError(f"{self._path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
+        return data
+
+    def array(self, number: int) -> npt.NDArray:
+        """Return what an accessor has, (count, width), in the type in which it is stored."""
+        accessor = self.json["accessors"][number]
+        kind, width = np.dtype(_COMPONENTS[accessor["componentType"]]), _WIDTHS[accessor["type"]]
+        if "bufferView" in accessor:
+            result = self._rows(accessor, accessor["bufferView"], kind, accessor["count"], width).copy()
+        else:
+            result = np.zeros((accessor["count"], width), kind)
+        if sparse := accessor.get("sparse"):
+            indices, values = sparse["indices"], sparse["values"]
+            index_kind = np.dtype(_COMPONENTS[indices["componentType"]])
+            places = self._rows(indices, indices["bufferView"], index_kind, sparse["count"], 1).ravel()
+            if len(places) and places.max() >= len(result):
+                raise AssetError(f"{self._path}: accessor {number} has a value at {places.max()} of {len(result)}.")
+            result[places] = self._rows(values, values["bufferView"], kind, sparse["count"], width)
+        return result
+
+    def _rows(self, place: _Json, view_number: int, kind: np.dtype, count: int, width: int) -> npt.NDArray:
+        view = self.json["bufferViews"][view_number]
+        for name, what in _COMPRESSED.items():
+            if name in view.get("extensions", {}):
+                raise AssetError(f"{self._path}: the geometry is {what}; decompress the file first.")
+        buffer = self.buffers[view["buffer"]]
+        start = view.get("byteOffset", 0) + place.get("byteOffset", 0)
+        row = kind.itemsize * width
+        stride = view.get("byteStride", row)
+        if count < 0 or start + (stride * (count - 1) + row if count else 0) > len(buffer):
+            raise AssetError(f"{self._path}: bufferView {view_number} reaches beyond its buffer.")
+        return np.ndarray((count, width), kind, buffer, start, (stride, kind.itemsize))
+
+    def numbers(self, number: int) -> npt.NDArray[np.float64]:
+        """Return what an accessor means: normalised integers as fractions."""
+        accessor, stored = self.json["accessors"][number], self.array(number)
+        if accessor.get("normalized") and stored.dtype.kind != "f":
+            return np.maximum(stored / np.iinfo(stored.dtype).max, -1.0)
+        return stored.astype(np.float64)
+
+
+class _Group:
+    """The primitives of a mesh that have the same vertices."""
+
+    def __init__(self, asset: GltfAsset, attributes: dict[str, int]) -> None:
+        self.attributes = attributes
+        self.n_rows = asset.json["accessors"][attributes["POSITION"]]["count"]
+        self.primitives: list[_Json] = []
+        self.triangles: list[Integers] = []
+
+    @property
+    def corners(self) -> Integers:
+        """(3 triangles,) the row of each, of all primitives."""
+        return np.concatenate([np.zeros(0, np.int64), *(each.ravel() for each in self.triangles)])
+
+
+class _Mesh:
+    def __init__(self, asset: GltfAsset, number: int, mesh: _Json) -> None:
+        self._asset = asset
+        self.name = mesh.get("name", f"mesh {number}")
+        groups: dict[str, _Group] = {}
+        for primitive in mesh["primitives"]:
+            if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
+                continue
+            for name, what in _COMPRESSED.items():
+                if name in primitive.get("extensions", {}):
+                    raise AssetError(f"{asset._path}: the geometry is {what}; decompress the file first.")
+            if "POSITION" not in primitive["attributes"]:
+                continue
+            key = json.dumps([primitive["attributes"], primitive.get("targets")], sort_keys=True)
+            group = groups.setdefault(key, _Group(asset, primitive["attributes"]))
+            triangles = _triangles(asset, primitive, group.n_rows)
+            if len(triangles):
+                group.primitives.append(primitive)
+                group.triangles.append(triangles)
+        self.groups = [group for group in groups.values() if group.primitives]
+
+    def polygons(self, uv_name: str) -> AssetMesh:
+        """Return the triangles of all groups; the first corner is that of the first group."""
+        positions, corners, uv, has_uv, first_row = [], [], [], False, 0
+        for group in self.groups:
+            positions.append(self._asset.numbers(group.attributes["POSITION"])[:, :3])
+            rows = group.corners
+            corners.append(first_row + rows)
+            first_row += group.n_rows
+            found = group.attributes.get(uv_name)
+            has_uv |= found is not None
+            # The origin of glTF's UVs is at the top.
+            of_rows = (
+                self._asset.numbers(found) * (1, -1) + (0, 1)
+                if found is not None
+                else np.full((group.n_rows, 2), np.nan)
+            )
+            uv.append(of_rows[rows])
+        used = np.concatenate(positions)[np.concatenate(corners)]
+        vertices, first, number = np.unique(used + 0.0, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        rank = np.empty(len(order), dtype=np.int64)
+        rank[order] = np.arange(len(order))
+        offsets = np.arange(0, len(used) + 1, 3, dtype=np.int64)
+        return AssetMesh(
+            vertices[order], offsets, rank[number.ravel()], np.concatenate(uv) if has_uv else None, self.name
+        )
+
+
+def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
+    """Return the triangles of a primitive, (n, 3), in the winding of the first one."""
+    if "indices" in primitive:
+        rows = asset.array(primitive["indices"]).ravel().astype(np.int64)
+    else:
+        rows = np.arange(n_rows, dtype=np.int64)
+    if len(rows) and rows.max() >= n_rows:
+        raise AssetError(f"{asset._path}: an index is {rows.max()}, and there are {n_rows} vertices.")
+    mode = primitive.get("mode", _TRIANGLES)
+    if mode == _TRIANGLES:
+        return rows[: len(rows) // 3 * 3].reshape(-1, 3)
+    if len(rows) < 3:
+        return np.zeros((0, 3), dtype=np.int64)
+    if mode == _FAN:
+        return np.stack([rows[1:-1], rows[2:], np.broadcast_to(rows[0], len(rows) - 2)], axis=1)
+    odd = np.arange(len(rows) - 2) % 2
+    k = np.arange(len(rows) - 2)
+    return np.stack([rows[k], rows[k + 1 + odd], rows[k + 2 - odd]], axis=1)
+
+
+class _Edit:
+    """Another version of a file: accessors with other content, and the buffers without what nothing uses any more."""
+
+    def __init__(self, asset: GltfAsset) -> None:
+        self._asset = asset
+        self._json: _Json = json.loads(asset.text)
+        self._blobs: list[bytes] = []
+        self._n_views = len(self._json.get("bufferViews", []))
+        self._uses = _uses(self._json)
+        self._used_views = set(_view_numbers(self._json))
+        places = [(m, p) for m, mesh in enumerate(asset.json["meshes"]) for p in range(len(mesh["primitives"]))]
+        self._place_of = {id(asset.json["meshes"][m]["primitives"][p]): (m, p) for m, p in places}
+
+    def write_group(self, group: _Group, name: str, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> None:
+        """Give the primitives of a group their UVs, and vertices with several a copy of all that they have for each."""
+        rows = group.corners
+        texels = (uv * (1, -1) + (0, 1)).astype("<f4")
+        of_row, different, index = numbered(rows[mapped], texels[mapped])
+        _, first = np.unique(of_row, return_index=True)
+        is_copy = np.ones(len(of_row), dtype=bool)
+        is_copy[first] = False
+        sources = of_row[is_copy]
+        places = np.where(is_copy, group.n_rows - 1 + np.cumsum(is_copy), of_row)
+        coordinates = np.zeros((group.n_rows + len(sources), 2), "<f4")
+        if name in group.attributes:
+            coordinates[: group.n_rows] = self._asset.numbers(group.attributes[name])
+        coordinates[places] = different
+        primitives = [self._primitive(each) for each in group.primitives]
+        accessor = {"componentType": _FLOAT, "type": "VEC2"}
+        number = self._put(group.attributes.get(name), accessor, coordinates)
+        attributes = {**group.attributes, name: number}
+        targets = group.primitives[0].get("targets")
+        if len(sources):
+            for other, old in group.attributes.items():
+                if other != name:
+                    attributes[other] = self._with_copies(old, sources)
+            if targets:
+                targets = [{key: self._with_copies(old, sources) for key, old in each.items()} for each in targets]
+        new_rows = rows.copy()
+        new_rows[mapped] = places[index]
+        at = 0
+        for primitive, triangles in zip(primitives, group.triangles):
+            primitive["attributes"] = attributes
+            if targets:
+                primitive["targets"] = targets
+            if len(sources):
+                primitive["indices"] = self._put_indices(primitive, new_rows[at : at + triangles.size])
+                primitive.pop("mode", None)
+            at += triangles.size
+
+    def _primitive(self, original: _Json) -> _Json:
+        mesh, place = self._place_of[id(original)]
+        return self._json["meshes"][mesh]["primitives"][place]
+
+    def _with_copies(self, number: int, sources: Integers) -> int:
+        stored = self._asset.array(number)
+        accessor = {
+            k: v
+            for k, v in self._json["accessors"][number].items()
+            if k not in ("bufferView", "byteOffset", "sparse", "count")
+        }
+        return self._put(number, accessor, np.concatenate([stored, stored[sources]]))
+
+    def _put_indices(self, primitive: _Json, rows: Integers) -> int:
+        old = primitive.get("indices")
+        least = self._json["accessors"][old]["componentType"] if old is not None else _UNSIGNED_BYTE
+        # The highest number of a type ends a strip, where that is asked for.
+        kinds = [kind for kind in (_UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT) if kind >= least]
+        kind = next(kind for kind in kinds if rows.max(initial=0) < np.iinfo(_COMPONENTS[kind]).max)
+        accessor = {"componentType": kind, "type": "SCALAR"}
+        return self._put(old, accessor, rows.astype(_COMPONENTS[kind])[:, None], is_vertex=False)
+
+    def _put(self, number: int | None, accessor: _Json, values: npt.NDArray, is_vertex: bool = True) -> int:
+        """Give an accessor another content; a new one where others use it, too. Return its number."""
+        row = values.dtype.itemsize * values.shape[1]
+        view: _Json = {"buffer": 0, "byteLength": 0}
+        if is_vertex and row % 4:
+            padded = np.zeros((len(values), row + -row % 4), np.uint8)
+            padded[:, :row] = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), row)
+            values, view["byteStride"] = padded, padded.shape[1]
+        self._blobs.append(values.tobytes())
+        self._json.setdefault("bufferViews", []).append(view)
+        new = {"bufferView": len(self._json["bufferViews"]) - 1, "count": len(values), **accessor}
+        if number is not None and self._uses.get(number, 0) <= 1:
+            kept = {k: v for k, v in self._json["accessors"][number].items() if k in ("name", "extras")}
+            self._json["accessors"][number] = {**new, **kept}
+            return number
+        if number is not None:
+            self._uses[number] -= 1
+        self._json["accessors"].append(new)
+        return len(self._json["accessors"]) - 1
+
+    # Buffers
+
+    def files(self, out: Path) -> dict[Path, bytes]:
+        views = self._json["bufferViews"]
+        used = set(_view_numbers(self._json))
+        dropped = sorted(self._used_views - used)
+        buffers = [bytearray(each) for each in self._asset.buffers]
+        old = views[: self._n_views]
+        for number, buffer in enumerate(buffers):
+            mine = [(k in dropped, view) for k, view in enumerate(old) if view["buffer"] == number]
+            self._cut(
+                buffer,
+                [view for is_dropped, view in mine if is_dropped],
+                [view for is_dropped, view in mine if not is_dropped],
+            )
+        target = buffers[0]
+        for view, blob in zip(views[self._n_views :], self._blobs):
+            target += bytes(-len(target) % _UNTIL_ALIGNED)
+            view.update(buffer=0, byteOffset=len(target), byteLength=len(blob))
+            target += blob
+        numbers = {old: new for new, old in enumerate(k for k in range(len(views)) if k not in dropped)}
+        _renumber_views(self._json, numbers)
+        self._json["bufferViews"] = [view for k, view in enumerate(views) if k in numbers]
+        for description, buffer in zip(self._json["buffers"], buffers):
+            description["byteLength"] = len(buffer)
+        return self._stored(out, [bytes(buffer) for buffer in buffers])
+
+    def _cut(self, buffer: bytearray, dropped: list[_Json], kept: list[_Json]) -> None:
+        """Take out of a buffer what only dropped views have, in whole words, and move the others."""
+        is_free = np.zeros(len(buffer), dtype=bool)
+        for views, value in ((dropped, True), (kept, False)):
+            for view in views:
+                start = view.get("byteOffset", 0)
+                is_free[start : start + view["byteLength"]] = value
+        words = is_free[: len(buffer) // 4 * 4].reshape(-1, 4).all(axis=1)
+        is_free = np.append(np.repeat(words, 4), np.zeros(len(buffer) % 4, dtype=bool))
+        before = np.append(0, np.cumsum(is_free))
+        for view in kept:
+            if start := view.get("byteOffset", 0):
+                view["byteOffset"] = int(start - before[start])
+        buffer[:] = np.frombuffer(bytes(buffer), np.uint8)[~is_free].tobytes()
+
+    def _stored(self, out: Path, buffers: list[bytes]) -> dict[Path, bytes]:
+        files: dict[Path, bytes] = {}
+        binary = b""
+        for number, (description, content) in enumerate(zip(self._json["buffers"], buffers)):
+            uri = description.get("uri")
+            if uri is None:
+                binary = content
+            elif uri.startswith("data:"):
+                description["uri"] = f"{uri.partition(',')[0]},{base64.b64encode(content).decode()}"
+            elif content != self._asset.buffers[number]:
+                name = f"{out.stem}.bin" if number == 0 else f"{out.stem}_{number}.bin"
+                description["uri"] = name
+                files[out.parent / name] = content
+        if not self._asset._chunks:
+            second = self._asset.text.partition("\n")[2]
+            indent = second[: len(second) - len(second.lstrip(" \t"))] or None
+            files[out] = json.dumps(self._json, ensure_ascii=False, indent=indent).encode()
+            return files
+        text = json.dumps(self._json, ensure_ascii=False, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        binary += bytes(-len(binary) % 4)
+        others = [chunk for chunk in self._asset._chunks[1:] if chunk[0] != _BINARY_CHUNK]
+        chunks = [(_JSON_CHUNK, text), *([(_BINARY_CHUNK, binary)] if binary else []), *others]
+        body = b"".join(struct.pack("<I4s", len(content), kind) + content for kind, content in chunks)
+        files[out] = _GLB + struct.pack("<II", 2, 12 + len(body)) + body
+        return files
+
+
+def _uses(document: _Json) -> dict[int, int]:
+    """Return how many places use each accessor."""
+    result: dict[int, int] = {}
+    seen = set()
+    for m, mesh in enumerate(document.get("meshes", [])):
+        for primitive in mesh["primitives"]:
+            sets = [primitive["attributes"], *primitive.get("targets", [])]
+            # Primitives that have all of their vertices in common are one use.
+            key = (m, json.dumps(sets, sort_keys=True))
+            numbers = [] if key in seen else [number for each in sets for number in each.values()]
+            seen.add(key)
+            for number in (*numbers, *([primitive["indices"]] if "indices" in primitive else [])):
+                result[number] = result.get(number, 0) + 1
+    others = [skin.get("inverseBindMatrices") for skin in document.get("skins", [])]
+    for animation in document.get("animations", []):
+        others += [sampler[key] for sampler in animation["samplers"] for key in ("input", "output")]
+    for node in document.get("nodes", []):
+        others += node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {}).values()
+    for number in others:
+        if number is not None:
+            result[number] = result.get(number, 0) + 1
+    return result
+
+
+def _view_numbers(part: object) -> Iterator[int]:
+    """Give the number of every view that a part of the document names, in extensions, too."""
+    if isinstance(part, dict):
+        for key, value in part.items():
+            if key == "bufferView" and isinstance(value, int):
+                yield value
+            else:
+                yield from _view_numbers(value)
+    elif isinstance(part, list):
+        for each in part:
+            yield from _view_numbers(each)
+
+
+def _renumber_views(part: object, numbers: dict[int, int]) -> None:
+    if isinstance(part, dict):
+        for key, value in part.items():
+            if key == "bufferView" and isinstance(value, int):
+                part[key] = numbers[value]
+            else:
+                _renumber_views(value, numbers)
+    elif isinstance(part, list):
+        for each in part:
+            _renumber_views(each, numbers)
