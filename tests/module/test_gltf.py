@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""glTF files with all that they may hold: every other thing is after writing UVs what it was before."""
+
+import base64
+import copy
+import itertools
+import json
+import struct
+
+import numpy as np
+import pytest
+from spectral_conformal import assets
+
+COMPONENTS = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
+WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+PICTURE = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNgAAAAAgABSK+kcQAAAABJRU5ErkJggg=="
+)
+
+
+class Builder:
+    """A document and its buffer."""
+
+    def __init__(self):
+        self.json = {"asset": {"version": "2.0", "generator": "tests"}, "accessors": [], "bufferViews": []}
+        self.buffer = b""
+
+    def view(self, data, **more):
+        self.buffer += bytes(-len(self.buffer) % 4)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), **more})
+        self.buffer += data
+        return len(self.json["bufferViews"]) - 1
+
+    def accessor(self, values, kind="f4", view=None, offset=0, **more):
+        values = np.atleast_2d(np.asarray(values, "<" + kind))
+        if view is None:
+            view = self.view(values.tobytes())
+        new = {"componentType": COMPONENTS[kind], "count": len(values), "type": WIDTHS[values.shape[1]], **more}
+        self.json["accessors"].append({"bufferView": view, **({"byteOffset": offset} if offset else {}), **new})
+        return len(self.json["accessors"]) - 1
+
+
+def grid(n):
+    """(n + 1)^2 vertices of a bumpy sheet, and its triangles."""
+    u, v = np.divmod(np.arange((n + 1) ** 2), n + 1)
+    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    triangles = np.r_[np.c_[k, k + n + 1, k + n + 2], np.c_[k, k + n + 2, k + 1]]
+    return np.c_[u, v, np.sin(u) * np.cos(v) / 3].astype("f4"), triangles
+
+
+def everything():
+    """All that a file may have beside its geometry, and geometry in all its ways."""
+    build, rng = Builder(), np.random.default_rng(0)
+    places, triangles = grid(4)
+    n = len(places)
+    normals = rng.normal(size=(n, 3)).astype("f4")
+    # Positions and normals side by side, and colours of three bytes in rows of four.
+    woven = build.view(np.c_[places, normals].astype("<f4").tobytes(), byteStride=24)
+    colours = build.view(np.c_[rng.integers(0, 255, (n, 3)), np.zeros(n)].astype("u1").tobytes(), byteStride=4)
+    attributes = {
+        "POSITION": build.accessor(places, view=woven, min=places.min(0).tolist(), max=places.max(0).tolist()),
+        "NORMAL": build.accessor(normals, view=woven, offset=12),
+        "COLOR_0": build.accessor(np.zeros((n, 3)), "u1", view=colours, normalized=True),
+        "TEXCOORD_0": build.accessor(rng.random((n, 2))),
+        "TEXCOORD_1": build.accessor(rng.integers(0, 65535, (n, 2)), "u2", normalized=True),
+        "JOINTS_0": build.accessor(rng.integers(0, 2, (n, 4)), "u1"),
+        "WEIGHTS_0": build.accessor(rng.random((n, 4))),
+        "_FEATURE_ID_0": build.accessor(np.arange(n)[:, None]),
+    }
+    moved = build.accessor(rng.random((n, 3)), name="moved", extras={"kept": True})
+    # Zeros, but for two.
+    indices, values = build.view(np.array([3, 7], "<u2").tobytes()), build.view(np.ones((2, 3), "<f4").tobytes())
+    sparse = {"indices": {"bufferView": indices, "componentType": 5123}, "values": {"bufferView": values}, "count": 2}
+    build.json["accessors"].append({"componentType": 5126, "count": n, "type": "VEC3", "sparse": sparse})
+    targets = [{"POSITION": moved, "NORMAL": len(build.json["accessors"]) - 1}]
+    half = len(triangles) // 2
+    strip, fan = np.arange(6)[:, None], np.array([0, 1, 2, 3, 4])[:, None]
+    flat = np.array([(0, 0, 5), (0, 1, 5), (1, 0, 5), (1, 1, 5), (2, 0, 5), (2, 1, 5)], "f4")
+    round_ = np.array([(9, 0, 0), (10, 0, 0), (10, 1, 0), (9, 1, 0.5), (8, 1, 0)], "f4")
+    lines = build.accessor(rng.random((4, 3)))
+    shared = {"attributes": attributes, "targets": targets}
+    parts = [
+        {**shared, "material": k, "extras": {"part": k}, "indices": build.accessor(each.reshape(-1, 1), "u1")}
+        for k, each in enumerate([triangles[:half], triangles[half:]])
+    ]
+    again = {"attributes": {**attributes}, "indices": build.accessor(triangles.reshape(-1, 1), "u4")}
+    strips = [{"attributes": {"POSITION": build.accessor(places)}, "mode": 5} for places in (flat, flat + 3)]
+    strips[1]["indices"] = build.accessor(strip, "u1")
+    rays = {"attributes": {"POSITION": build.accessor(round_)}, "mode": 6, "indices": build.accessor(fan, "u2")}
+    sampler = {"input": build.accessor([[0], [1]]), "output": build.accessor(np.ones((2, 3)))}
+    build.json |= {
+        "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_variants", "VENDOR_unknown"],
+        "extensions": {
+            "KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 543.5141306588226}]},
+            "VENDOR_unknown": {"blob": {"bufferView": build.view(b"of a vendor")}, "text": "ä #1"},
+        },
+        "images": [{"bufferView": build.view(PICTURE), "mimeType": "image/png"}],
+        "textures": [{"source": 0}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}}}, {"name": "second"}],
+        "meshes": [
+            {
+                "name": "sheet",
+                "extras": {"targetNames": ["moved"]},
+                "weights": [0.25],
+                "primitives": [*parts, {"attributes": {"POSITION": lines}, "mode": 1}],
+            },
+            {"primitives": [strips[0]]},
+            {"name": "fan", "primitives": [rays]},
+            {"name": "again", "primitives": [again]},
+            {"name": "strip", "primitives": [strips[1]]},
+        ],
+        "skins": [{"joints": [1, 2], "inverseBindMatrices": build.accessor(np.tile(np.eye(4).ravel(), (2, 1)))}],
+        "nodes": [
+            {"mesh": 0, "skin": 0, "scale": [2, 2, 2]},
+            {"name": "a"},
+            {"name": "b"},
+            *({"mesh": mesh} for mesh in (1, 2, 1, 3, 4)),
+            {"camera": 0},
+            {"extensions": {"KHR_lights_punctual": {"light": 0}}},
+        ],
+        "scenes": [{"nodes": list(range(10))}],
+        "scene": 0,
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}],
+        "animations": [
+            {"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}], "samplers": [sampler]}
+        ],
+    }
+    build.json["buffers"] = [{"byteLength": len(build.buffer), "extras": "mine"}]
+    return build
+
+
+def save(path, build, how="glb"):
+    document = copy.deepcopy(build.json)
+    if how == "glb":
+        text = json.dumps(document, ensure_ascii=False).encode()
+        text += b" " * (-len(text) % 4)
+        data = build.buffer + bytes(-len(build.buffer) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        chunks += struct.pack("<I4s", 4, b"MINE") + b"keep"
+        path.write_bytes(b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks)
+        return path
+    if how == "embedded":
+        document["buffers"][0]["uri"] = (
+            "data:application/octet-stream;base64," + base64.b64encode(build.buffer).decode()
+        )
+    else:
+        document["buffers"][0]["uri"] = "my%20data.bin"
+        (path.parent / "my data.bin").write_bytes(build.buffer)
+    path.write_text(json.dumps(document, indent=2, ensure_ascii=False), encoding="utf-8")
+    return path
+
+
+def load(path):
+    """Return the document, its buffers and all other chunks."""
+    data = path.read_bytes()
+    if data[:4] != b"glTF":
+        document = json.loads(data)
+        buffers = []
+        for buffer in document["buffers"]:
+            uri = buffer["uri"]
+            is_data = uri.startswith("data:")
+            buffers.append(
+                base64.b64decode(uri.split(",")[1]) if is_data else (path.parent / uri.replace("%20", " ")).read_bytes()
+            )
+        return document, buffers, []
+    assert struct.unpack_from("<II", data, 4) == (2, len(data))
+    chunks, at = [], 12
+    while at < len(data):
+        length, kind = struct.unpack_from("<I4s", data, at)
+        assert length % 4 == 0
+        chunks.append((kind, data[at + 8 : at + 8 + length]))
+        at += 8 + length
+    return json.loads(chunks[0][1]), [chunks[1][1]], chunks[2:]
+
+
+def values(document, buffers, number):
+    """Read an accessor value by value."""
+    accessor = document["accessors"][number]
+    kind = next(name for name, code in COMPONENTS.items() if code == accessor["componentType"])
+    width = next(w for w, name in WIDTHS.items() if name == accessor["type"])
+
+    def read(place, count, kind, width):
+        view = document["bufferViews"][place["bufferView"]]
+        size = np.dtype(kind).itemsize
+        start = view.get("byteOffset", 0) + place.get("byteOffset", 0)
+        stride = view.get("byteStride", size * width)
+        assert (
+            start % size == 0 and place.get("byteOffset", 0) + stride * (count - 1) + size * width <= view["byteLength"]
+        )
+        rows = [buffers[view["buffer"]][start + k * stride :][: size * width] for k in range(count)]
+        return np.array([np.frombuffer(row, "<" + kind) for row in rows])
+
+    found = (
+        read(accessor, accessor["count"], kind, width)
+        if "bufferView" in accessor
+        else np.zeros((accessor["count"], width))
+    )
+    if sparse := accessor.get("sparse"):
+        index = next(name for name, code in COMPONENTS.items() if code == sparse["indices"]["componentType"])
+        found[read(sparse["indices"], sparse["count"], index, 1).ravel()] = read(
+            sparse["values"], sparse["count"], kind, width
+        )
+    if "min" in accessor:
+        assert np.allclose(found.min(0), accessor["min"]) and np.allclose(found.max(0), accessor["max"])
+    return found
+
+
+def corners_of(document, buffers, primitive):
+    """Return the rows of the corners of a primitive, triangle by triangle, or of its points and lines."""
+    count = document["accessors"][primitive["attributes"]["POSITION"]]["count"]
+    rows = (
+        values(document, buffers, primitive["indices"]).ravel().astype(int)
+        if "indices" in primitive
+        else np.arange(count)
+    )
+    mode = primitive.get("mode", 4)
+    if mode == 5:
+        turned = [(a, b, c) if k % 2 == 0 else (a, c, b) for k, (a, b, c) in enumerate(zip(rows, rows[1:], rows[2:]))]
+        return np.array(turned).ravel()
+    if mode == 6:
+        return np.array([(b, c, rows[0]) for b, c in itertools.pairwise(rows[1:])]).ravel()
+    return rows
+
+
+def meaning(path, without="TEXCOORD_0"):
+    """Return all that a file says but for one UV set: what indices stand for, and corners without vertices."""
+    document, buffers, others = load(path)
+    for mesh in document["meshes"]:
+        for primitive in mesh["primitives"]:
+            rows = corners_of(document, buffers, primitive)
+            is_kept = primitive.get("mode", 4) < 4
+            for each in [primitive["attributes"], *primitive.get("targets", [])]:
+                for name, number in each.items():
+                    about = document["accessors"][number]
+                    told = [
+                        about["componentType"],
+                        about["type"],
+                        about.get("normalized"),
+                        about.get("name"),
+                        about.get("extras"),
+                    ]
+                    each[name] = [*told, values(document, buffers, number)[rows].tolist()]
+                each.pop(without, None)
+            primitive.pop("indices", None)
+            if not is_kept:
+                primitive.pop("mode", None)
+    for skin in document.get("skins", []):
+        skin["inverseBindMatrices"] = values(document, buffers, skin["inverseBindMatrices"]).tolist()
+    for animation in document.get("animations", []):
+        for sampler in animation["samplers"]:
+            for key in ("input", "output"):
+                sampler[key] = values(document, buffers, sampler[key]).tolist()
+
+    def resolved(part):
+        if isinstance(part, dict):
+            return {k: view_bytes(v) if k == "bufferView" else resolved(v) for k, v in part.items()}
+        return [resolved(each) for each in part] if isinstance(part, list) else part
+
+    def view_bytes(number):
+        view = document["bufferViews"][number]
+        start = view.get("byteOffset", 0)
+        return buffers[view["buffer"]][start : start + view["byteLength"]]
+
+    sizes = [len(buffer) for buffer in buffers]
+    assert all(
+        description.pop("byteLength") in (size, size - 1, size - 2, size - 3)
+        for description, size in zip(document["buffers"], sizes)
+    )
+    for buffer in document["buffers"]:
+        buffer.pop("uri", None)
+    return {k: resolved(v) for k, v in document.items() if k not in ("accessors", "bufferViews")}, others
+
+
+def seams_and_uv(asset):
+    """Return for each mesh a map that is torn between some of its faces."""
+    rng, result = np.random.default_rng(5), []
+    for mesh in asset.meshes:
+        uv = mesh.vertices[mesh.corner_vertices][:, :2] / 16
+        uv[: len(uv) // 2] += 0.25
+        uv[-3:] = rng.random((3, 2))
+        result.append(assets.UvMap(uv.astype("f4").astype(float), np.ones(len(mesh.face_offsets) - 1, bool)))
+    return result
+
+
+@pytest.mark.parametrize("how", ["glb", "embedded", "beside"])
+def test_all_else_is_as_it_was(how, tmp_path):
+    path = save(tmp_path / f"m.{'glb' if how == 'glb' else 'gltf'}", everything(), how)
+    asset = assets.read(path)
+    assert [mesh.name for mesh in asset.meshes] == ["sheet", "mesh 1", "fan", "again", "strip"]
+    assert [len(mesh.vertices) for mesh in asset.meshes] == [25, 6, 5, 25, 6]
+    maps = seams_and_uv(asset)
+    new = tmp_path / f"new{asset.suffix}"
+    assets.write(new, asset, maps)
+    assert meaning(new) == meaning(path)
+    for mesh, uv_map in zip(assets.read(new).meshes, maps):
+        assert np.abs(mesh.corner_uv - uv_map.uv).max() < 1e-6
+    # What nothing uses any more is gone: another map needs as many bytes.
+    again = tmp_path / f"again{asset.suffix}"
+    assets.write(again, assets.read(new), maps)
+    assert len(load(again)[1][0]) == len(load(new)[1][0])
+    assert meaning(again) == meaning(path)
+    if how == "beside":
+        assert (tmp_path / "my data.bin").read_bytes() == everything().buffer
