@@ -301,3 +301,118 @@ def test_all_else_is_as_it_was(how, tmp_path):
     assert meaning(again) == meaning(path)
     if how == "beside":
         assert (tmp_path / "my data.bin").read_bytes() == everything().buffer
+
+
+def with_normal_texture(uv_set):
+    """A sphere's part with normals and tangents, and a texture of normals."""
+    build = Builder()
+    places, triangles = grid(6)
+    places[:, 2] = np.sqrt(1000 - ((places[:, :2] - 3) ** 2).sum(axis=1))
+    normals = places - (3, 3, 0)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    attributes = {
+        "POSITION": build.accessor(places), "NORMAL": build.accessor(normals),
+        "TANGENT": build.accessor(np.tile([1, 0, 0, 1], (len(places), 1))), "TEXCOORD_0": build.accessor(places[:, :2]),
+    }  # fmt: skip
+    indices = build.accessor(triangles.reshape(-1, 1), "u2")
+    build.json |= {
+        "images": [{"bufferView": build.view(PICTURE), "mimeType": "image/png"}],
+        "textures": [{"source": 0}],
+        "materials": [{"normalTexture": {"index": 0, "texCoord": uv_set}}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
+        "nodes": [{"mesh": 0}],
+        "buffers": [{"byteLength": len(build.buffer)}],
+    }
+    return build
+
+
+def test_tangents_are_those_of_the_map_that_their_texture_uses(tmp_path):
+    for uv_set in (0, 1):
+        path = save(tmp_path / "m.glb", with_normal_texture(uv_set))
+        asset = assets.read(path)
+        (mesh,) = asset.meshes
+        # u grows with y, v against x; the second half is mirrored, and apart.
+        uv = mesh.vertices[mesh.corner_vertices][:, [1, 0]] * (0.1, -0.1)
+        mirrored = np.arange(len(uv)) >= 3 * (len(uv) // 6)
+        uv[mirrored] = uv[mirrored] * (-1, 1) + 3
+        assets.write(tmp_path / "new.glb", asset, [assets.UvMap(uv, np.ones(len(uv) // 3, bool))])
+        assert len(asset.warnings) == (1 - uv_set)
+        document, buffers, _ = load(tmp_path / "new.glb")
+        (primitive,) = document["meshes"][0]["primitives"]
+        rows = corners_of(document, buffers, primitive)
+        tangents, normals = (
+            values(document, buffers, primitive["attributes"][name])[rows] for name in ("TANGENT", "NORMAL")
+        )
+        if uv_set == 1:
+            assert (tangents == [1, 0, 0, 1]).all()
+            continue
+        expected = np.where(mirrored[:, None], -1, 1) * [0, 1, 0] - 0 * normals
+        expected -= normals * (expected * normals).sum(axis=1)[:, None]
+        expected /= np.linalg.norm(expected, axis=1)[:, None]
+        # Triangles on one side of a vertex: two degrees.
+        assert (expected * tangents[:, :3]).sum(axis=1).min() > np.cos(np.radians(2))
+        assert np.abs((normals * tangents[:, :3]).sum(axis=1)).max() < 1e-6
+        # v grows against x, where y to the right has it: the normal times the tangent.
+        assert (tangents[:, 3] == np.where(mirrored, -1, 1)).all()
+
+
+def broken(name):
+    """Return the content of a file with one fault."""
+    build = everything()
+    document = build.json
+    first = document["meshes"][0]["primitives"][0]
+    if name == "index":
+        document["accessors"][first["indices"]]["componentType"] = 5126
+    elif name == "reaches beyond":
+        document["accessors"][first["attributes"]["POSITION"]]["count"] = 10**6
+    elif name == "no triangles":
+        for mesh in document["meshes"]:
+            for primitive in mesh["primitives"]:
+                primitive["mode"] = 1
+    elif name == "draco":
+        first["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
+    elif name == "meshopt":
+        document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0}}
+    elif name == "accessor":
+        first["attributes"]["POSITION"] = 999
+    elif name == "not finite":
+        build.buffer = np.full(len(build.buffer) // 4, np.nan, "f4").tobytes()
+    return build
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("index", "indices are no unsigned integers"),
+        ("reaches beyond", "bufferView 0 reaches beyond its buffer"),
+        ("no triangles", "has no triangles"),
+        ("draco", "the geometry is compressed by Draco; decompress the file first"),
+        ("meshopt", "the geometry is compressed by meshopt; decompress the file first"),
+        ("accessor", "structure is not that of glTF 2.0: IndexError"),
+        ("not finite", "the position of vertex 1 is not finite|an index is"),
+    ],
+)
+def test_a_broken_file_is_named(name, said, tmp_path):
+    path = save(tmp_path / "m.glb", broken(name))
+    with pytest.raises(assets.AssetError, match=f"m.glb.*({said})"):
+        assets.read(path)
+
+
+def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
+    whole = save(tmp_path / "m.glb", everything()).read_bytes()
+    for content, said in (
+        (whole[:-100], "cut off"),
+        (whole[:12], "no binary glTF"),
+        (b"glTF" + struct.pack("<II", 1, 20) + whole[12:], "no binary glTF of version 2"),
+        (b"{", "is no JSON"),
+        (b"[]", "is no glTF"),
+        (b"\xff\xfe", "is no JSON"),
+    ):
+        path = tmp_path / "cut.glb"
+        path.write_bytes(content)
+        with pytest.raises(assets.AssetError, match=said):
+            assets.read(path)
+    alone = save(tmp_path / "m.gltf", everything(), "beside")
+    (tmp_path / "my data.bin").unlink()
+    with pytest.raises(FileNotFoundError, match="my data.bin"):
+        assets.read(alone)

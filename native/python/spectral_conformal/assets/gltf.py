@@ -11,6 +11,7 @@ import binascii
 import json
 import struct
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -52,32 +53,43 @@ class GltfAsset:
             AssetError: the content is broken, geometry is compressed, or there is none.
             OSError: a file cannot be opened.
         """
-        self._path = path
+        self.path = path
         self._name = f"TEXCOORD_{uv_set}"
-        self._chunks: list[tuple[bytes, bytes]] = []
+        self.chunks: list[tuple[bytes, bytes]] = []
         self._read(path.read_bytes())
-        self.suffix = ".glb" if self._chunks else ".gltf"
+        self.suffix = ".glb" if self.chunks else ".gltf"
         self.warnings: list[str] = []
-        try:
+        with self._structure():
             self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
-        except (KeyError, IndexError, TypeError) as error:
-            raise AssetError(f"{path}: the structure is broken: {type(error).__name__} {error}.") from error
-        self._meshes = [mesh for mesh in self._meshes if mesh.groups]
-        if not self._meshes:
+            self._meshes = [mesh for mesh in self._meshes if mesh.groups]
+            polygons = [mesh.polygons(self._name) for mesh in self._meshes]
+        if not polygons:
             raise AssetError(f"{path}: has no triangles; there is nothing to unwrap.")
-        self.meshes = [checked(path, mesh.polygons(self._name)) for mesh in self._meshes]
+        self.meshes = [checked(path, mesh) for mesh in polygons]
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
-        edit = _Edit(self)
-        for mesh, uv_map in zip(self._meshes, maps):
-            corner = 0
-            for group in mesh.groups:
-                size = len(group.corners)
-                mapped = np.repeat(uv_map.mapped, 3)[corner : corner + size]
-                edit.write_group(group, self._name, uv_map.uv[corner : corner + size], mapped)
-                corner += size
-        return edit.files(out)
+        with self._structure():
+            edit = _Edit(self)
+            for mesh, uv_map in zip(self._meshes, maps):
+                corner = 0
+                for group in mesh.groups:
+                    size = len(group.corners)
+                    mapped = np.repeat(uv_map.mapped, 3)[corner : corner + size]
+                    edit.write_group(group, self._name, uv_map.uv[corner : corner + size], mapped)
+                    corner += size
+            return edit.files(out)
+
+    @contextmanager
+    def _structure(self) -> Iterator[None]:
+        """Say of what is not where the format has it that the file is broken."""
+        try:
+            yield
+        except AssetError:
+            raise
+        except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
+            told = f"{type(error).__name__} {error}"
+            raise AssetError(f"{self.path}: the structure is not that of glTF 2.0: {told}.") from error
 
     # Reading
 
@@ -86,26 +98,27 @@ class GltfAsset:
             text = data
         else:
             if len(data) < 20 or struct.unpack_from("<I", data, 4)[0] != 2:
-                raise AssetError(f"{self._path}: is no binary glTF of version 2.")
+                raise AssetError(f"{self.path}: is no binary glTF of version 2.")
             at = 12
             while at + 8 <= len(data):
                 length, kind = struct.unpack_from("<I4s", data, at)
                 if at + 8 + length > len(data):
-                    raise AssetError(f"{self._path}: ends within a chunk; the file is cut off.")
-                self._chunks.append((kind, data[at + 8 : at + 8 + length]))
+                    raise AssetError(f"{self.path}: ends within a chunk; the file is cut off.")
+                self.chunks.append((kind, data[at + 8 : at + 8 + length]))
                 at += 8 + length
-            if not self._chunks or self._chunks[0][0] != _JSON_CHUNK:
-                raise AssetError(f"{self._path}: the first chunk is not JSON.")
-            text = self._chunks[0][1]
+            if not self.chunks or self.chunks[0][0] != _JSON_CHUNK:
+                raise AssetError(f"{self.path}: the first chunk is not JSON.")
+            text = self.chunks[0][1]
         try:
             self.text = text.decode("utf-8-sig")
             self.json: _Json = json.loads(self.text)
         except ValueError as error:
-            raise AssetError(f"{self._path}: is no JSON: {error}.") from None
+            raise AssetError(f"{self.path}: is no JSON: {error}.") from None
         if not isinstance(self.json, dict):
-            raise AssetError(f"{self._path}: is no glTF, whose JSON is an object.")
-        binary = [content for kind, content in self._chunks[1:] if kind == _BINARY_CHUNK]
-        self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
+            raise AssetError(f"{self.path}: is no glTF, whose JSON is an object.")
+        binary = [content for kind, content in self.chunks[1:] if kind == _BINARY_CHUNK]
+        with self._structure():
+            self.buffers = [self._buffer(each, binary) for each in self.json.get("buffers", [])]
 
     def _buffer(self, buffer: _Json, binary: list[bytes]) -> bytes:
         uri = buffer.get("uri")
@@ -115,11 +128,11 @@ class GltfAsset:
             try:
                 data = base64.b64decode(uri.partition(",")[2], validate=True)
             except binascii.Error as error:
-                raise AssetError(f"{self._path}: a buffer is no base64: {error}.") from None
+                raise AssetError(f"{self.path}: a buffer is no base64: {error}.") from None
         else:
-            data = (self._path.parent / unquote(uri)).read_bytes()
+            data = (self.path.parent / unquote(uri)).read_bytes()
         if len(data) < buffer.get("byteLength", 0):
-            raise AssetError(f"{self._path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
+            raise AssetError(f"{self.path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
         return data
 
     def array(self, number: int) -> npt.NDArray:
@@ -135,7 +148,7 @@ class GltfAsset:
             index_kind = np.dtype(_COMPONENTS[indices["componentType"]])
             places = self._rows(indices, indices["bufferView"], index_kind, sparse["count"], 1).ravel()
             if len(places) and places.max() >= len(result):
-                raise AssetError(f"{self._path}: accessor {number} has a value at {places.max()} of {len(result)}.")
+                raise AssetError(f"{self.path}: accessor {number} has a value at {places.max()} of {len(result)}.")
             result[places] = self._rows(values, values["bufferView"], kind, sparse["count"], width)
         return result
 
@@ -143,13 +156,13 @@ class GltfAsset:
         view = self.json["bufferViews"][view_number]
         for name, what in _COMPRESSED.items():
             if name in view.get("extensions", {}):
-                raise AssetError(f"{self._path}: the geometry is {what}; decompress the file first.")
+                raise AssetError(f"{self.path}: the geometry is {what}; decompress the file first.")
         buffer = self.buffers[view["buffer"]]
         start = view.get("byteOffset", 0) + place.get("byteOffset", 0)
         row = kind.itemsize * width
         stride = view.get("byteStride", row)
         if count < 0 or start + (stride * (count - 1) + row if count else 0) > len(buffer):
-            raise AssetError(f"{self._path}: bufferView {view_number} reaches beyond its buffer.")
+            raise AssetError(f"{self.path}: bufferView {view_number} reaches beyond its buffer.")
         return np.ndarray((count, width), kind, buffer, start, (stride, kind.itemsize))
 
     def numbers(self, number: int) -> npt.NDArray[np.float64]:
@@ -185,7 +198,7 @@ class _Mesh:
                 continue
             for name, what in _COMPRESSED.items():
                 if name in primitive.get("extensions", {}):
-                    raise AssetError(f"{asset._path}: the geometry is {what}; decompress the file first.")
+                    raise AssetError(f"{asset.path}: the geometry is {what}; decompress the file first.")
             if "POSITION" not in primitive["attributes"]:
                 continue
             key = json.dumps([primitive["attributes"], primitive.get("targets")], sort_keys=True)
@@ -227,11 +240,14 @@ class _Mesh:
 def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
     """Return the triangles of a primitive, (n, 3), in the winding of the first one."""
     if "indices" in primitive:
-        rows = asset.array(primitive["indices"]).ravel().astype(np.int64)
+        stored = asset.array(primitive["indices"])
+        if stored.dtype.kind != "u" or stored.shape[1] != 1:
+            raise AssetError(f"{asset.path}: the indices are no unsigned integers.")
+        rows = stored.ravel().astype(np.int64)
     else:
         rows = np.arange(n_rows, dtype=np.int64)
     if len(rows) and rows.max() >= n_rows:
-        raise AssetError(f"{asset._path}: an index is {rows.max()}, and there are {n_rows} vertices.")
+        raise AssetError(f"{asset.path}: an index is {rows.max()}, and there are {n_rows} vertices.")
     mode = primitive.get("mode", _TRIANGLES)
     if mode == _TRIANGLES:
         return rows[: len(rows) // 3 * 3].reshape(-1, 3)
@@ -276,14 +292,22 @@ class _Edit:
         number = self._put(group.attributes.get(name), accessor, coordinates)
         attributes = {**group.attributes, name: number}
         targets = group.primitives[0].get("targets")
+        bends_light = any(self._bends_light(each, name) for each in group.primitives)
+        replaced = {name, "TANGENT"} if bends_light else {name}
         if len(sources):
-            for other, old in group.attributes.items():
-                if other != name:
-                    attributes[other] = self._with_copies(old, sources)
+            for other in attributes.keys() - replaced:
+                attributes[other] = self._with_copies(attributes[other], sources)
             if targets:
                 targets = [{key: self._with_copies(old, sources) for key, old in each.items()} for each in targets]
         new_rows = rows.copy()
         new_rows[mapped] = places[index]
+        if bends_light:
+            vertices = [self._asset.numbers(group.attributes[key]) for key in ("POSITION", "NORMAL")]
+            vertices = [np.concatenate([each, each[sources]]) for each in vertices]
+            tangents = tangents_of(*vertices, coordinates * (1, -1), new_rows.reshape(-1, 3)).astype("<f4")
+            accessor = {"componentType": _FLOAT, "type": "VEC4"}
+            attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, tangents)
+            self._asset.warnings.append("Tangents belonged to the map that was replaced: they were computed again.")
         at = 0
         for primitive, triangles in zip(primitives, group.triangles):
             primitive["attributes"] = attributes
@@ -293,6 +317,14 @@ class _Edit:
                 primitive["indices"] = self._put_indices(primitive, new_rows[at : at + triangles.size])
                 primitive.pop("mode", None)
             at += triangles.size
+
+    def _bends_light(self, primitive: _Json, name: str) -> bool:
+        """Return whether a primitive has tangents that belong to this UV set: where its texture of normals is."""
+        if not {"TANGENT", "NORMAL"} <= primitive["attributes"].keys():
+            return False
+        material = self._json["materials"][primitive["material"]] if "material" in primitive else {}
+        normals = material.get("normalTexture")
+        return normals is not None and name == f"TEXCOORD_{normals.get('texCoord', 0)}"
 
     def _primitive(self, original: _Json) -> _Json:
         mesh, place = self._place_of[id(original)]
@@ -327,7 +359,7 @@ class _Edit:
         self._blobs.append(values.tobytes())
         self._json.setdefault("bufferViews", []).append(view)
         new = {"bufferView": len(self._json["bufferViews"]) - 1, "count": len(values), **accessor}
-        if number is not None and self._uses.get(number, 0) <= 1:
+        if number is not None and self._uses.get(number, 1) == 1:
             kept = {k: v for k, v in self._json["accessors"][number].items() if k in ("name", "extras")}
             self._json["accessors"][number] = {**new, **kept}
             return number
@@ -391,7 +423,7 @@ class _Edit:
                 name = f"{out.stem}.bin" if number == 0 else f"{out.stem}_{number}.bin"
                 description["uri"] = name
                 files[out.parent / name] = content
-        if not self._asset._chunks:
+        if not self._asset.chunks:
             second = self._asset.text.partition("\n")[2]
             indent = second[: len(second) - len(second.lstrip(" \t"))] or None
             files[out] = json.dumps(self._json, ensure_ascii=False, indent=indent).encode()
@@ -399,11 +431,55 @@ class _Edit:
         text = json.dumps(self._json, ensure_ascii=False, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
         binary += bytes(-len(binary) % 4)
-        others = [chunk for chunk in self._asset._chunks[1:] if chunk[0] != _BINARY_CHUNK]
+        others = [chunk for chunk in self._asset.chunks[1:] if chunk[0] != _BINARY_CHUNK]
         chunks = [(_JSON_CHUNK, text), *([(_BINARY_CHUNK, binary)] if binary else []), *others]
         body = b"".join(struct.pack("<I4s", len(content), kind) + content for kind, content in chunks)
         files[out] = _GLB + struct.pack("<II", 2, 12 + len(body)) + body
         return files
+
+
+def tangents_of(
+    positions: npt.NDArray[np.float64],
+    normals: npt.NDArray[np.float64],
+    uv: npt.NDArray[np.float64],
+    triangles: Integers,
+) -> npt.NDArray[np.float64]:
+    """Return the tangent of each vertex, (V, 4): where u grows, across the normal, and the side on which v grows.
+
+    Of the triangles at a vertex each counts by its angle, as in Mikkelsen, "Simulation of Wrinkled Surfaces Revisited",
+    2008; a vertex whose triangles lie on both sides has the side of most.
+
+    Args:
+        positions: (V, 3).
+        normals: (V, 3).
+        uv: (V, 2), v upwards.
+        triangles: (T, 3).
+    """
+    sums, sides = np.zeros((len(positions), 3)), np.zeros(len(positions))
+    corners, texels = positions[triangles], uv[triangles]
+    (one, two), (first, second) = ((each[:, 1] - each[:, 0], each[:, 2] - each[:, 0]) for each in (corners, texels))
+    area = first[:, 0] * second[:, 1] - second[:, 0] * first[:, 1]
+    along = (one * second[:, 1:] - two * first[:, 1:]) * np.sign(area)[:, None]
+    for k in range(3):
+        rows, normal = triangles[:, k], normals[triangles[:, k]]
+        left, right = (_unit(corners[:, (k + step) % 3] - corners[:, k]) for step in (1, 2))
+        angle = np.arccos(np.clip((left * right).sum(axis=1), -1, 1))
+        across = _unit(along - normal * (along * normal).sum(axis=1)[:, None])
+        np.add.at(sums, rows, across * angle[:, None])
+        np.add.at(sides, rows, np.sign(area) * angle)
+    # Where no triangle tells, any direction across the normal.
+    least = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    fallback = least - normals * (least * normals).sum(axis=1)[:, None]
+    sums -= normals * (sums * normals).sum(axis=1)[:, None]
+    is_told = np.linalg.norm(sums, axis=1) > 1e-9
+    result = _unit(np.where(is_told[:, None], sums, fallback))
+    return np.c_[result, np.where(sides < 0, -1.0, 1.0)]
+
+
+def _unit(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Return vectors (n, 3) at length 1; those without length as they are."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
 
 
 def _uses(document: _Json) -> dict[int, int]:

@@ -176,11 +176,11 @@ class ObjAsset(OneMeshAsset):
         return flat[(np.cumsum(counts) - counts)[:, None] + np.arange(counts.min())]
 
     def _floats(self, line: int) -> list[float]:
-        words = self._text[self._starts[line] : self._ends[line]].decode(errors="replace").split()
+        words = self._text[self._starts[line] : self._ends[line]].split()[1:]
         try:
-            return [float(word) for word in words[1:]]
+            return [float(word) for word in words]
         except ValueError as error:
-            raise self._broken(line, error) from None
+            raise self._broken(line, str(error).replace(": b'", ": '")) from None
 
     def _corners(self, lines: Integers, n_vertices: int) -> tuple[Integers, Integers]:
         """Return the vertex and the UV of every corner, -1 for none; `lines` has the statement of each."""

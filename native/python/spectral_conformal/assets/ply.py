@@ -223,6 +223,8 @@ class PlyAsset(OneMeshAsset):
                     raise AssetError(f"{self._path}: {element.name} {row} has a list of negative length.")
                 layout.append((f"n {each.name}", kind))
                 at += kind.itemsize
+                # Before a type of any such size is made.
+                self._piece(at, length * np.dtype(each.type).itemsize, element, row)
             layout.append((each.name, np.dtype(self._order + each.type), (length,)))
             at += np.dtype(each.type).itemsize * length
         return np.dtype(layout)
