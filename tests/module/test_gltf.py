@@ -114,7 +114,10 @@ def everything():
             {"mesh": 0, "skin": 0, "scale": [2, 2, 2]},
             {"name": "a"},
             {"name": "b"},
-            *({"mesh": mesh} for mesh in (1, 2, 1, 3, 4)),
+            {"children": [4], "scale": [2, 2, 2]},
+            {"mesh": 1, "matrix": [0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 5, 5, 1]},
+            *({"mesh": mesh} for mesh in (2, 1, 3)),
+            {"mesh": 4, "scale": [-8, 1, 1]},
             {"camera": 0},
             {"extensions": {"KHR_lights_punctual": {"light": 0}}},
         ],
@@ -288,6 +291,8 @@ def test_all_else_is_as_it_was(how, tmp_path):
     asset = assets.read(path)
     assert [mesh.name for mesh in asset.meshes] == ["sheet", "mesh 1", "fan", "again", "strip"]
     assert [len(mesh.vertices) for mesh in asset.meshes] == [25, 6, 5, 25, 6]
+    # A skinned mesh is moved by its joints alone.
+    assert [mesh.scale for mesh in asset.meshes] == pytest.approx([1, 4, 1, 1, 2])
     maps = seams_and_uv(asset)
     new = tmp_path / f"new{asset.suffix}"
     assets.write(new, asset, maps)

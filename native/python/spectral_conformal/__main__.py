@@ -66,7 +66,9 @@ def _unwrap_file(
         first += len(solved)
     sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in asset.meshes])
     uv = _layout.on_shelves(
-        np.concatenate([result.uv for result in results]), np.repeat(np.concatenate(charts), sizes), margin
+        np.concatenate([mesh.scale * result.uv for mesh, result in zip(asset.meshes, results)]),
+        np.repeat(np.concatenate(charts), sizes),
+        margin,
     )
     parts = np.split(uv, np.cumsum([len(result.uv) for result in results])[:-1])
     assets.write(out, asset, [assets.UvMap(*each) for each in zip(parts, mapped)])
@@ -74,6 +76,7 @@ def _unwrap_file(
     for mesh, result in zip(asset.meshes, results):
         print(*([mesh.name] if mesh.name else []), _table(result), sep="\n")
         failed += int((result.charts.column("status") != "solved").sum())
+    print(*(f"warning: {warning}" for warning in asset.warnings), sep="\n", end="\n" if asset.warnings else "")
     print(f"{first - failed} of {first} islands written to {out}")
     return failed
 
@@ -102,7 +105,7 @@ def _parser() -> argparse.ArgumentParser:
     """Return the parser; its options of maps and seams are the fields of the records, with their documentation."""
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal",
-        description="Unwrap an OBJ, PLY, OFF or STL file and write it with UVs.",
+        description="Unwrap a glTF, OBJ, PLY, OFF or STL file and write it with UVs.",
     )
     parser.add_argument("mesh", type=Path, help="the file; it is not changed unless it is also that of --out")
     parser.add_argument(

@@ -62,13 +62,15 @@ class GltfAsset:
         with self._structure():
             self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
             self._meshes = [mesh for mesh in self._meshes if mesh.groups]
-            polygons = [mesh.polygons(self._name) for mesh in self._meshes]
+            scales = _scales(self.json)
+            polygons = [mesh.polygons(self._name, scales.get(mesh.number, 1.0)) for mesh in self._meshes]
         if not polygons:
             raise AssetError(f"{path}: has no triangles; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh) for mesh in polygons]
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
+        self.warnings = []
         with self._structure():
             edit = _Edit(self)
             for mesh, uv_map in zip(self._meshes, maps):
@@ -191,6 +193,7 @@ class _Group:
 class _Mesh:
     def __init__(self, asset: GltfAsset, number: int, mesh: _Json) -> None:
         self._asset = asset
+        self.number = number
         self.name = mesh.get("name", f"mesh {number}")
         groups: dict[str, _Group] = {}
         for primitive in mesh["primitives"]:
@@ -209,7 +212,7 @@ class _Mesh:
                 group.triangles.append(triangles)
         self.groups = [group for group in groups.values() if group.primitives]
 
-    def polygons(self, uv_name: str) -> AssetMesh:
+    def polygons(self, uv_name: str, scale: float) -> AssetMesh:
         """Return the triangles of all groups; the first corner is that of the first group."""
         positions, corners, uv, has_uv, first_row = [], [], [], False, 0
         for group in self.groups:
@@ -232,9 +235,8 @@ class _Mesh:
         rank = np.empty(len(order), dtype=np.int64)
         rank[order] = np.arange(len(order))
         offsets = np.arange(0, len(used) + 1, 3, dtype=np.int64)
-        return AssetMesh(
-            vertices[order], offsets, rank[number.ravel()], np.concatenate(uv) if has_uv else None, self.name
-        )
+        found_uv = np.concatenate(uv) if has_uv else None
+        return AssetMesh(vertices[order], offsets, rank[number.ravel()], found_uv, self.name, scale)
 
 
 def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
@@ -258,6 +260,28 @@ def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
     odd = np.arange(len(rows) - 2) % 2
     k = np.arange(len(rows) - 2)
     return np.stack([rows[k], rows[k + 1 + odd], rows[k + 2 - odd]], axis=1)
+
+
+def _scales(document: _Json) -> dict[int, float]:
+    """Return of each mesh that a node shows by how much the first such node makes it larger."""
+    nodes = document.get("nodes", [])
+    children = {child for node in nodes for child in node.get("children", [])}
+    result: dict[int, float] = {}
+    waiting = [(number, 1.0) for number in reversed(range(len(nodes))) if number not in children]
+    while waiting:
+        number, scale = waiting.pop()
+        node = nodes[number]
+        if "matrix" in node:
+            volume = np.linalg.det(np.reshape(node["matrix"], (4, 4))[:3, :3])
+        else:
+            volume = np.prod(node.get("scale", [1.0]))
+        scale *= float(abs(volume)) ** (1 / 3)
+        if "mesh" in node and "skin" not in node:
+            result.setdefault(node["mesh"], scale)
+        waiting += [(child, scale) for child in reversed(node.get("children", []))]
+        if len(waiting) > len(nodes):
+            raise ValueError("nodes that are children of each other")
+    return result
 
 
 class _Edit:

@@ -29,6 +29,8 @@ class AssetMesh:
     """(C, 2), not a number where a corner has none; None where the file has no UV map."""
     name: str = ""
     """Of the mesh within its file; empty where that has one alone."""
+    scale: float = 1.0
+    """Of its first instance: lengths in the scene to those of `vertices`, the geometric mean over the axes."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,8 @@ class Asset(Protocol):
     suffix: str
     """Of the files that are made of it, with the dot: its own, if its format holds UVs."""
     meshes: Sequence[AssetMesh]
+    warnings: Sequence[str]
+    """What else had to be changed, and what could not be kept; of the last files."""
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return, by path, the content of the files that this asset is with other UV maps.
@@ -62,6 +66,7 @@ class OneMeshAsset:
     """A file of one mesh, and nothing beside it."""
 
     mesh: AssetMesh
+    warnings: Sequence[str] = ()
 
     @property
     def meshes(self) -> tuple[AssetMesh]:

@@ -239,6 +239,7 @@ class PlainAsset:
     """Meshes of a format that holds no UVs, or of which another is asked for: written as OBJ."""
 
     suffix = ".obj"
+    warnings: Sequence[str] = ()
 
     def __init__(self, meshes: Sequence[AssetMesh]) -> None:
         """Take the meshes, which become objects where they have names."""
