@@ -15,6 +15,7 @@ from .obj import ObjAsset, PlainAsset
 from .off import read_off
 from .ply import PlyAsset
 from .stl import read_stl
+from .usd import UsdAsset
 
 __all__ = ["READABLE", "Asset", "AssetError", "AssetMesh", "UvMap", "read", "write", "written_as"]
 
@@ -25,6 +26,7 @@ _READERS = {
     ".off": read_off,
     ".ply": PlyAsset,
     ".stl": read_stl,
+    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), UsdAsset),
 }
 _WITHOUT_UV = (".off", ".stl")
 READABLE = tuple(_READERS)

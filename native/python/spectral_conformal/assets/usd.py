@@ -1,0 +1,233 @@
+"""USD files: geometry is read, `primvars:st` is written into the file's own layer, or into a layer over it.
+
+By Pixar's library, pxr, which comes with `pip install usd-core`; it writes a layer again as it was, of text files but
+for their comments.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from .edits import numbered
+from .mesh import AssetError, AssetMesh, UvMap, checked, offsets_of
+
+if TYPE_CHECKING:
+    from pxr import Sdf, Usd, UsdGeom
+
+_NAME = "st"
+_BINARY = b"PXR-USDC"
+
+
+class UsdAsset:
+    """A USD file: its meshes, prototypes of instances once."""
+
+    def __init__(self, path: Path, *, over: bool = False) -> None:
+        """Read the file, and what it is composed of.
+
+        Args:
+            path: of a .usd, .usda, .usdc or .usdz file.
+            over: write UVs into a layer over the file, which then stays as it is.
+
+        Raises:
+            AssetError: there is no pxr, the content is broken, or there is no mesh.
+        """
+        try:
+            from pxr import Tf, Usd
+        except ImportError as error:
+            raise AssetError(f"{path}: USD needs Pixar's library: pip install usd-core.") from error
+        self.path = path
+        self.suffix = ".usda" if over else path.suffix.lower()
+        self.warnings: list[str] = []
+        self._over = over
+        try:
+            self._stage = Usd.Stage.Open(str(path))
+        except Tf.ErrorException as error:
+            reason = str(error).strip().splitlines()[-1].strip()
+            raise AssetError(f"{path}: is no USD that can be opened: {reason}") from None
+        self._meshes = [_Mesh(self, prim) for prim in self._prims()]
+        if not self._meshes:
+            raise AssetError(f"{path}: has no meshes; there is nothing to unwrap.")
+        self.meshes = [checked(path, mesh.polygons()) for mesh in self._meshes]
+        self._notes = list(self.warnings)
+
+    def _prims(self) -> list[tuple[Usd.Prim, Sdf.Path]]:
+        """Return the prim of each mesh, and the place at which an opinion on it holds for all of its instances."""
+        from pxr import Usd, UsdGeom
+
+        result, seen = [], set()
+        for prim in self._stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)):
+            if not prim.IsA(UsdGeom.Mesh):
+                continue
+            place = self._own_place(prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim)
+            if place is None and prim.IsInstanceProxy():
+                self._tell(f"{prim.GetPath()} is an instance of another file's prim and has no UVs: unwrap that file.")
+                continue
+            place = place or prim.GetPath()
+            if place not in seen:
+                seen.add(place)
+                result.append((prim, place))
+        return result
+
+    def _own_place(self, prim: Usd.Prim) -> Sdf.Path | None:
+        """Return where the file itself describes a prim, which may be in a variant; None where others alone do."""
+        root = self._stage.GetRootLayer()
+        places = [spec.path for spec in prim.GetPrimStack() if spec.layer == root]
+        return places[0] if places else None
+
+    def _tell(self, warning: str) -> None:
+        if warning not in self.warnings:
+            self.warnings.append(warning)
+
+    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+        """Return the file with other UVs, or the layer over it, by its path."""
+        self.warnings = list(self._notes)
+        with tempfile.TemporaryDirectory() as folder:
+            target = Path(folder) / f"layer{self.suffix}"
+            if self._over:
+                self._layer_over(out, maps).Export(str(target))
+            elif self.suffix == ".usdz":
+                self._write_package(target, maps)
+            else:
+                _export(self._layer(maps), target, self.path.read_bytes())
+            if not target.is_file():
+                raise OSError(f"{out}: USD's library could not write it; is the disk full?")
+            return {out: target.read_bytes()}
+
+    def _layer(self, maps: Sequence[UvMap]) -> Sdf.Layer:
+        """Return the file's own layer with other UVs."""
+        from pxr import Sdf
+
+        root = self._stage.GetRootLayer()
+        layer = Sdf.Layer.CreateAnonymous(".usda")
+        layer.TransferContent(root)
+        for mesh, uv_map in zip(self._meshes, maps):
+            mesh.write(layer, uv_map)
+        return layer
+
+    def _layer_over(self, out: Path, maps: Sequence[UvMap]) -> Sdf.Layer:
+        """Return a layer with UVs alone, over the file."""
+        from pxr import Sdf
+
+        root = self._stage.GetRootLayer()
+        layer = Sdf.Layer.CreateAnonymous(".usda")
+        layer.subLayerPaths.append(Path(os.path.relpath(self.path, out.parent)).as_posix())
+        for key in ("defaultPrim", "upAxis", "metersPerUnit"):
+            if root.pseudoRoot.HasInfo(key):
+                layer.pseudoRoot.SetInfo(key, root.pseudoRoot.GetInfo(key))
+        for mesh, uv_map in zip(self._meshes, maps):
+            mesh.write(layer, uv_map)
+        return layer
+
+    def _write_package(self, target: Path, maps: Sequence[UvMap]) -> None:
+        """Write a package of the same files in their order; the first one is the layer of the meshes."""
+        from pxr import Sdf
+
+        package = Sdf.ZipFileWriter.CreateNew(str(target))
+        with zipfile.ZipFile(self.path) as content:
+            for number, name in enumerate(content.namelist()):
+                path = target.parent / f"{number}{Path(name).suffix}"
+                if number == 0:
+                    _export(self._layer(maps), path, content.read(name))
+                else:
+                    path.write_bytes(content.read(name))
+                package.AddFile(str(path), name)
+        package.Save()
+
+
+def _export(layer: Sdf.Layer, path: Path, origin: bytes) -> None:
+    """Write a layer as text or as binary, as its origin is: the suffix .usd stands for both."""
+    is_binary = origin.startswith(_BINARY)
+    layer.Export(str(path), args={"format": "usdc" if is_binary else "usda"} if path.suffix == ".usd" else {})
+
+
+class _Mesh:
+    def __init__(self, asset: UsdAsset, found: tuple[Usd.Prim, Sdf.Path]) -> None:
+        from pxr import Usd, UsdGeom
+
+        self._asset = asset
+        prim, self.place = found
+        self._mesh: UsdGeom.Mesh = UsdGeom.Mesh(prim)
+        self._time = Usd.TimeCode.EarliestTime()
+        if self._mesh.GetPointsAttr().GetNumTimeSamples() > 1:
+            asset._tell(f"{prim.GetPath()} moves: it was unwrapped as it is at the first time.")
+        self._positions = self._numbers(self._mesh.GetPointsAttr(), np.float64).reshape(-1, 3)
+        sizes = self._numbers(self._mesh.GetFaceVertexCountsAttr(), np.int64)
+        indices = self._numbers(self._mesh.GetFaceVertexIndicesAttr(), np.int64)
+        if (sizes < 3).any() or sizes.sum() != len(indices):
+            raise AssetError(f"{asset.path}: {prim.GetPath()}: the faces' numbers of corners and the indices disagree.")
+        if len(indices) and not 0 <= indices.min() <= indices.max() < len(self._positions):
+            raise AssetError(f"{asset.path}: {prim.GetPath()}: an index names a point that does not exist.")
+        self._offsets = offsets_of(sizes)
+        # The corners of the file's faces in the order of a counter-clockwise winding.
+        self._order = np.arange(len(indices))
+        if self._mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+            ends = np.repeat(self._offsets[:-1] + self._offsets[1:] - 1, sizes)
+            self._order = ends - self._order
+        self._indices = indices
+
+    def _numbers(self, attribute: Usd.Attribute, kind: type) -> npt.NDArray:
+        found = attribute.Get(self._time)
+        return np.array(found if found is not None else [], dtype=kind)
+
+    def polygons(self) -> AssetMesh:
+        """Return the mesh, wound counter-clockwise."""
+        from pxr import UsdGeom
+
+        matrix = np.array(UsdGeom.XformCache(self._time).GetLocalToWorldTransform(self._mesh.GetPrim()))
+        scale = float(abs(np.linalg.det(matrix[:3, :3]))) ** (1 / 3)
+        return AssetMesh(
+            self._positions,
+            self._offsets,
+            self._indices[self._order],
+            self._uv(),
+            str(self.place.StripAllVariantSelections()),
+            scale,
+        )
+
+    def _uv(self) -> npt.NDArray[np.float64] | None:
+        from pxr import UsdGeom
+
+        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(_NAME)
+        found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
+        if not found:
+            return None
+        uv = np.array(found, dtype=np.float64).reshape(len(found), -1)[:, :2]
+        tokens, by = UsdGeom.Tokens, variable.GetInterpolation()
+        if by == tokens.faceVarying and len(uv) == len(self._indices):
+            return uv[self._order]
+        if by in (tokens.vertex, tokens.varying) and len(uv) == len(self._positions):
+            return uv[self._indices[self._order]]
+        return None
+
+    def write(self, layer: Sdf.Layer, uv_map: UvMap) -> None:
+        """Write the map into a layer, in place of one that is there, with any times that it has."""
+        from pxr import Sdf, UsdGeom, Vt
+
+        uv = np.empty_like(uv_map.uv)
+        uv[self._order] = uv_map.uv
+        mapped = np.repeat(uv_map.mapped, np.diff(self._offsets))
+        # What has no map lies at the origin, as nothing of a map may be missing.
+        uv[~mapped] = 0.0
+        _, different, index = numbered(self._indices, uv.astype(np.float32))
+        prim = Sdf.CreatePrimInLayer(layer, self.place)
+        names = (f"primvars:{_NAME}", f"primvars:{_NAME}:indices")
+        kinds = (Sdf.ValueTypeNames.TexCoord2fArray, Sdf.ValueTypeNames.IntArray)
+        values = (Vt.Vec2fArray.FromNumpy(different.astype(np.float32)), Vt.IntArray.FromNumpy(index.astype(np.int32)))
+        for name, kind, value in zip(names, kinds, values):
+            old = prim.attributes.get(name)
+            if old is not None and old.typeName != kind:
+                del prim.properties[name]
+                old = None
+            attribute = old or Sdf.AttributeSpec(prim, name, kind)
+            for time in layer.ListTimeSamplesForPath(attribute.path):
+                layer.EraseTimeSample(attribute.path, time)
+            attribute.default = value
+        prim.attributes[names[0]].SetInfo("interpolation", UsdGeom.Tokens.faceVarying)

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""USD files: UVs in the file's own layer, or in one over it; all else is as it was."""
+
+import zipfile
+
+import numpy as np
+import pytest
+from spectral_conformal import assets
+from spectral_conformal.assets.usd import UsdAsset
+
+pxr = pytest.importorskip("pxr")
+Sdf, Usd, UsdGeom = (getattr(__import__(f"pxr.{name}"), name) for name in ("Sdf", "Usd", "UsdGeom"))
+
+SHEET = """
+        int[] faceVertexCounts = [4, 4]
+        int[] faceVertexIndices = [0, 1, 2, 3, 1, 4, 5, 2]
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0.2), (0, 1, 0), (2, 0, 0), (2, 1, 0)]
+"""
+SCENE = f"""#usda 1.0
+(
+    customLayerData = {{
+        string made = "by hand"
+    }}
+    defaultPrim = "World"
+    metersPerUnit = 0.01
+    upAxis = "Z"
+)
+
+class "Proto"
+{{
+    def Mesh "Bolt"
+    {{{SHEET}    }}
+}}
+
+def Xform "World" (
+    variants = {{
+        string lod = "high"
+    }}
+    prepend variantSets = "lod"
+)
+{{
+    def Xform "I1" (
+        instanceable = true
+        prepend references = </Proto>
+    )
+    {{
+    }}
+
+    def Xform "I2" (
+        instanceable = true
+        prepend references = </Proto>
+    )
+    {{
+    }}
+
+    def Mesh "Mirrored" (
+        prepend apiSchemas = ["MaterialBindingAPI"]
+    )
+    {{{SHEET}        uniform token orientation = "leftHanded"
+        rel material:binding = </World/Paint>
+        uniform token subdivisionScheme = "catmullClark"
+        custom double my:number = 0.1
+        texCoord2f[] primvars:lightmap = [(0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1)] (
+            interpolation = "vertex"
+        )
+        texCoord2f[] primvars:st.timeSamples = {{
+            1: [(0, 0), (0, 0), (0, 0), (0, 0), (0, 0), (0, 0)],
+            2: [(1, 0), (0, 0), (0, 0), (0, 0), (0, 0), (0, 0)],
+        }}
+        float3 xformOp:scale = (3, 3, 3)
+        uniform token[] xformOpOrder = ["xformOp:scale"]
+    }}
+
+    def Mesh "Moving"
+    {{
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points.timeSamples = {{
+            1: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
+            2: [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)],
+        }}
+    }}
+
+    def Material "Paint"
+    {{
+    }}
+
+    variantSet "lod" = {{
+        "high" {{
+            def Mesh "Chosen"
+            {{{SHEET.replace(chr(10), chr(10) + "        ").rstrip()}
+            }}
+        }}
+        "low" {{
+        }}
+    }}
+}}
+"""
+MESHES = ["/Proto/Bolt", "/World/Mirrored", "/World/Moving", "/World/Chosen"]
+
+
+def save(path):
+    """Write the scene, in the format of the suffix, and return its path."""
+    if path.suffix == ".usda" or path.stem == "text":
+        path.write_text(SCENE)
+        return path
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString(SCENE)
+    if path.suffix != ".usdz":
+        assert layer.Export(str(path))
+        return path
+    inner, picture = path.with_name("inner.usdc"), path.with_name("a.png")
+    layer.Export(str(inner))
+    picture.write_bytes(b"no picture")
+    package = Sdf.ZipFileWriter.CreateNew(str(path))
+    package.AddFile(str(inner), "inner.usdc")
+    package.AddFile(str(picture), "textures/a.png")
+    package.Save()
+    return path
+
+
+def maps_of(asset):
+    rng = np.random.default_rng(1)
+    sizes = [len(mesh.corner_vertices) for mesh in asset.meshes]
+    return [assets.UvMap(rng.random((n, 2)).astype("f4").astype(float), np.ones(n // 4, bool)) for n in sizes]
+
+
+def without_uv(path):
+    """Return the text of the root layer without `primvars:st`."""
+    stage = Usd.Stage.Open(str(path))
+    text = Sdf.Layer.CreateAnonymous(".usda")
+    text.TransferContent(stage.GetRootLayer())
+    for mesh in (*MESHES[:-1], "/World{lod=high}Chosen"):
+        prim = text.GetPrimAtPath(mesh)
+        for name in ("primvars:st", "primvars:st:indices"):
+            if name in prim.properties:
+                del prim.properties[name]
+    return text.ExportToString()
+
+
+@pytest.mark.parametrize("name", ["m.usda", "m.usdc", "m.usd", "text.usd", "m.usdz"])
+def test_all_else_is_as_it_was(name, tmp_path):
+    path = save(tmp_path / name)
+    suffix = path.suffix
+    asset = assets.read(path)
+    assert sorted(mesh.name for mesh in asset.meshes) == sorted(MESHES)
+    assert {mesh.name: mesh.scale for mesh in asset.meshes}["/World/Mirrored"] == pytest.approx(3)
+    assert asset.warnings == ["/World/Moving moves: it was unwrapped as it is at the first time."]
+    maps = maps_of(asset)
+    new = tmp_path / f"new{suffix}"
+    assets.write(new, asset, maps)
+    assert without_uv(new) == without_uv(path)
+    assert new.read_bytes()[:8] == path.read_bytes()[:8]
+    for mesh, uv_map in zip(assets.read(new).meshes, maps):
+        assert np.array_equal(mesh.corner_uv, uv_map.uv)
+    if suffix == ".usdz":
+        with zipfile.ZipFile(new) as package:
+            assert package.namelist() == ["inner.usdc", "textures/a.png"]
+            assert package.read("textures/a.png") == b"no picture"
+
+
+def test_instances_share_the_uvs_of_their_prototype(tmp_path):
+    asset = assets.read(save(tmp_path / "m.usda"))
+    assets.write(tmp_path / "new.usda", asset, maps_of(asset))
+    stage = Usd.Stage.Open(str(tmp_path / "new.usda"))
+    found = [
+        np.array(UsdGeom.PrimvarsAPI(stage.GetPrimAtPath(f"/World/{name}/Bolt")).GetPrimvar("st").ComputeFlattened())
+        for name in ("I1", "I2")
+    ]
+    (bolt,) = [k for k, mesh in enumerate(asset.meshes) if mesh.name == "/Proto/Bolt"]
+    assert np.array_equal(found[0], found[1]) and np.array_equal(found[0], maps_of(asset)[bolt].uv)
+
+
+def test_a_left_handed_mesh_is_wound_as_it_is_seen(tmp_path):
+    meshes = {mesh.name: mesh for mesh in assets.read(save(tmp_path / "m.usda")).meshes}
+    plain, mirrored = meshes["/World/Chosen"], meshes["/World/Mirrored"]
+    assert plain.corner_vertices.tolist() == [0, 1, 2, 3, 1, 4, 5, 2]
+    assert mirrored.corner_vertices.tolist() == [3, 2, 1, 0, 2, 5, 4, 1]
+
+
+def test_a_layer_over_the_file_leaves_it_alone(tmp_path):
+    path = save(tmp_path / "m.usda")
+    asset = UsdAsset(path, over=True)
+    (tmp_path / "over").mkdir()
+    new = tmp_path / "over" / "m.usda"
+    maps = maps_of(asset)
+    assets.write(new, asset, maps)
+    assert path.read_text() == SCENE
+    layer = Sdf.Layer.FindOrOpen(str(new))
+    assert list(layer.subLayerPaths) == ["../m.usda"] and layer.defaultPrim == "World"
+    assert {spec.name for spec in layer.rootPrims} == {"Proto", "World"}
+    for mesh, uv_map in zip(assets.read(new).meshes, maps):
+        assert np.array_equal(mesh.corner_uv, uv_map.uv)
+
+
+def test_a_prototype_of_another_file_is_named(tmp_path):
+    save(tmp_path / "parts.usda")
+    (tmp_path / "m.usda").write_text(
+        '#usda 1.0\ndef Xform "A" (\n    instanceable = true\n    prepend references = @parts.usda@</Proto>\n)\n{\n}\n'
+        'def Mesh "Own"\n{' + SHEET + "}\n"
+    )
+    asset = assets.read(tmp_path / "m.usda")
+    assert [mesh.name for mesh in asset.meshes] == ["/Own"]
+    assert asset.warnings == ["/A/Bolt is an instance of another file's prim and has no UVs: unwrap that file."]
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("no usd", "is no USD that can be opened"),
+        ('#usda 1.0\ndef Xform "A"\n{\n}\n', "has no meshes"),
+        ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("[4, 4]", "[4, 3]") + "}\n", "the indices disagree"),
+        ('#usda 1.0\ndef Mesh "A"\n{' + SHEET.replace("5, 2]", "9, 2]") + "}\n", "a point that does not exist"),
+        ('#usda 1.0\ndef Mesh "A"\n{\n}\n', "has no faces"),
+    ],
+)
+def test_a_broken_file_is_named(content, said, tmp_path):
+    (tmp_path / "m.usda").write_text(content)
+    with pytest.raises(assets.AssetError, match=f"m.usda.*{said}"):
+        assets.read(tmp_path / "m.usda")
