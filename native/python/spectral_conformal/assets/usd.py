@@ -1,7 +1,7 @@
 """USD files: geometry is read, `primvars:st` is written into the file's own layer, or into a layer over it.
 
-By Pixar's library, pxr, which `pip install "spectral_conformal[batch]"` brings; it writes a layer again as it was, of text files but
-for their comments.
+By Pixar's library, pxr, which `pip install "spectral_conformal[batch]"` brings; it writes a layer again as it was, of
+text files but for their comments.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ class UsdAsset:
         try:
             from pxr import Tf, Usd
         except ImportError as error:
-            raise AssetError(f"{path}: USD needs Pixar's library: pip install "spectral_conformal[batch]" or usd-core.") from error
+            needed = 'pip install "spectral_conformal[batch]"'
+            raise AssetError(f"{path}: USD needs Pixar's library: {needed}, or usd-core.") from error
         self.path = path
         self.suffix = ".usda" if over else path.suffix.lower()
         self.warnings: list[str] = []
