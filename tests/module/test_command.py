@@ -148,7 +148,7 @@ BROKEN = {
         "v 0 0 0\nf -1 -2 -3\nv 1 0 0\n",
         "relative.obj:2: there is no vertex -2; 1 stand before this line",
     ),
-    "mesh.3ds": ("solid\n", "only .glb, .gltf, .obj, .off, .ply, .stl files can be read"),
+    "mesh.3ds": ("solid\n", "only .glb, .gltf, .obj, .off, .ply, .stl, .usd, .usda, .usdc, .usdz files can be read"),
     "empty.stl": ("solid\nendsolid\n", "has no faces"),
     "facet.stl": ("solid\nfacet\nvertex 0 0 0\nendfacet\n", "facet.stl:4: a facet has three vertices, this one has 1"),
     "word.stl": ("solid\nvertex 0 0 zero\n", "word.stl:2: '0 0 zero' has something that is no number"),
