@@ -9,8 +9,15 @@ from tests.fuzz import growth
 
 # n log n gives 4.8 at four times the size; a factorisation of a grid, n to the power of 1.5, gives 8 of its part.
 LIMIT = 6.0
-# From some thousand faces on, the search for seams works on coarse copies too, which the smaller size does not have.
-LIMITS = {"border/suggest_seams": 10.0, "border/suggest_cuts": 10.0}
+# From some thousand faces on, the search for seams works on coarse copies too, which the smaller size does not have. It
+# factorises each map that it tries, which is most of its work on duplicate corners: 6.5 at 2,000 and 8,000, too. Among
+# boxes of the fan four times as many widths are different, and a box is looked for among wider ones: n (log n)^2.
+LIMITS = {
+    "border/suggest_seams": 10.0,
+    "border/suggest_cuts": 10.0,
+    "duplicate_corners/suggest_seams": 8.0,
+    "valence/pack_boxes": 8.0,
+}
 # Islands whose borders touch, and polygons that a fan splits into triangles over each other: triangles with meeting
 # boxes are tested pair by pair.
 TOUCHING = {
