@@ -156,6 +156,13 @@ class AreaOperator {
   std::shared_ptr<const HermitianMatrix> matrix_;  ///< L
 };
 
+/// L. Not by a copy: the constructor of Eigen's sparse matrix loses memory where it finds too little.
+std::shared_ptr<const HermitianMatrix> shared_matrix(const ConformalEnergy& energy) {
+  auto result = std::make_shared<HermitianMatrix>();
+  energy.matrix().swap(*result);
+  return result;
+}
+
 QuotientForm quotient_form(const AreaOperator& area) {
   return {[area](const ComplexVector& z) { return area.value(z); },
           [area, image = ComplexVector()](const ComplexVector& z, double factor, ComplexVector& sum) mutable {
@@ -262,7 +269,7 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
 Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalEnergy& energy, const BoundaryForm& form,
                                   double shift, const EigenproblemOptions& options, const Progress& progress) {
   const Eigen::Index n = energy.n_vertices();
-  const auto matrix = std::make_shared<const HermitianMatrix>(energy.matrix());
+  const auto matrix = shared_matrix(energy);
   AreaOperator area(energy, matrix);  // Spectra wants it mutable
   ShiftedOperator shifted(factorization, *matrix, form, shift, progress);
   const ComplexVector on_boundary = start_vector(form, options.start);
@@ -295,7 +302,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
 }
 
 QuotientForm area_quotient(const ConformalEnergy& energy) {
-  return quotient_form(AreaOperator(energy, std::make_shared<const HermitianMatrix>(energy.matrix())));
+  return quotient_form(AreaOperator(energy, shared_matrix(energy)));
 }
 
 }  // namespace spectral_conformal
