@@ -222,10 +222,13 @@ def commands():
 def test_commands_of_the_documents_run(command, tmp_path):
     arguments = shlex.split(command, comments=True)
     writer = {".obj": write_obj, ".off": write_off, ".ply": lambda *a: write_ply(*a, "binary_little_endian")}
-    writer[Path(arguments[0]).suffix](tmp_path / arguments[0], *PATCH)
+    name = next(word for word in arguments if Path(word).suffix in writer)
+    writer[Path(name).suffix](tmp_path / name, *PATCH)
+    if arguments[0] == "report":
+        assert main([str(tmp_path / name), "--out", str(tmp_path / name)]) == 0
     done = subprocess.run([sys.executable, "-m", "spectral_conformal", *arguments], cwd=tmp_path, capture_output=True)
     assert done.returncode == 0, done.stderr
 
 
 def test_there_are_commands_in_the_documents():
-    assert len(commands()) == 3
+    assert len(commands()) == 4

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import json
 import re
 import sys
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import asdict, fields
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from ._options import _CHOICES, Options, SeamOptions, documented
 from ._results import Unwrap
 from ._seams import suggest_seams
 from ._unwrapping import unwrap
+from .assets.report import Requirement, RequirementError, map_report
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -24,6 +26,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0: every island has a map; 1: the file cannot be read or written, or an island has none. Arguments that cannot be
     understood exit with 2.
     """
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if arguments[:1] == ["report"]:
+        return _report(arguments[1:])
     parser = _parser()
     given = parser.parse_args(arguments)
     chosen = vars(given)
@@ -50,6 +55,44 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"error: {given.mesh}: there is too little memory to unwrap it.", file=sys.stderr)
         return 1
     return 1 if failed else 0
+
+
+def _report(arguments: Sequence[str]) -> int:
+    """Print what the maps of files are like; return 1 if one cannot be read or does not meet what is required."""
+    parser = argparse.ArgumentParser(
+        prog="python -m spectral_conformal report", description="Measure the UV maps of files; nothing is changed."
+    )
+    parser.add_argument("files", type=Path, nargs="+", metavar="FILE")
+    parser.add_argument(
+        "--require", metavar="CONDITION", help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"'
+    )
+    parser.add_argument("--json", action="store_true", help="one object for each file, a line each")
+    given = parser.parse_args(arguments)
+    try:
+        requirement = Requirement(given.require) if given.require else None
+    except RequirementError as error:
+        parser.error(str(error))
+    code = 0
+    for path in given.files:
+        try:
+            report = map_report(assets.read(path).meshes)
+        except (ValueError, OSError, MemoryError) as error:
+            told = str(error) or f"{path}: there is too little memory to read it."
+            print(f"error: {told}", file=sys.stderr)
+            code = 1
+            continue
+        failures = requirement.failures(report) if requirement else []
+        code = 1 if failures else code
+        values = asdict(report)
+        if given.json:
+            numbers = {name: None if value != value else value for name, value in values.items()}
+            print(json.dumps({"file": str(path), **numbers, "failures": failures}))
+        else:
+            print(path)
+            print(*(f"  {name:<15}{value:>12.6g}" for name, value in values.items()), sep="\n")
+        for failure in failures:
+            print(f"{path}: required: {failure}", file=sys.stderr)
+    return code
 
 
 def _unwrap_file(
