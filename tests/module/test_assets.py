@@ -3,6 +3,7 @@
 
 import re
 import struct
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -330,6 +331,16 @@ def test_nothing_is_replaced_by_what_cannot_be_read_again(tmp_path, monkeypatch)
     monkeypatch.undo()
     assert path.read_text() == OBJ["plain"]
     assert [found.name for found in tmp_path.iterdir()] == ["m.obj"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links and permissions of other systems")
+def test_a_link_and_permissions_stay(tmp_path):
+    path, link = save(tmp_path / "m.obj", OBJ["plain"]), tmp_path / "link.obj"
+    link.symlink_to("m.obj")
+    path.chmod(0o640)
+    assets.write(link, assets.read(link), [assets.UvMap(UV, BOTH)])
+    assert link.is_symlink() and path.stat().st_mode & 0o777 == 0o640
+    check_mesh(only(assets.read(path)))
 
 
 @pytest.mark.skipif(not CASES.is_dir(), reason="the shared cases are not beside the project")

@@ -6,6 +6,7 @@ Own code, since no library that we know keeps what it does not read, or says whi
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -68,7 +69,9 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> None:
         asset = PlainAsset(asset.meshes)
     written = {}
     try:
-        for target, content in asset.files(path, maps).items():
+        for named, content in asset.files(path, maps).items():
+            # What a link names is written, and the link stays.
+            target = Path(os.path.realpath(named))
             temporary = target.with_name(f".{target.name}.{os.getpid()}")
             written[temporary] = target
             with temporary.open("wb") as file:
@@ -76,7 +79,9 @@ def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> None:
                 file.flush()
                 os.fsync(file.fileno())
             if temporary.read_bytes() != content:
-                raise OSError(f"{target}: what was written cannot be read again; is the disk full or failing?")
+                raise OSError(f"{named}: what was written cannot be read again; is the disk full or failing?")
+            if target.exists():
+                shutil.copymode(target, temporary)
         for temporary, target in written.items():
             temporary.replace(target)
     finally:
