@@ -284,6 +284,15 @@ def test_a_ply_gets_wider_lists_where_they_are_needed(form, tmp_path):
         assert (b"list int float texcoord" if last else b"list uchar int vertex_indices") in new
 
 
+def test_uvs_of_a_ply_get_names_that_are_free(tmp_path):
+    layout = {**PLAIN, "vertex": [("s", "uchar"), *PLAIN["vertex"]]}
+    content, mesh = with_uv(save(tmp_path / "m.ply", ply(layout, "ascii")))
+    assert np.abs(mesh.corner_uv - UV).max() < 1e-7
+    assert [row["s"] for row in rows_of(content)["vertex"]] == [[str(v + 1)] for v in (*range(7), 1, 2)]
+    with pytest.raises(assets.AssetError, match="'propertk uchar s' is no line of a PLY header"):
+        assets.read(save(tmp_path / "k.ply", ply(layout, "ascii").replace(b"property uchar s", b"propertk uchar s")))
+
+
 def test_a_ply_with_lines_of_windows(tmp_path):
     path = save(tmp_path / "m.ply", ply(PLAIN, "ascii").replace(b"\n", b"\r\n"))
     content, mesh = with_uv(path)

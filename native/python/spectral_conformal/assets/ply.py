@@ -37,6 +37,8 @@ _NAMES = {
     "f8": "double",
 }
 _ORDERS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
+# Of header lines; what another one means for the rows is not known.
+_WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
 # What programs call UVs: MeshLab's of the corners; those of vertices in Blender, MeshLab and others.
 _FACE_UV = ("texcoord", "texcoords")
@@ -147,6 +149,8 @@ class PlyAsset(OneMeshAsset):
                 elif words[:1] == ["property"]:
                     new = _Property(words[2], _TYPES[words[1]], None, number)
                     self._elements[-1].properties[new.name] = new
+                elif words and words[0] not in _WITHOUT_MEANING:
+                    raise ValueError
             except (KeyError, IndexError, ValueError):
                 told = " ".join(words)
                 raise AssetError(f"{self._path}:{number + 1}: '{told}' is no line of a PLY header.") from None
@@ -281,7 +285,10 @@ class PlyAsset(OneMeshAsset):
             for end, row in zip(ends, of_vertices):
                 changes.replace(end, end, self._blank() + self._rendered(row, kind))
             line = self._header[last_column.line].decode("ascii", errors="replace").rstrip()
-            new_lines = "".join(f"\nproperty {_NAMES[kind]} {name}" for name in _VERTEX_UV[0])
+            free = [names for names in _VERTEX_UV if not set(names) & self._vertex.properties.keys()]
+            if not free:
+                raise AssetError(f"{self._path}: vertices have properties of all names that UVs could have.")
+            new_lines = "".join(f"\nproperty {_NAMES[kind]} {name}" for name in free[0])
             changes.set_line(last_column.line, line + new_lines)
         copies = []
         for vertex, row in zip(vertices[is_copy].tolist(), different[is_copy]):
