@@ -39,6 +39,8 @@ COLUMNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("attempts", ("attempts",)),
     ("message", ("failure", "message")),
 )
+# What a spreadsheet computes; OWASP, "CSV Injection".
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 _STYLE = """
 body{font:14px system-ui,sans-serif;margin:1.5em;background:#fff;color:#222}
 table{border-collapse:collapse}th,td{padding:.25em .6em;border-bottom:1px solid #ddd;text-align:right}
@@ -100,9 +102,15 @@ def write(out: Path, reports: Sequence[dict[str, Any]], is_interrupted: bool = F
     table = io.StringIO(newline="")
     writer = csv.DictWriter(table, [name for name, _ in COLUMNS])
     writer.writeheader()
-    writer.writerows(rows)
-    report_file.replace(out / CSV, table.getvalue().encode())
-    report_file.replace(out / PAGE, _page(out, rows, counts).encode())
+    writer.writerows({name: _no_formula(value) for name, value in found.items()} for found in rows)
+    # Names of files are bytes on Linux, and no text of a page.
+    report_file.replace(out / CSV, table.getvalue().encode(errors="surrogateescape"))
+    report_file.replace(out / PAGE, _page(out, rows, counts).encode(errors="replace"))
+
+
+def _no_formula(value: Any) -> Any:  # noqa: ANN401 - any of JSON's
+    """Return a text that a spreadsheet would take for a formula behind a quote, anything else as it is."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
 
 
 def _page(out: Path, rows: Sequence[dict[str, Any]], counts: Counter[str]) -> str:
@@ -160,4 +168,4 @@ def _picture(out: Path, found: dict[str, Any]) -> str:
 
 
 def _relative(path: Path, out: Path) -> str:
-    return quote(Path(os.path.relpath(path, out)).as_posix())
+    return quote(os.fsencode(Path(os.path.relpath(path, out)).as_posix()))
