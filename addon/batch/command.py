@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import glob
 import json
 import logging
 import os
@@ -276,7 +277,7 @@ def _completed(asset: Asset, report: dict[str, Any], settings: BatchSettings) ->
     report = {**known, "warnings": [], **report}
     asset.folder.mkdir(parents=True, exist_ok=True)
     if report["status"] == "failed":
-        for path in asset.target.parent.glob(f".{asset.target.name}.*.partial"):
+        for path in asset.target.parent.glob(f".{glob.escape(asset.target.name)}.*.partial"):
             assets.remove(path)
     report_file.write(asset.folder, report)
     return report

@@ -10,6 +10,7 @@ import platform
 import shutil
 import sys
 import time
+import traceback
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -99,6 +100,10 @@ def run(request: Request) -> dict[str, Any]:
     except (ReadableError, MemoryError, OSError) as error:
         kind = "memory" if isinstance(error, MemoryError) else "error"
         report.update(status="failed", failure={"kind": kind, "message": str(error) or type(error).__name__})
+    except Exception as error:  # noqa: BLE001 - importers are others' Python; the next asset is not their fault
+        # The log has where it was.
+        traceback.print_exc()
+        report.update(status="failed", failure={"kind": "error", "message": f"{type(error).__name__}: {error}"})
     report["seconds"] = {**phases.seconds, "total": time.perf_counter() - start}
     report["peak_memory"] = memory.peak()
     report_file.write(Path(request.folder), report)

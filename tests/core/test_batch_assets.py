@@ -2,8 +2,9 @@
 """Which files are a batch, and where their results go."""
 
 import pytest
-from spectral_unwrap.batch import assets
+from spectral_unwrap.batch import assets, command
 from spectral_unwrap.batch.assets import InputError
+from spectral_unwrap.batch.settings import from_values
 
 
 @pytest.fixture
@@ -49,3 +50,15 @@ def test_inputs_that_are_not_there_are_named(folder):
     (folder / "empty").mkdir()
     with pytest.raises(InputError, match="No file to read in"):
         assets.find([str(folder / "empty")], folder / "out")
+
+
+@pytest.mark.parametrize("name", ["plain.obj", "[1].obj", "a*b.obj", "a?.obj"])
+def test_what_a_killed_worker_left_is_removed_whatever_the_name(name, tmp_path):
+    asset = assets.Asset(name, tmp_path / name, tmp_path / "out" / name, tmp_path / "out" / name / name)
+    asset.folder.mkdir(parents=True)
+    left, other = (asset.folder / f".{each}.7.partial" for each in (name, "other.obj"))
+    for path in (left, other):
+        path.touch()
+    failed = {"status": "failed", "failure": {"kind": "crash", "message": "gone"}}
+    command._completed(asset, failed, from_values({}))
+    assert not left.exists() and other.exists()
