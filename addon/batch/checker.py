@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import shutil
+import tempfile
 from pathlib import Path
 
 import bpy
@@ -47,8 +49,11 @@ def render(path: Path, size: int) -> None:
         world = bpy.data.worlds.new("checker")
         scene.camera, scene.world = holder, world
         added += [camera, world]
-        _set_up(scene, world, path, size)
-        bpy.ops.render.render(scene=scene.name, write_still=True)
+        # A name of our own: in those of others Blender takes braces for templates.
+        with tempfile.TemporaryDirectory() as folder:
+            _set_up(scene, world, Path(folder) / "checker.png", size)
+            bpy.ops.render.render(scene=scene.name, write_still=True)
+            shutil.move(scene.render.filepath, path)
     finally:
         for item in list(scene.collection.objects):
             bpy.data.objects.remove(item)

@@ -3,7 +3,10 @@
 
 import importlib
 
+import bpy
 import pytest
+
+from tests.blender.inside import scenes
 
 
 @pytest.mark.parametrize("error", [ValueError("no {0} of it"), KeyError("mesh"), AssertionError()])
@@ -23,3 +26,15 @@ def test_an_error_that_nobody_expected_is_in_the_report(error, tmp_path, monkeyp
     assert report["status"] == "failed"
     assert report["failure"] == {"kind": "error", "message": f"{type(error).__name__}: {error}"}
     assert (tmp_path / "report.json").is_file()
+
+
+@pytest.mark.parametrize("name", ["chair{0}", "a{", "ch###", "50%", "[1]"])
+def test_a_checker_is_rendered_whatever_the_asset_is_called(name, tmp_path):
+    checker = importlib.import_module("spectral_unwrap.batch.checker")
+    scenes.bumpy_grid(3, 3)
+    bpy.context.view_layer.update()
+    (tmp_path / name).mkdir()
+    checker.render(tmp_path / name / "checker.png", 32)
+    assert [path.name for path in (tmp_path / name).iterdir()] == ["checker.png"]
+    assert (tmp_path / name / "checker.png").read_bytes()[:4] == b"\x89PNG"
+    assert len(bpy.data.scenes) == 1
