@@ -100,8 +100,8 @@ PIP: dict[str, list[str]] = {
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
     "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scikit-image", "scipy"],
-    # A cluster for the batch, of the kind that studios have; Pixar's library for USD.
-    "test": ["distributed", "usd-core"],
+    # A cluster for the batch, of the kind that studios have; Google's library for Draco and Pixar's for USD.
+    "test": ["DracoPy", "distributed", "usd-core"],
     # The compiler is pinned, since equal sources are to give equal packages.
     "cross": ["lief", "setuptools", "wheel", "ziglang==0.14.1"],
     "wine": [],

@@ -391,7 +391,7 @@ def broken(name):
         ("index", "indices are no unsigned integers"),
         ("reaches beyond", "bufferView 0 reaches beyond its buffer"),
         ("no triangles", "has no triangles"),
-        ("draco", "the geometry is compressed by Draco; decompress the file first"),
+        ("draco", "what Draco has compressed is broken"),
         ("meshopt", "the geometry is compressed by meshopt; decompress the file first"),
         ("accessor", "structure is not that of glTF 2.0: IndexError"),
         ("not finite", "the position of vertex 1 is not finite|an index is"),
@@ -421,3 +421,46 @@ def test_a_file_that_is_cut_off_or_something_else_is_named(tmp_path):
     (tmp_path / "my data.bin").unlink()
     with pytest.raises(FileNotFoundError, match="my data.bin"):
         assets.read(alone)
+
+
+def test_what_draco_has_compressed_is_mapped(tmp_path):
+    draco = pytest.importorskip("DracoPy")
+    build = Builder()
+    places, triangles = grid(5)
+    normals = np.tile([0, 0, 1.0], (len(places), 1))
+    data = draco.encode(places, triangles.astype("u4"), quantization_bits=16, normals=normals, preserve_order=True)
+    by_kind = {each["attribute_type"]: each["unique_id"] for each in draco.decode(data).attributes}
+    kinds = {"POSITION": draco.AttributeType.POSITION, "NORMAL": draco.AttributeType.NORMAL}
+    told = {"bufferView": build.view(data), "attributes": {name: by_kind[kind] for name, kind in kinds.items()}}
+    build.json["accessors"] = [
+        *({"componentType": 5126, "count": len(places), "type": "VEC3"} for _ in range(2)),
+        {"componentType": 5123, "count": triangles.size, "type": "SCALAR"},
+    ]
+    name = "KHR_draco_mesh_compression"
+    primitive = {"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2, "extensions": {name: told}}
+    picture = build.view(PICTURE)
+    build.json |= {
+        "extensionsUsed": [name, "KHR_lights_punctual"],
+        "extensionsRequired": [name],
+        "images": [{"bufferView": picture, "mimeType": "image/png"}],
+        "meshes": [{"primitives": [primitive]}],
+        "buffers": [{"byteLength": len(build.buffer)}],
+    }
+    path, new = save(tmp_path / "m.glb", build), tmp_path / "new.glb"
+    asset = assets.read(path)
+    (mesh,) = asset.meshes
+    assert asset.warnings == ["Geometry that Draco had compressed is not compressed any more."]
+    assert np.abs(mesh.vertices[mesh.corner_vertices] - places[triangles.ravel()]).max() < 1e-3
+    maps = seams_and_uv(asset)
+    assets.write(new, asset, maps)
+    document, buffers, _ = load(new)
+    assert document["extensionsUsed"] == ["KHR_lights_punctual"] and "extensionsRequired" not in document
+    (written,) = document["meshes"][0]["primitives"]
+    rows = corners_of(document, buffers, written)
+    assert "extensions" not in written
+    assert np.abs(values(document, buffers, written["attributes"]["NORMAL"])[rows] - [0, 0, 1]).max() < 1e-2
+    assert np.abs(assets.read(new).meshes[0].corner_uv - maps[0].uv).max() < 1e-6
+    view = document["bufferViews"][document["images"][0]["bufferView"]]
+    assert buffers[0][view["byteOffset"] :][: view["byteLength"]] == PICTURE
+    # The compressed bytes are gone.
+    assert data[:20] not in buffers[0]

@@ -30,13 +30,13 @@ _FLOAT, _UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5121, 5123, 5125
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
+_DRACO = "KHR_draco_mesh_compression"
 # Geometry that accessors do not tell.
 _COMPRESSED = {
-    "KHR_draco_mesh_compression": "compressed by Draco",
     "EXT_meshopt_compression": "compressed by meshopt",
     "KHR_meshopt_compression": "compressed by meshopt",
 }
-_UNTIL_ALIGNED = 4
+_WORD = 4
 
 
 class GltfAsset:
@@ -58,8 +58,10 @@ class GltfAsset:
         self.chunks: list[tuple[bytes, bytes]] = []
         self._read(path.read_bytes())
         self.suffix = ".glb" if self.chunks else ".gltf"
-        self.warnings: list[str] = []
+        self._notes: list[str] = []
         with self._structure():
+            self.view_numbers = set(_view_numbers(self.json))
+            self._decompress()
             self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
             self._meshes = [mesh for mesh in self._meshes if mesh.groups]
             scales = _scales(self.json)
@@ -67,10 +69,11 @@ class GltfAsset:
         if not polygons:
             raise AssetError(f"{path}: has no triangles; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh) for mesh in polygons]
+        self.warnings = list(self._notes)
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
-        self.warnings = []
+        self.warnings = list(self._notes)
         with self._structure():
             edit = _Edit(self)
             for mesh, uv_map in zip(self._meshes, maps):
@@ -136,6 +139,56 @@ class GltfAsset:
         if len(data) < buffer.get("byteLength", 0):
             raise AssetError(f"{self.path}: a buffer of {buffer['byteLength']} bytes has {len(data)}.")
         return data
+
+    def _decompress(self) -> None:
+        """Put what Draco has compressed in its place, as a file without it has its geometry."""
+        primitives = [each for mesh in self.json.get("meshes", []) for each in mesh["primitives"]]
+        compressed = [each for each in primitives if _DRACO in each.get("extensions", {})]
+        if not compressed:
+            return
+        try:
+            import DracoPy
+        except ImportError as error:
+            needed = 'pip install "spectral_conformal[batch]"'
+            raise AssetError(f"{self.path}: the geometry is compressed by Draco, which needs {needed}.") from error
+        for primitive in compressed:
+            told = primitive["extensions"].pop(_DRACO)
+            if not primitive["extensions"]:
+                del primitive["extensions"]
+            view = self.json["bufferViews"][told["bufferView"]]
+            start = view.get("byteOffset", 0)
+            try:
+                mesh = DracoPy.decode(self.buffers[view["buffer"]][start : start + view["byteLength"]])
+            except DracoPy.FileTypeException as error:
+                raise AssetError(f"{self.path}: what Draco has compressed is broken: {error}.") from None
+            arrays = {
+                primitive["attributes"][name]: mesh.get_attribute_by_unique_id(k)["data"]
+                for name, k in told["attributes"].items()
+            }
+            arrays[primitive["indices"]] = np.reshape(mesh.faces, (-1, 1))
+            for number, values in arrays.items():
+                accessor = self.json["accessors"][number]
+                self._append(accessor, values.astype(_COMPONENTS[accessor["componentType"]]))
+        for key in ("extensionsUsed", "extensionsRequired"):
+            names = [name for name in self.json.get(key, []) if name != _DRACO]
+            self.json.pop(key, None)
+            if names:
+                self.json[key] = names
+        self.text = json.dumps(self.json, ensure_ascii=False, indent=_indent(self.text))
+        self._notes.append("Geometry that Draco had compressed is not compressed any more.")
+
+    def _append(self, accessor: _Json, values: npt.NDArray) -> None:
+        """Give an accessor its content, at the end of the first buffer."""
+        values, stride = _aligned(values)
+        data = self.buffers[0] + bytes(-len(self.buffers[0]) % _WORD)
+        new = {"buffer": 0, "byteOffset": len(data), "byteLength": values.nbytes, **stride}
+        self.buffers[0] = data + values.tobytes()
+        self.json["buffers"][0]["byteLength"] = len(self.buffers[0])
+        self.json["bufferViews"].append(new)
+        self.view_numbers.add(len(self.json["bufferViews"]) - 1)
+        accessor["bufferView"] = len(self.json["bufferViews"]) - 1
+        accessor["count"] = len(values)
+        accessor.pop("byteOffset", None)
 
     def array(self, number: int) -> npt.NDArray:
         """Return what an accessor has, (count, width), in the type in which it is stored."""
@@ -293,7 +346,7 @@ class _Edit:
         self._blobs: list[bytes] = []
         self._n_views = len(self._json.get("bufferViews", []))
         self._uses = _uses(self._json)
-        self._used_views = set(_view_numbers(self._json))
+        self._used_views = asset.view_numbers
         places = [(m, p) for m, mesh in enumerate(asset.json["meshes"]) for p in range(len(mesh["primitives"]))]
         self._place_of = {id(asset.json["meshes"][m]["primitives"][p]): (m, p) for m, p in places}
 
@@ -374,12 +427,10 @@ class _Edit:
 
     def _put(self, number: int | None, accessor: _Json, values: npt.NDArray, is_vertex: bool = True) -> int:
         """Give an accessor another content; a new one where others use it, too. Return its number."""
-        row = values.dtype.itemsize * values.shape[1]
-        view: _Json = {"buffer": 0, "byteLength": 0}
-        if is_vertex and row % 4:
-            padded = np.zeros((len(values), row + -row % 4), np.uint8)
-            padded[:, :row] = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), row)
-            values, view["byteStride"] = padded, padded.shape[1]
+        stride: dict[str, int] = {}
+        if is_vertex:
+            values, stride = _aligned(values)
+        view: _Json = {"buffer": 0, "byteLength": 0, **stride}
         self._blobs.append(values.tobytes())
         self._json.setdefault("bufferViews", []).append(view)
         new = {"bufferView": len(self._json["bufferViews"]) - 1, "count": len(values), **accessor}
@@ -409,7 +460,7 @@ class _Edit:
             )
         target = buffers[0]
         for view, blob in zip(views[self._n_views :], self._blobs):
-            target += bytes(-len(target) % _UNTIL_ALIGNED)
+            target += bytes(-len(target) % _WORD)
             view.update(buffer=0, byteOffset=len(target), byteLength=len(blob))
             target += blob
         numbers = {old: new for new, old in enumerate(k for k in range(len(views)) if k not in dropped)}
@@ -448,9 +499,7 @@ class _Edit:
                 description["uri"] = name
                 files[out.parent / name] = content
         if not self._asset.chunks:
-            second = self._asset.text.partition("\n")[2]
-            indent = second[: len(second) - len(second.lstrip(" \t"))] or None
-            files[out] = json.dumps(self._json, ensure_ascii=False, indent=indent).encode()
+            files[out] = json.dumps(self._json, ensure_ascii=False, indent=_indent(self._asset.text)).encode()
             return files
         text = json.dumps(self._json, ensure_ascii=False, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
@@ -504,6 +553,22 @@ def _unit(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Return vectors (n, 3) at length 1; those without length as they are."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+
+
+def _aligned(values: npt.NDArray) -> tuple[npt.NDArray, dict[str, int]]:
+    """Return rows of vertices that begin at whole words, and the stride that a view of them needs."""
+    row = values.dtype.itemsize * values.shape[1]
+    if row % _WORD == 0:
+        return values, {}
+    padded = np.zeros((len(values), row + -row % _WORD), np.uint8)
+    padded[:, :row] = np.ascontiguousarray(values).view(np.uint8).reshape(len(values), row)
+    return padded, {"byteStride": padded.shape[1]}
+
+
+def _indent(text: str) -> str | None:
+    """Return the blanks before the second line of a text of JSON."""
+    second = text.partition("\n")[2]
+    return second[: len(second) - len(second.lstrip(" \t"))] or None
 
 
 def _uses(document: _Json) -> dict[int, int]:
