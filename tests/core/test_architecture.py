@@ -30,9 +30,9 @@ STANDARD = {
 
 # What the batch alone may import: it reads and writes files, starts processes, and uses what is installed beside it.
 FOR_BATCH = {
-    *("argparse", "base64", "csv", "difflib", "html", "importlib", "io", "logging", "os", "pathlib", "platform"),
-    *("queue", "re", "shutil", "struct", "subprocess", "sys", "tempfile", "tomli", "tomllib", "urllib", "zlib"),
-    *("distributed", "psutil", "pxr", "tqdm"),
+    *("argparse", "base64", "csv", "difflib", "glob", "html", "importlib", "io", "logging", "os", "pathlib"),
+    *("platform", "queue", "re", "shutil", "struct", "subprocess", "sys", "tempfile", "tomli", "tomllib"),
+    *("traceback", "urllib", "zlib", "distributed", "psutil", "pxr", "tqdm"),
 }
 
 # What a folder of the add-on may import of it, besides itself and what stands below all folders.
