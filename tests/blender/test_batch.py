@@ -88,6 +88,11 @@ def results_of(out):
     return {path.parent.name: json.loads(path.read_text()).get("output_digest") for path in out.rglob("report.json")}
 
 
+def reports_in(out):
+    """Return the reports that there are while a batch runs: what Path.rglob looks at must not vanish meanwhile."""
+    return [Path(folder) / "report.json" for folder, _, names in os.walk(out) if "report.json" in names]
+
+
 def left_behind(folder):
     return [path for path in folder.rglob("*") if ".partial" in path.name]
 
@@ -283,7 +288,7 @@ def test_interrupted_run_goes_on_with_the_same_result(environ, batch, tmp_path):
     folder, good, *_ = batch
     out = tmp_path / "out"
     process = start(environ, folder / "in", "--out", out, "--jobs", 2)
-    wait_until(lambda: len(list(out.rglob("report.json"))) >= 6)
+    wait_until(lambda: len(reports_in(out)) >= 6)
     workers = children_of(process.pid)
     assert workers
     process.send_signal(signal.SIGKILL)
@@ -717,7 +722,7 @@ def test_dask_cluster_loses_a_worker_and_no_asset(environ, batch, cluster, tmp_p
         assert sorted(limits)[0] < 300e6 < sorted(limits)[1]
     sources = [folder / "in" / name for name in good]
     process = start(environ, *sources, "--out", out, "--scheduler", address, command=COMMAND)
-    wait_until(lambda: len(list(out.rglob("report.json"))) >= 4)
+    wait_until(lambda: len(reports_in(out)) >= 4)
     (worker,) = [
         child for child in children_of(nannies[0].pid) if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()
     ]
