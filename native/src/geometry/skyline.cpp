@@ -9,13 +9,13 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 void Skyline::put(PackedBox& box) {
   std::size_t best = segments_.size();
-  double best_y = infinity;
+  double best_y = unbounded;
   for (std::size_t i = 0; i < segments_.size() && segments_[i].x + box.width <= width_; ++i) {
     const double y = height_over(i, box.width);
     if (y < best_y) {
@@ -49,11 +49,12 @@ void Skyline::raise(std::size_t i, const PackedBox& box) {
   }
 }
 
-SkylineTree::SkylineTree(const Skyline& skyline) : segments_{{0, infinity, 0}, {skyline.width(), infinity, infinity}} {
+SkylineTree::SkylineTree(const Skyline& skyline)
+    : segments_{{0, unbounded, 0}, {skyline.width(), unbounded, unbounded}} {
   segments_[left_end].behind = right_end;
   segments_[right_end].before = left_end;
-  along_.insert_before(MaxTreap::none, left_end, infinity);
-  along_.insert_before(MaxTreap::none, right_end, infinity);
+  along_.insert_before(MaxTreap::none, left_end, unbounded);
+  along_.insert_before(MaxTreap::none, right_end, unbounded);
   for (const auto& [x, y, end] : skyline.segments()) insert_before(right_end, x, y, end);
 }
 
@@ -99,7 +100,7 @@ void SkylineTree::insert_before(int at, double x, double y, double end) {
   along_.insert_before(at, i, y);
   const int next = by_height_.first_behind(
       [&](int other) { return segment(other).y > y || (segment(other).y == y && segment(other).x > x); });
-  by_height_.insert_before(next, i, infinity);
+  by_height_.insert_before(next, i, unbounded);
 }
 
 void SkylineTree::erase(int i) {
