@@ -20,15 +20,31 @@ def edited(data: bytes, starts: Integers, ends: Integers, texts: Sequence[bytes]
     return b"".join(itertools.chain.from_iterable(zip(pieces, [*new, b""])))
 
 
+def in_order_of_use(keys: npt.NDArray) -> tuple[Integers, Integers]:
+    """Return where each different row of keys stands first, ascending, and of each row which of these it is."""
+    _, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    return first[order], rank[number.ravel()]
+
+
 def numbered(vertices: Integers, uv: npt.NDArray[np.float64]) -> tuple[Integers, npt.NDArray[np.float64], Integers]:
     """Return the different pairs of vertex and UV in the order in which they are used first, and each corner's.
 
     Returns:
         vertices (n,), UVs (n, 2), and of each corner (C,) which.
     """
-    keys = np.c_[vertices, uv]
-    different, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
-    return vertices[first[order]], different[order, 1:], rank[number.ravel()]
+    first, number = in_order_of_use(np.c_[vertices, uv])
+    return vertices[first], uv[first], number
+
+
+def places_of_copies(vertices: Integers, n_vertices: int) -> tuple[npt.NDArray[np.bool_], Integers]:
+    """Give vertices that are there several times copies behind all others; the first of each keeps its place.
+
+    Returns:
+        which of `vertices` (n,) are copies, and where each stands.
+    """
+    is_copy = np.ones(len(vertices), dtype=bool)
+    is_copy[np.unique(vertices, return_index=True)[1]] = False
+    return is_copy, np.where(is_copy, n_vertices - 1 + np.cumsum(is_copy), vertices)

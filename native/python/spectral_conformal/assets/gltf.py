@@ -19,7 +19,7 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
-from .edits import Integers, numbered
+from .edits import Integers, in_order_of_use, numbered, places_of_copies
 from .mesh import AssetError, AssetMesh, UvMap, checked
 
 _Json = dict[str, Any]
@@ -283,13 +283,10 @@ class _Mesh:
             )
             uv.append(of_rows[rows])
         used = np.concatenate(positions)[np.concatenate(corners)]
-        vertices, first, number = np.unique(used + 0.0, axis=0, return_index=True, return_inverse=True)
-        order = np.argsort(first)
-        rank = np.empty(len(order), dtype=np.int64)
-        rank[order] = np.arange(len(order))
+        first, number = in_order_of_use(used + 0.0)
         offsets = np.arange(0, len(used) + 1, 3, dtype=np.int64)
         found_uv = np.concatenate(uv) if has_uv else None
-        return AssetMesh(vertices[order], offsets, rank[number.ravel()], found_uv, self.name, scale)
+        return AssetMesh(used[first] + 0.0, offsets, number, found_uv, self.name, scale)
 
 
 def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
@@ -355,11 +352,8 @@ class _Edit:
         rows = group.corners
         texels = (uv * (1, -1) + (0, 1)).astype("<f4")
         of_row, different, index = numbered(rows[mapped], texels[mapped])
-        _, first = np.unique(of_row, return_index=True)
-        is_copy = np.ones(len(of_row), dtype=bool)
-        is_copy[first] = False
+        is_copy, places = places_of_copies(of_row, group.n_rows)
         sources = of_row[is_copy]
-        places = np.where(is_copy, group.n_rows - 1 + np.cumsum(is_copy), of_row)
         coordinates = np.zeros((group.n_rows + len(sources), 2), "<f4")
         if name in group.attributes:
             coordinates[: group.n_rows] = self._asset.numbers(group.attributes[name])

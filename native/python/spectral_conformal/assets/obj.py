@@ -53,9 +53,9 @@ class ObjAsset(OneMeshAsset):
         if (sizes < 3).any():
             raise self._broken(self._faces[(sizes < 3).argmax()], "a face needs at least three corners")
         self._corner_words = _ranges(self._first_words[self._faces] + 1, sizes)
-        corners, self._corner_uv = self._corners(np.repeat(self._faces, sizes), len(positions))
-        has_map = self._corner_uv.max(initial=-1) >= 0
-        found = np.vstack([self._uv, [[np.nan, np.nan]]])[self._corner_uv] if has_map else None
+        corners, corner_uv = self._corners(np.repeat(self._faces, sizes), len(positions))
+        has_map = corner_uv.max(initial=-1) >= 0
+        found = np.vstack([self._uv, [[np.nan, np.nan]]])[corner_uv] if has_map else None
         self.mesh = checked(path, AssetMesh(positions, offsets_of(sizes), corners, found))
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:

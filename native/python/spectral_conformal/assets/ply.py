@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from .edits import Integers, edited, numbered
+from .edits import Integers, edited, numbered, places_of_copies
 from .mesh import AssetError, AssetMesh, OneMeshAsset, check_face, checked, numbers, offsets_of
 
 _TYPES = {
@@ -100,7 +100,7 @@ class PlyAsset(OneMeshAsset):
         indices = face.first(_INDICES) if face else None
         if indices is None:
             raise AssetError(f"{path}: there is no element 'face' with a list 'vertex_indices'.")
-        self._vertex, self._face, self._indices = vertex, face, indices
+        self._vertex, self._indices = vertex, indices
         positions = _table(vertex, "xyz")
         sizes = np.array([len(row) for row in indices.values], dtype=np.int64)
         corners = np.concatenate([np.zeros(0, np.int64), *indices.values]).astype(np.int64)
@@ -265,10 +265,7 @@ class PlyAsset(OneMeshAsset):
     def _with_vertex_uv(self, uv: npt.NDArray[np.float64], corner_mapped: npt.NDArray[np.bool_]) -> bytes:
         corners, n_vertices = self.mesh.corner_vertices, len(self.mesh.vertices)
         vertices, different, index = numbered(corners[corner_mapped], uv[corner_mapped])
-        _, first = np.unique(vertices, return_index=True)
-        is_copy = np.ones(len(vertices), dtype=bool)
-        is_copy[first] = False
-        places = np.where(is_copy, n_vertices - 1 + np.cumsum(is_copy), vertices)
+        is_copy, places = places_of_copies(vertices, n_vertices)
         of_vertices = np.zeros((n_vertices, 2))
         of_vertices[vertices[~is_copy]] = different[~is_copy]
         changes = _Changes(self._header)

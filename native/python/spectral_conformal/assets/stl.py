@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from .edits import in_order_of_use
 from .mesh import AssetError, AssetMesh, checked, numbers
 from .obj import PlainAsset
 
@@ -34,12 +35,9 @@ def read_stl(path: Path) -> PlainAsset:
     else:
         corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3).astype(np.float64)
     # -0.0 is in the place of 0.0.
-    vertices, first, corner_vertices = np.unique(corners + 0.0, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
+    first, corner_vertices = in_order_of_use(corners + 0.0)
     offsets = np.arange(0, len(corners) + 1, 3, dtype=np.int64)
-    return PlainAsset([checked(path, AssetMesh(vertices[order], offsets, rank[corner_vertices.ravel()]))])
+    return PlainAsset([checked(path, AssetMesh(corners[first] + 0.0, offsets, corner_vertices))])
 
 
 def _of_text(path: Path, data: bytes) -> npt.NDArray[np.float64]:

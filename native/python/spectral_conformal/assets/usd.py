@@ -109,9 +109,7 @@ class UsdAsset:
         root = self._stage.GetRootLayer()
         layer = Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(root)
-        for mesh, uv_map in zip(self._meshes, maps):
-            mesh.write(layer, uv_map)
-        return layer
+        return self._with_maps(layer, maps)
 
     def _layer_over(self, out: Path, maps: Sequence[UvMap]) -> Sdf.Layer:
         """Return a layer with UVs alone, over the file."""
@@ -123,6 +121,9 @@ class UsdAsset:
         for key in ("defaultPrim", "upAxis", "metersPerUnit"):
             if root.pseudoRoot.HasInfo(key):
                 layer.pseudoRoot.SetInfo(key, root.pseudoRoot.GetInfo(key))
+        return self._with_maps(layer, maps)
+
+    def _with_maps(self, layer: Sdf.Layer, maps: Sequence[UvMap]) -> Sdf.Layer:
         for mesh, uv_map in zip(self._meshes, maps):
             mesh.write(layer, uv_map)
         return layer
