@@ -60,13 +60,13 @@ def main() -> int:
             environment.set_up("build", "bpy", "demo")
             return demo.run(mesh)
         if options.command == "batch":
-            environment.set_up("build", "bpy")
+            environment.set_up("build", "batch", "bpy")
             return batch.run(options.further_arguments)
         if options.command == "test":
             if options.quick:
                 environment.set_up("build", "docs", "quick")
                 return environment.run_pytest(["-m", environment.QUICK, *options.further_arguments])
-            environment.set_up("build", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
+            environment.set_up("build", "batch", "bpy", "demo", "docs", "package", "fuzz", "quick", "test")
             other_pythons.set_up()
             if cross.made():
                 environment.set_up("cross", "wine", native=False)

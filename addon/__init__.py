@@ -18,16 +18,15 @@ bl_info = {
 def _parts() -> tuple[ModuleType, ...]:
     """Return the parts, each of which may use those before it: they come in this order and go in the reverse one.
 
-    Imported here, so that a Python without Blender can run the batch, which then looks for one.
+    Imported here, so that a Python without Blender can import the core.
     """
     from . import handlers, manual, operators, preferences, properties, translations
-    from .batch import blender_command
     from .overlay import extender_arrows, map_overlay
     from .ui import menus, panels
 
     return (
         *(translations, properties, handlers, operators, preferences, manual),
-        *(menus, panels, extender_arrows, map_overlay, blender_command),
+        *(menus, panels, extender_arrows, map_overlay),
     )
 
 

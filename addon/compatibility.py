@@ -6,7 +6,6 @@ import functools
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -52,50 +51,6 @@ def translated(text: str) -> str:
     # keeps would be let go of only when Python ends.
     translations = bpy.app.translations
     return (getattr(translations, "pgettext_rpt", None) or translations.pgettext_tip)(text)
-
-
-@dataclass(frozen=True)
-class UVSelection:
-    """The UV selection of a mesh: flags per corner, in the order of faces and their corners, and per face."""
-
-    vertices: list[bool]
-    edges: list[bool]
-    faces: list[bool] | None
-    matches_mesh: bool | None
-
-
-def read_uv_selection(bm: BMesh, layer: BMLayerItem) -> UVSelection:
-    """Return the UV selection of all faces of `bm`, hidden and unselected ones too."""
-    if _UV_SELECTION_ON_MESH:
-        return UVSelection(
-            [loop.uv_select_vert for face in bm.faces for loop in face.loops],
-            [loop.uv_select_edge for face in bm.faces for loop in face.loops],
-            [face.uv_select for face in bm.faces],
-            bm.uv_select_sync_valid,
-        )
-    return UVSelection(
-        [loop[layer].select for face in bm.faces for loop in face.loops],
-        [loop[layer].select_edge for face in bm.faces for loop in face.loops],
-        None,
-        None,
-    )
-
-
-def write_uv_selection(bm: BMesh, layer: BMLayerItem, selection: UVSelection) -> None:
-    """Set exactly the flags that `read_uv_selection` returned."""
-    loops = (loop for face in bm.faces for loop in face.loops)
-    if _UV_SELECTION_ON_MESH:
-        for loop, vertex, edge in zip(loops, selection.vertices, selection.edges):
-            loop.uv_select_vert = vertex
-            loop.uv_select_edge = edge
-        for face, selected in zip(bm.faces, selection.faces):
-            face.uv_select = selected
-        bm.uv_select_sync_valid = selection.matches_mesh
-    else:
-        for loop, vertex, edge in zip(loops, selection.vertices, selection.edges):
-            uv = loop[layer]
-            uv.select = vertex
-            uv.select_edge = edge
 
 
 def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool = False) -> None:
@@ -148,25 +103,6 @@ def select_uv_corners(bm: BMesh, layer: BMLayerItem, selected: list[bool], only_
                 uv.select, uv.select_edge = corners[index], edge
         if _UV_SELECTION_ON_MESH:
             face.uv_select = all(corners)
-
-
-def can_pack_by_mesh_selection(tool_settings: bpy.types.ToolSettings) -> bool:
-    """Return whether sync selection can be on without a change of the UV selection, which turning it on is in 5.0."""
-    return tool_settings.use_uv_select_sync or not _UV_SELECTION_ON_MESH
-
-
-@contextmanager
-def mesh_selection_only(bm: BMesh) -> Iterator[None]:
-    """Within, sync selection looks at the mesh selection and not at the finer UV selection that 5.0 keeps beside it."""
-    if not _UV_SELECTION_ON_MESH:
-        yield
-        return
-    before = bm.uv_select_sync_valid
-    bm.uv_select_sync_valid = False
-    try:
-        yield
-    finally:
-        bm.uv_select_sync_valid = before
 
 
 def selected_uv_corners(bm: BMesh, layer: BMLayerItem) -> np.ndarray:
@@ -305,21 +241,3 @@ def has_pins(bm: BMesh, layer: BMLayerItem) -> bool:
         return any(loop[layer].pin_uv for face in bm.faces for loop in face.loops)
     pins = flags.get(f".pn.{layer.name}")
     return pins is not None and any(loop[pins] for face in bm.faces for loop in face.loops)
-
-
-def packing_options(margin_method: str) -> dict[str, str]:
-    """Return arguments for `bpy.ops.uv.pack_islands`, as far as it has them in this version.
-
-    Bounding boxes are packed, as Blender's own Unwrap does. That is all that 3.4 can do. The default from 4.0, exact
-    shapes, takes seconds for a cube's six faces.
-    """
-    known = bpy.ops.uv.pack_islands.get_rna_type().properties
-    options = {"shape_method": "AABB", "margin_method": margin_method}
-    return {name: value for name, value in options.items() if name in known}
-
-
-def shader_nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
-    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 will know no `use_nodes`."""
-    if data.node_tree is None:
-        data.use_nodes = True
-    return data.node_tree.nodes

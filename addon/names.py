@@ -4,8 +4,6 @@
 # By which Blender knows the add-on: as an extension it has another than before 4.2.
 PACKAGE = __package__
 
-# After `blender --command`.
-COMMAND = "spectral_unwrap"
 
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
 

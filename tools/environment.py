@@ -38,6 +38,7 @@ OPENBLAS = "0.3.34.481.3"
 APT: dict[str, list[str]] = {
     "build": ["g++", "libcgal-dev", "libeigen3-dev", "libspectra-dev", "libsuitesparse-dev"],
     "bpy": list(FOR_BPY),
+    "batch": [],
     "blender": ["blender", "python3-numpy"],
     "demo": [],
     "docs": [],
@@ -92,6 +93,8 @@ PIP: dict[str, list[str]] = {
         f"scipy-openblas32=={OPENBLAS}",
     ],
     "bpy": [f"bpy=={BPY[OWN_PYTHON]}"] if OWN_PYTHON in BPY else [],
+    # Google's library for Draco, and Pixar's for USD.
+    "batch": ["DracoPy", "usd-core"],
     "demo": ["matplotlib", "scipy"],
     # MkDocs 2 will have no plugins. Ruff lays out the signatures.
     "docs": ["mkdocs>=1.6,<2", "mkdocs-material>=9.6", "mkdocstrings[python]>=1", "ruff"],
@@ -100,8 +103,8 @@ PIP: dict[str, list[str]] = {
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
     "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scikit-image", "scipy"],
-    # A cluster for the batch, of the kind that studios have; Google's library for Draco and Pixar's for USD.
-    "test": ["DracoPy", "distributed", "usd-core"],
+    # A cluster for the batch, of the kind that studios have.
+    "test": ["distributed"],
     # The compiler is pinned, since equal sources are to give equal packages.
     "cross": ["lief", "setuptools", "wheel", "ziglang==0.14.1"],
     "wine": [],

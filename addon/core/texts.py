@@ -342,7 +342,6 @@ SELECT_WITH_ACTIVE = "Select the vertices to connect, last the one to connect th
 NO_ACTIVE_VERTEX = "No vertex is active; select the one to connect the others with last, with Shift and click"
 NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in no common island; remove the seams between them"
 HELD_BY_PINS = "The extender has no effect: pins hold its island; unpin it or use soft pins"
-PACKER_WAS_CANCELLED = "it was cancelled"
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
 NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
@@ -840,14 +839,6 @@ def solver(factorization: str, kernel: str) -> str:
     if not kernel:
         return factorization
     return translate("{name}, OpenBLAS's kernels for {kernel}").format(name=factorization, kernel=kernel)
-
-
-def not_packed(reason: str) -> str:
-    """Return what to do where Blender's packer did not run."""
-    sentence = translate(
-        "Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand"
-    )
-    return sentence.format(reason=reason)
 
 
 def no_margin(margin: float) -> str:

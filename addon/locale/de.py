@@ -411,7 +411,6 @@ TEXTS = {
     "The extender has no effect: pins hold its island; unpin it or use soft pins": (
         "Der Extender wirkt nicht: Pins halten seine Insel fest; sie lösen oder weiche Pins verwenden"
     ),
-    "it was cancelled": "es wurde abgebrochen",
     "Subdivision Surface modifier needs to be first to work with unwrap": (
         "Der Modifikator „Oberflächenunterteilung“ muss an erster Stelle stehen, um beim Abwickeln zu wirken"
     ),
@@ -666,9 +665,6 @@ TEXTS = {
     "platform and this version of Blender ({reason})": (
         "Das kompilierte Modul spectral_conformal lässt sich nicht importieren; das Paket von Spectral Unwrap für "
         "dieses System und diese Version von Blender installieren ({reason})"
-    ),
-    "Blender's Pack Islands did not run: {reason}; choose Keep in Place and pack the islands by hand": (
-        "Blenders „Pack Islands“ lief nicht: {reason}; „An Ort und Stelle“ wählen und die Inseln von Hand packen"
     ),
     "The margin must be a number, not {margin}": "Der Rand muss eine Zahl sein, nicht {margin}",
     "Extender without a name": "Extender ohne Namen",

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.blender import batch_assets
+from tests.module import batch_assets
 from tools import batch
 
 # What would be done without the batch, too.

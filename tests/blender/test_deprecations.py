@@ -37,7 +37,7 @@ def test_blender_ends_where_a_property_that_goes_is_set(blender, tmp_path):
 @pytest.mark.parametrize(
     ("module", "is_ours"),
     [
-        ("spectral_unwrap.batch.checker", True),
+        ("spectral_conformal.batch.task", True),
         ("bl_ext.user_default.spectral_unwrap.live", True),
         ("tests.interface.session", True),
         ("io_scene_gltf2.io", False),

@@ -10,10 +10,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 # The commands that unwrap files, with which nothing begins but by a call of them on a command line.
-BATCH = {ROOT / "addon" / "__main__.py", *(ROOT / "addon" / "batch").glob("*.py")}
 MODULE = ROOT / "native" / "python" / "spectral_conformal"
-COMMAND = {MODULE / "__main__.py", *(MODULE / "assets").glob("*.py")}
-PYTHON = sorted({*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")} - BATCH - COMMAND)
+BATCH = set((MODULE / "batch").rglob("*.py"))
+COMMAND = {MODULE / "__main__.py", MODULE / "_command_line.py", *(MODULE / "assets").glob("*.py"), *BATCH}
+PYTHON = sorted({*(ROOT / "addon").rglob("*.py"), *(ROOT / "native" / "python").rglob("*.py")} - COMMAND)
 CPP = sorted(path for kind in ("h", "cpp") for path in (ROOT / "native").rglob(f"*.{kind}"))
 
 # Everything of the standard library that may be imported: nothing that reaches outside the process.
@@ -59,7 +59,7 @@ METHODS = {
     *("addon_utils", "script_paths", "user_resource", "online_access", "filepath", "environ", "getenv"),
 }
 # Blender's operators that the add-on calls.
-OPERATORS = {"uv.pack_islands", "uv.unwrap", "view3d.zoom", "ed.undo_push"}
+OPERATORS = {"uv.unwrap", "view3d.zoom", "ed.undo_push"}
 
 # What the compiled part would need to reach outside the process, and the one file that may, with its reason.
 CALLS = {
@@ -193,37 +193,51 @@ def test_compiled_module_names_no_function_that_reaches_outside():
     assert {name for name in names if re.fullmatch(forbidden, name)} == set()
 
 
-def imported_at_once(path):
-    """Return the names of the add-on's modules that a file imports when it is itself imported."""
-    nodes = ast.parse(path.read_text(encoding="utf-8")).body
-    return {alias.name for node in nodes if isinstance(node, ast.ImportFrom) and node.level for alias in node.names}
+def imported(path):
+    """Return every name that a file imports, with the module that it comes from, relative ones without their dots."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            found |= {".".join(filter(None, (node.module, alias.name))) for alias in node.names}
+    return found
 
 
-def test_the_batch_is_loaded_by_its_command_alone():
-    """The add-on registers the command; that module imports the others only when it is called."""
-    others = {path.stem for path in BATCH} - {"__init__", "__main__", "blender_command"}
-    assert {"command", "task", "pool"} <= others
-    assert imported_at_once(ROOT / "addon" / "batch" / "blender_command.py") == {"names"}
+def test_the_modules_commands_are_loaded_by_themselves_alone():
+    """Neither the add-on nor the module's functions import what reads files, starts processes or uses the network."""
     for path in PYTHON:
-        names = [
-            node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)
-        ]
-        batch = {
-            alias.name for node in names if (node.module or "").partition(".")[0] == "batch" for alias in node.names
-        }
-        assert batch <= ({"blender_command"} if path.name == "__init__.py" else set()), path
+        names = {name for name in imported(path) if not name.startswith("gpu_extras.")}
+        assert not re.search(r"\b(assets|batch|__main__|_command_line)\b", " ".join(names)), path
 
 
-def test_the_modules_command_is_loaded_by_itself_alone():
-    for path in set(MODULE.glob("*.py")) - COMMAND:
-        assert not re.search(r"\b(assets|__main__)\b", path.read_text(encoding="utf-8")), path
-    assert "import _layout, assets" in (MODULE / "__main__.py").read_text(encoding="utf-8")
+def test_reading_files_needs_neither_processes_nor_network():
+    reached = {name.partition(".")[0] for path in COMMAND - BATCH for name in imported(path)}
+    assert not reached & {"subprocess", "socket", "urllib.request", "distributed", "multiprocessing"}
+    assert {"subprocess", "distributed"} <= {name.partition(".")[0] for path in BATCH for name in imported(path)}
 
 
-def test_manifest_asks_for_what_the_batch_needs():
+def test_blender_is_reached_by_what_is_for_it_alone():
+    """The module runs without Blender: of the batch a folder needs it, which the task imports where it is needed."""
+    for path in (ROOT / "native" / "python").rglob("*.py"):
+        is_for_blender = path.parent == MODULE / "batch" / "blender"
+        assert is_for_blender or not {"bpy", "mathutils"} & {name.partition(".")[0] for name in imported(path)}, path
+
+
+def test_importers_and_exporters_of_blender_are_for_fbx_alone():
+    pattern = re.compile(
+        r"(import_scene|export_scene|import_mesh|export_mesh|wm)[._]\w*(import|export|fbx|gltf|obj|ply|stl|usd)"
+    )
+    for path in {*PYTHON, *COMMAND}:
+        names = {found[0] for found in pattern.finditer(path.read_text(encoding="utf-8"))}
+        allowed = {"wm.fbx_import", "import_scene.fbx", "export_scene.fbx"} if path.parent.name == "blender" else set()
+        assert names <= allowed, path
+
+
+def test_manifest_asks_for_no_permission():
     manifest = (ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8")
     keys = set(re.findall(r"^\s*\[?([\w.]+)\]?\s*(?==|$)", manifest, re.MULTILINE))
     assert keys == {
         *("schema_version", "id", "name", "tagline", "type", "maintainer", "license", "copyright"),
-        *("tags", "blender_version_min", "permissions", "files", "network"),
+        *("tags", "blender_version_min"),
     }

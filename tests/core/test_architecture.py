@@ -28,13 +28,6 @@ STANDARD = {
     "typing",
 }
 
-# What the batch alone may import: it reads and writes files, starts processes, and uses what is installed beside it.
-FOR_BATCH = {
-    *("argparse", "base64", "csv", "difflib", "glob", "html", "importlib", "io", "logging", "os", "pathlib"),
-    *("platform", "queue", "re", "shutil", "struct", "subprocess", "sys", "tempfile", "tomli", "tomllib"),
-    *("traceback", "urllib", "zlib", "distributed", "psutil", "pxr", "tqdm"),
-}
-
 # What a folder of the add-on may import of it, besides itself and what stands below all folders.
 BELOW = {
     "core": set(),
@@ -46,7 +39,6 @@ BELOW = {
     "overlay": {"core", "extenders", "edit_mesh"},
     "ui": {"core", "extenders", "unwrapping"},
     "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
-    "batch": {"core", "extenders", "edit_mesh", "unwrapping"},
 }
 # Identifiers, what differs between versions of Blender, its editors and meshes, what the user prefers: no folder, and
 # below all but core.
@@ -128,10 +120,9 @@ def test_core_imports_numpy_and_itself_only(path):
 
 @pytest.mark.parametrize("path", sorted(set(ADDON.rglob("*.py")) - set(CORE.rglob("*.py"))), ids=relative)
 def test_blender_layer_reaches_the_solver_through_core_only(path):
-    is_batch = path.parent == ADDON / "batch" or path == ADDON / "__main__.py"
     # What it may use of them is for test_access.py.
     for_references = ("ctypes", "sys") if path == ADDON / "compatibility.py" else ()
-    allowed = {"numpy", *BLENDER, *STANDARD, *(FOR_BATCH if is_batch else ()), *for_references}
+    allowed = {"numpy", *BLENDER, *STANDARD, *for_references}
     for name in imports(path):
         assert "spectral_conformal" not in name
         assert name.startswith("addon.") or name.partition(".")[0] in allowed, name
@@ -196,8 +187,6 @@ def test_what_artists_read_stands_in_one_file():
     # bl_info must be literals in the add-on's __init__; the tables have the same sentences in other languages.
     others = set(ADDON.rglob("*.py")) - {ADDON / "core" / "texts.py", ADDON / "__init__.py"}
     others -= set((ADDON / "locale").glob("*.py"))
-    # Commands are in English everywhere, and no artist reads them in Blender.
-    others -= {ADDON / "__main__.py", *(ADDON / "batch").glob("*.py")}
     assert {relative(path): sentences(path) for path in sorted(others) if sentences(path)} == {}
     assert len(sentences(ADDON / "core" / "texts.py")) > 50
 

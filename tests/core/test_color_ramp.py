@@ -3,7 +3,8 @@
 
 import numpy as np
 import pytest
-from spectral_unwrap.core.color_ramp import colors_of, linear
+from spectral_conformal.batch import layout_picture
+from spectral_unwrap.core.color_ramp import GOOD_TO_BAD, colors_of, linear
 
 RAMP = ((0.0, 0.0, 1.0), (1.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 
@@ -24,3 +25,8 @@ def test_between_them_it_is_mixed_as_displayed():
     (color,) = colors_of(np.array([2.5]), 1.0, 3.0, RAMP)
     assert color[:3] == pytest.approx([1.0, float(linear(np.array(0.5))), 0.0])
     assert linear(np.array(0.5)) == pytest.approx(0.2140, abs=1e-4)
+
+
+def test_pictures_of_the_batch_have_the_colours_of_the_overlay():
+    """The add-on and the module's command share no file that both could import."""
+    assert layout_picture.GOOD_TO_BAD == GOOD_TO_BAD

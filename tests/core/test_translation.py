@@ -194,7 +194,6 @@ CALLS = {
     "preview_status": [("A",)],
     "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc), 2.0) for qc in (1.5, NAN)],
     "no_module": [("A",)],
-    "not_packed": [("A",)],
     "no_margin": [(-1.0,)],
     "unnamed_extender": [()],
     "without_order": [(3, 2)],

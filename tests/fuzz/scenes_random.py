@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random scenes in edit mode: one generator of random numbers makes one scene, always the same in one Blender."""
 
-import importlib
-
 import bmesh
 import bpy
 import numpy as np
@@ -245,7 +243,10 @@ def _materials(rng, made):
     material = bpy.data.materials.new("Material")
     made.data.materials.append(material)
     made.data.materials.append(None)
-    nodes = importlib.import_module("spectral_unwrap.compatibility").shader_nodes(material)
+    # New data has them from 5.0 on; Blender 6 will know no use_nodes.
+    if material.node_tree is None:
+        material.use_nodes = True
+    nodes = material.node_tree.nodes
     texture = nodes.new("ShaderNodeTexImage")
     if rng.random() < 0.7:
         texture.image = bpy.data.images.new("Image", 16, int(rng.choice([1, 16, 48])))

@@ -308,7 +308,7 @@ def test_all_else_is_as_it_was(how, tmp_path):
         assert (tmp_path / "my data.bin").read_bytes() == everything().buffer
 
 
-def with_normal_texture(uv_set):
+def with_normal_texture(number):
     """A sphere's part with normals and tangents, and a texture of normals."""
     build = Builder()
     places, triangles = grid(6)
@@ -323,7 +323,7 @@ def with_normal_texture(uv_set):
     build.json |= {
         "images": [{"bufferView": build.view(PICTURE), "mimeType": "image/png"}],
         "textures": [{"source": 0}],
-        "materials": [{"normalTexture": {"index": 0, "texCoord": uv_set}}],
+        "materials": [{"normalTexture": {"index": 0, "texCoord": number}}],
         "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
         "nodes": [{"mesh": 0}],
         "buffers": [{"byteLength": len(build.buffer)}],
@@ -332,8 +332,8 @@ def with_normal_texture(uv_set):
 
 
 def test_tangents_are_those_of_the_map_that_their_texture_uses(tmp_path):
-    for uv_set in (0, 1):
-        path = save(tmp_path / "m.glb", with_normal_texture(uv_set))
+    for number in (0, 1):
+        path = save(tmp_path / "m.glb", with_normal_texture(number))
         asset = assets.read(path)
         (mesh,) = asset.meshes
         # u grows with y, v against x; the second half is mirrored, and apart.
@@ -341,14 +341,14 @@ def test_tangents_are_those_of_the_map_that_their_texture_uses(tmp_path):
         mirrored = np.arange(len(uv)) >= 3 * (len(uv) // 6)
         uv[mirrored] = uv[mirrored] * (-1, 1) + 3
         assets.write(tmp_path / "new.glb", asset, [assets.UvMap(uv, np.ones(len(uv) // 3, bool))])
-        assert len(asset.warnings) == (1 - uv_set)
+        assert len(asset.warnings) == (1 - number)
         document, buffers, _ = load(tmp_path / "new.glb")
         (primitive,) = document["meshes"][0]["primitives"]
         rows = corners_of(document, buffers, primitive)
         tangents, normals = (
             values(document, buffers, primitive["attributes"][name])[rows] for name in ("TANGENT", "NORMAL")
         )
-        if uv_set == 1:
+        if number == 1:
             assert (tangents == [1, 0, 0, 1]).all()
             continue
         expected = np.where(mirrored[:, None], -1, 1) * [0, 1, 0] - 0 * normals

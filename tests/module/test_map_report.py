@@ -17,7 +17,9 @@ def mesh_of(squares, uv, scale=1.0):
     places = np.concatenate([np.c_[side * SQUARE + (10 * k, 0), np.zeros(4)] for k, side in enumerate(squares)])
     corners = np.arange(len(places))
     given = np.concatenate([np.full((4, 2), np.nan) if each is None else np.asarray(each, float) for each in uv])
-    return assets.AssetMesh(places, np.arange(0, len(corners) + 1, 4), corners, given, scale=scale)
+    return assets.AssetMesh(
+        places, np.arange(0, len(corners) + 1, 4), corners, given, placement=np.diag([scale, scale, scale, 1.0])
+    )
 
 
 def test_a_map_without_fault():

@@ -9,8 +9,8 @@ const JOB_TYPE = {
           description: "Folder of the assets, on a disk that all workers share" },
         { key: "out", type: "string", subtype: "dir_path", required: true, visible: "submission",
           description: "Folder of the results, on a disk that all workers share" },
-        { key: "script", type: "string", subtype: "file_path", required: true, visible: "submission",
-          description: "The file __main__.py of the add-on's folder, on a disk that all workers share" },
+        { key: "python", type: "string", default: "python3", visible: "submission",
+          description: "Python with spectral_conformal[batch], by the same path on all workers" },
         { key: "parts", type: "int32", default: 16, visible: "submission",
           description: "Number of tasks" },
         { key: "options", type: "string", default: "", visible: "submission",
@@ -34,11 +34,10 @@ function compileJob(job) {
 }
 
 function authorTask(name, settings, further) {
-    const task = author.Task(name, "blender");
+    const task = author.Task(name, "misc");
     task.addCommand(author.Command("exec", {
-        exe: "{blender}",
-        args: ["--background", "--factory-startup", "--python-use-system-env", "--python-exit-code", "1",
-               "--python", settings.script, "--", settings.inputs, "--out", settings.out, ...further],
+        exe: settings.python,
+        args: ["-m", "spectral_conformal", "batch", settings.inputs, "--out", settings.out, ...further],
     }));
     return task;
 }

@@ -1,23 +1,27 @@
-"""Unwrap mesh files without Blender: python -m spectral_conformal mesh.obj [--out FILE] [--seams suggest]."""
+"""Mesh files without Blender's window: python -m spectral_conformal mesh.obj [--out FILE] [--seams suggest].
+
+`python -m spectral_conformal batch` unwraps many, `python -m spectral_conformal report` measures the maps of files.
+"""
 
 from __future__ import annotations
 
 import argparse
 import json
-import re
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
 
-import numpy as np
-
-from . import _layout, assets
-from ._options import _CHOICES, Options, SeamOptions, documented
+from . import assets
+from ._command_line import add_fields
+from ._options import Options, SeamOptions
 from ._results import Unwrap
-from ._seams import suggest_seams
-from ._unwrapping import unwrap
 from .assets.report import Requirement, RequirementError, map_report
+from .assets.unwrapping import Cutting, Layout, cut, laid_out, unwrapped
+
+# Of the texture that stands for one of any size here.
+_PIXELS = 1000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -29,6 +33,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if arguments[:1] == ["report"]:
         return _report(arguments[1:])
+    if arguments[:1] == ["batch"]:
+        from .batch import command
+
+        return command.main(arguments[1:])
     parser = _parser()
     given = parser.parse_args(arguments)
     chosen = vars(given)
@@ -46,8 +54,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error(f"--out must end with {formats}, which {given.mesh.name} can be written as, not '{out.name}'.")
     if not 0.0 <= given.margin < 0.5:
         parser.error(f"--margin must be at least 0 and less than 0.5, not {given.margin:g}.")
+    cutting = Cutting(given.seams, keep_islands=True, weld_distance=0.0, options=seam_options)
     try:
-        failed = _unwrap_file(given.mesh, out, given.seams, given.margin, options, seam_options)
+        failed = _unwrap_file(given.mesh, out, cutting, given.margin, options)
     except (ValueError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
@@ -95,43 +104,19 @@ def _report(arguments: Sequence[str]) -> int:
     return code
 
 
-def _unwrap_file(
-    source: Path, out: Path, seams: str, margin: float, options: Options, seam_options: SeamOptions
-) -> int:
+def _unwrap_file(source: Path, out: Path, cutting: Cutting, margin: float, options: Options) -> int:
     """Read, cut, unwrap, lay out, write, print; return the number of islands that failed."""
     asset = assets.read(source)
-    results = [_unwrapped(mesh, seams, options, seam_options) for mesh in asset.meshes]
-    charts, mapped, first = [], [], 0
-    for result in results:
-        solved = result.charts.column("status") == "solved"
-        mapped.append((result.chart_of_face >= 0) & solved[result.chart_of_face])
-        charts.append(np.where(mapped[-1], first + result.chart_of_face, -1))
-        first += len(solved)
-    sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in asset.meshes])
-    uv = _layout.on_shelves(
-        np.concatenate([mesh.scale * result.uv for mesh, result in zip(asset.meshes, results)]),
-        np.repeat(np.concatenate(charts), sizes),
-        margin,
-    )
-    parts = np.split(uv, np.cumsum([len(result.uv) for result in results])[:-1])
-    assets.write(out, asset, [assets.UvMap(*each) for each in zip(parts, mapped)])
-    failed = 0
+    results = [unwrapped(cut(mesh, cutting), options) for mesh in asset.meshes]
+    layout = Layout(margin=margin * _PIXELS, width=_PIXELS, height=_PIXELS)
+    warnings = assets.write(out, asset, laid_out(asset.meshes, results, layout))
+    status: Counter[str] = Counter()
     for mesh, result in zip(asset.meshes, results):
         print(*([mesh.name] if mesh.name else []), _table(result), sep="\n")
-        failed += int((result.charts.column("status") != "solved").sum())
-    print(*(f"warning: {warning}" for warning in asset.warnings), sep="\n", end="\n" if asset.warnings else "")
-    print(f"{first - failed} of {first} islands written to {out}")
-    return failed
-
-
-def _unwrapped(mesh: assets.AssetMesh, seams: str, options: Options, seam_options: SeamOptions) -> Unwrap:
-    polygons = mesh.vertices, mesh.face_offsets, mesh.corner_vertices
-    edges = np.zeros((0, 2), dtype=np.int64)
-    if mesh.corner_uv is not None:
-        edges = _layout.map_seams(mesh.face_offsets, mesh.corner_vertices, mesh.corner_uv)
-    if seams == "suggest":
-        edges = np.concatenate([edges, suggest_seams(*polygons, seam_edges=edges, options=seam_options)])
-    return unwrap(*polygons, seam_edges=edges, options=options)
+        status.update(result.charts.column("status"))
+    print(*(f"warning: {warning}" for warning in warnings), sep="\n", end="\n" if warnings else "")
+    print(f"{status['solved']} of {sum(status.values())} islands written to {out}")
+    return status["failed"]
 
 
 def _table(result: Unwrap) -> str:
@@ -148,7 +133,8 @@ def _parser() -> argparse.ArgumentParser:
     """Return the parser; its options of maps and seams are the fields of the records, with their documentation."""
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal",
-        description="Unwrap a glTF, OBJ, PLY, OFF or STL file and write it with UVs.",
+        description="Unwrap a glTF, OBJ, PLY, OFF, STL or USD file and write it with UVs.",
+        epilog="python -m spectral_conformal batch unwraps many files, report measures the maps of files.",
     )
     parser.add_argument("mesh", type=Path, help="the file; it is not changed unless it is also that of --out")
     parser.add_argument(
@@ -166,36 +152,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--margin", type=float, default=0.004, help="between islands, as a fraction of the texture's side (0.004)"
     )
-    taken: set[str] = set()
-    for kind, title in ((Options, "maps"), (SeamOptions, "suggested seams")):
-        group = parser.add_argument_group(f"options of {title}")
-        documentation = documented(kind)
-        for field in fields(kind):
-            if field.name in taken:
-                continue
-            taken.add(field.name)
-            text = re.sub(r"\s+", " ", documentation.get(field.name, "").partition(":")[2]).strip().replace("%", "%%")
-            flag = f"--{field.name.replace('_', '-')}"
-            how: dict[str, object] = {"help": text, "default": argparse.SUPPRESS}
-            if isinstance(field.default, bool):
-                how["action"] = argparse.BooleanOptionalAction
-            elif field.name in _CHOICES:
-                how["choices"] = _CHOICES[field.name]
-            else:
-                how["type"] = _number_or_word
-                how["metavar"] = "X"
-                if field.name == "front":
-                    how["nargs"], how["metavar"] = 3, ("X", "Y", "Z")
-            group.add_argument(flag, **how)
+    maps = add_fields(parser.add_argument_group("options of maps"), Options())
+    add_fields(parser.add_argument_group("options of suggested seams"), SeamOptions(), maps)
     return parser
-
-
-def _number_or_word(text: str) -> float | str:
-    """Return a number; or the text, which the record takes or refuses by name."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 if __name__ == "__main__":

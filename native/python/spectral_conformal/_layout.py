@@ -1,9 +1,17 @@
-"""Seams that a UV map has, and islands side by side in the unit square."""
+"""Seams that a UV map has, and its islands in the unit square."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+
+from ._packing import pack_boxes
+
+# Of the packer, which arranges boxes of other sizes otherwise: the next side may be larger by some part.
+_GROWTH = 1e-3
+_ROUNDS = 64
+# Times the largest box: beyond it nothing is left of the boxes.
+_LARGEST_SPACE = 1e3
 
 
 def map_seams(
@@ -28,21 +36,25 @@ def map_seams(
     return np.unique(edges[one[shared & ~agree]], axis=0)
 
 
-def on_shelves(
-    uv: npt.NDArray[np.float64], chart: npt.NDArray[np.int32], margin: float = 0.004
+def packed(
+    uv: npt.NDArray[np.float64],
+    chart: npt.NDArray[np.int64],
+    margin: tuple[float, float] = (0.004, 0.004),
+    aspect: float = 1.0,
 ) -> npt.NDArray[np.float64]:
-    """Lay charts out in rows in the unit square, tallest first, at a common scale, their bounding boxes apart.
-
-    Charts higher than wide are laid on their side. A plain layout, which leaves gaps, for use
-    without Blender, whose packer is a better one.
+    """Pack the charts' bounding boxes into the unit square, at a common scale and not turned.
 
     Args:
         uv: (C, 2), any unit.
         chart: (C,) of each corner, -1 for corners to leave alone.
-        margin: between charts, as a fraction of the square's side.
+        margin: between boxes, and between them and the square's border, as a fraction of its width and of its height.
+        aspect: width over height of the texture that the square shows.
 
     Returns:
         a copy of `uv`.
+
+    Raises:
+        ValueError: the margin leaves no room for so many charts.
     """
     result = np.array(uv, dtype=np.float64)
     corners = np.flatnonzero(chart >= 0)
@@ -51,48 +63,75 @@ def on_shelves(
         return result
     starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
     rank = np.repeat(np.arange(len(starts)), np.diff(np.append(starts, len(corners))))
-    points = result[corners]
-    size = np.maximum.reduceat(points, starts) - np.minimum.reduceat(points, starts)
-    on_side = (size[:, 1] > size[:, 0])[rank]
-    points[on_side] = np.c_[points[on_side, 1], -points[on_side, 0]]
+    points = result[corners] * [aspect**-0.5, aspect**0.5]
     low = np.minimum.reduceat(points, starts)
     size = np.maximum.reduceat(points, starts) - low
-    side = _side(size, margin)
-    position, _ = _rows(size + margin * side, side * (1.0 - margin))
-    result[corners] = (points - low[rank] + position[rank] + margin * side) / side
+    # Any magnitude is possible; dividing first keeps squares and sums in range.
+    unit = float(size.max()) or 1.0
+    position, side = _into_square(size / unit, np.array(margin))
+    result[corners] = ((points - low[rank]) / unit + position[rank]) / side
     return result
 
 
-def _side(size: npt.NDArray[np.float64], margin: float) -> float:
-    """Return the smallest side found, by halving, of a square that holds boxes of `size` (K, 2) and their margins."""
-    side = float(max(np.sqrt(size.prod(axis=1).sum()), size.max(), np.finfo(np.float64).tiny))
+def _into_square(
+    size: npt.NDArray[np.float64], margin: npt.NDArray[np.float64]
+) -> tuple[npt.NDArray[np.float64], float]:
+    """Return the lower corners (K, 2) of boxes of `size` (K, 2), and the side of the square that holds them.
 
-    def holds(side: float) -> bool:
-        room = side * (1.0 - margin)
-        boxes = size + margin * side
-        return boxes.max() <= room and _rows(boxes, room)[1] <= room
+    Margins are parts of that side. The space follows the side, which follows the space: it grows until it is at least
+    the margin of the side that comes of it, and the side is then taken to be that of which it is the margin exactly.
+    """
+    space = np.zeros(2)
+    for _ in range(_ROUNDS):
+        corners, side = pack_boxes(size + space)
+        side = side + float(space.max()) or 1.0
+        if (space >= margin * side).all():
+            largest = margin.max()
+            return corners + space, float(space.max() / largest) if largest else side
+        space = margin * side * (1.0 + _GROWTH)
+        if space.max() > _LARGEST_SPACE:
+            break
+    raise ValueError(f"the margin {margin.max():g} leaves no room for {len(size)} islands; make it smaller.")
 
-    high = side
-    while not holds(high):
-        high *= 2.0
-        if high > 1e6 * side:
-            raise ValueError(f"the margin {margin:g} leaves no room for {len(size)} islands; make it smaller.")
-    low = high / 2.0
-    for _ in range(12):
-        middle = (low + high) / 2.0
-        low, high = (low, middle) if holds(middle) else (middle, high)
-    return high
 
+def onto_former(
+    uv: npt.NDArray[np.float64], former: npt.NDArray[np.float64], chart: npt.NDArray[np.int64]
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_]]:
+    """Turn and move each chart as near as it gets to where its corners were, at the size that they had.
 
-def _rows(size: npt.NDArray[np.float64], width: float) -> tuple[npt.NDArray[np.float64], float]:
-    """Return the lower corners (K, 2) of boxes set in rows of this width, tallest first, and the height of all rows."""
-    order = np.argsort(-size[:, 1], kind="stable")
-    position = np.empty_like(size)
-    x = y = height = 0.0
-    for box, (box_width, box_height) in zip(order.tolist(), size[order].tolist()):
-        if x > 0.0 and x + box_width > width:
-            x, y, height = 0.0, y + height, 0.0
-        position[box] = x, y
-        x += box_width
-        height = max(height, box_height)
-    return position, y + height
+    Near in the sense of least squares; the size is the root of the mean square of the distances from the centre.
+
+    Args:
+        uv: (C, 2), any unit.
+        former: (C, 2), not a number where a corner had no place.
+        chart: (C,) of each corner, -1 for corners to leave alone.
+
+    Returns:
+        a copy of `uv`, and which corners (C,) have a place: not those of charts that had none, or no extent.
+    """
+    result = np.array(uv, dtype=np.float64)
+    placed = np.zeros(len(uv), dtype=bool)
+    corners = np.flatnonzero(chart >= 0)
+    corners = corners[np.argsort(chart[corners], kind="stable")]
+    if not len(corners):
+        return result, placed
+    starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
+    counts = np.diff(np.append(starts, len(corners)))
+
+    def centred(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.complex128], npt.NDArray[np.complex128]]:
+        values = points[corners, 0] + 1j * points[corners, 1]
+        centre = np.add.reduceat(values, starts) / counts
+        return values - np.repeat(centre, counts), centre
+
+    with np.errstate(invalid="ignore", divide="ignore"):
+        (moved, _), (target, centre) = centred(result), centred(former)
+        along = np.add.reduceat(np.conj(moved) * target, starts)
+        turn = np.where(along == 0.0, 1.0, along / np.abs(along))
+        squares = (np.add.reduceat(np.abs(values) ** 2, starts) for values in (target, moved))
+        scale = np.sqrt(np.divide(*squares))
+    fits = np.isfinite(scale) & (scale > 0.0)
+    goes = np.repeat(fits, counts)
+    places = np.repeat(scale * turn, counts) * moved + np.repeat(centre, counts)
+    result[corners[goes]] = np.column_stack([places.real, places.imag])[goes]
+    placed[corners[goes]] = True
+    return result, placed

@@ -253,7 +253,10 @@ def bumpy_grid(columns=6, rows=4, name="Bumpy grid", **options):
 def show_image(shown, width, height):
     """Give an object, not in edit mode, a material with an image of this size."""
     material = bpy.data.materials.new("Material")
-    nodes = importlib.import_module("spectral_unwrap.compatibility").shader_nodes(material)
+    # New data has them from 5.0 on; Blender 6 will know no use_nodes.
+    if material.node_tree is None:
+        material.use_nodes = True
+    nodes = material.node_tree.nodes
     texture = nodes.new("ShaderNodeTexImage")
     texture.image = bpy.data.images.new("Image", width, height)
     nodes.active = texture

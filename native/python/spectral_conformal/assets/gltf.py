@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import itertools
 import json
 import struct
 from collections.abc import Iterator, Sequence
@@ -30,6 +31,7 @@ _FLOAT, _UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5121, 5123, 5125
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
+_UV_SET = "TEXCOORD_"
 _DRACO = "KHR_draco_mesh_compression"
 # Geometry that accessors do not tell.
 _COMPRESSED = {
@@ -42,34 +44,42 @@ _WORD = 4
 class GltfAsset:
     """A glTF file: polygons for each of its meshes, triangles joined where they have equal positions."""
 
-    def __init__(self, path: Path, uv_set: int = 0) -> None:
+    def __init__(self, path: Path, uv_map: str = "") -> None:
         """Read the file, and its buffers beside it.
 
         Args:
             path: of a .gltf or .glb file.
-            uv_set: n of the TEXCOORD_n that is read and written.
+            uv_map: n of the TEXCOORD_n that is read and written, or that name itself; the first set unless given. Any
+                other name, which the format cannot hold, stands for the first set that no mesh has.
 
         Raises:
             AssetError: the content is broken, geometry is compressed, or there is none.
             OSError: a file cannot be opened.
         """
         self.path = path
-        self._name = f"TEXCOORD_{uv_set}"
         self.chunks: list[tuple[bytes, bytes]] = []
         self._read(path.read_bytes())
         self.suffix = ".glb" if self.chunks else ".gltf"
         self._notes: list[str] = []
         with self._structure():
+            self.uv_map = self._set_named(uv_map)
             self.view_numbers = set(_view_numbers(self.json))
             self._decompress()
             self._meshes = [_Mesh(self, number, each) for number, each in enumerate(self.json.get("meshes", []))]
             self._meshes = [mesh for mesh in self._meshes if mesh.groups]
-            scales = _scales(self.json)
-            polygons = [mesh.polygons(self._name, scales.get(mesh.number, 1.0)) for mesh in self._meshes]
+            placements = _placements(self.json)
+            polygons = [mesh.polygons(self.uv_map, placements.get(mesh.number, np.eye(4))) for mesh in self._meshes]
         if not polygons:
             raise AssetError(f"{path}: has no triangles; there is nothing to unwrap.")
         self.meshes = [checked(path, mesh) for mesh in polygons]
         self.warnings = list(self._notes)
+
+    def references(self) -> Iterator[str]:
+        """Yield the images that are files of their own."""
+        for image in self.json.get("images", []):
+            uri = image.get("uri", "")
+            if uri and not uri.startswith("data:"):
+                yield unquote(uri)
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
@@ -81,9 +91,19 @@ class GltfAsset:
                 for group in mesh.groups:
                     size = len(group.corners)
                     mapped = np.repeat(uv_map.mapped, 3)[corner : corner + size]
-                    edit.write_group(group, self._name, uv_map.uv[corner : corner + size], mapped)
+                    edit.write_group(group, self.uv_map, uv_map.uv[corner : corner + size], mapped)
                     corner += size
             return edit.files(out)
+
+    def _set_named(self, uv_map: str) -> str:
+        """Return the name of the attribute that is meant by the name of a UV map."""
+        number = uv_map.removeprefix(_UV_SET) or "0"
+        if not number.isdecimal():
+            primitives = [each for mesh in self.json.get("meshes", []) for each in mesh["primitives"]]
+            present = {name for primitive in primitives for name in primitive["attributes"]}
+            number = str(next(n for n in itertools.count() if f"{_UV_SET}{n}" not in present))
+            self._notes.append(f"glTF has no names of UV maps: {uv_map} is {_UV_SET}{number}.")
+        return f"{_UV_SET}{int(number)}"
 
     @contextmanager
     def _structure(self) -> Iterator[None]:
@@ -265,7 +285,7 @@ class _Mesh:
                 group.triangles.append(triangles)
         self.groups = [group for group in groups.values() if group.primitives]
 
-    def polygons(self, uv_name: str, scale: float) -> AssetMesh:
+    def polygons(self, uv_name: str, placement: npt.NDArray[np.float64]) -> AssetMesh:
         """Return the triangles of all groups; the first corner is that of the first group."""
         positions, corners, uv, has_uv, first_row = [], [], [], False, 0
         for group in self.groups:
@@ -286,7 +306,7 @@ class _Mesh:
         first, number = in_order_of_use(used + 0.0)
         offsets = np.arange(0, len(used) + 1, 3, dtype=np.int64)
         found_uv = np.concatenate(uv) if has_uv else None
-        return AssetMesh(used[first] + 0.0, offsets, number, found_uv, self.name, scale)
+        return AssetMesh(used[first] + 0.0, offsets, number, found_uv, self.name, placement)
 
 
 def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
@@ -312,26 +332,39 @@ def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
     return np.stack([rows[k], rows[k + 1 + odd], rows[k + 2 - odd]], axis=1)
 
 
-def _scales(document: _Json) -> dict[int, float]:
-    """Return of each mesh that a node shows by how much the first such node makes it larger."""
+def _placements(document: _Json) -> dict[int, npt.NDArray[np.float64]]:
+    """Return of each mesh that a node shows the matrix (4, 4) by which the first such node places it."""
     nodes = document.get("nodes", [])
     children = {child for node in nodes for child in node.get("children", [])}
-    result: dict[int, float] = {}
-    waiting = [(number, 1.0) for number in reversed(range(len(nodes))) if number not in children]
+    result: dict[int, npt.NDArray[np.float64]] = {}
+    waiting = [(number, np.eye(4)) for number in reversed(range(len(nodes))) if number not in children]
     while waiting:
-        number, scale = waiting.pop()
+        number, parent = waiting.pop()
         node = nodes[number]
-        if "matrix" in node:
-            volume = np.linalg.det(np.reshape(node["matrix"], (4, 4))[:3, :3])
-        else:
-            volume = np.prod(node.get("scale", [1.0]))
-        scale *= float(abs(volume)) ** (1 / 3)
-        if "mesh" in node and "skin" not in node:
-            result.setdefault(node["mesh"], scale)
-        waiting += [(child, scale) for child in reversed(node.get("children", []))]
+        placement = parent @ _matrix_of(node)
+        if "mesh" in node:
+            # What a skin moves lies where its joints are.
+            result.setdefault(node["mesh"], np.eye(4) if "skin" in node else placement)
+        waiting += [(child, placement) for child in reversed(node.get("children", []))]
         if len(waiting) > len(nodes):
             raise ValueError("nodes that are children of each other")
     return result
+
+
+def _matrix_of(node: _Json) -> npt.NDArray[np.float64]:
+    """Return the local matrix (4, 4) of a node: given, or of scale, rotation (a quaternion) and translation."""
+    if "matrix" in node:
+        return np.reshape(np.array(node["matrix"], dtype=np.float64), (4, 4)).T
+    x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
+    matrix = np.eye(4)
+    matrix[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    matrix[:3, :3] *= np.array(node.get("scale", (1.0, 1.0, 1.0)))
+    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return matrix
 
 
 class _Edit:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -29,8 +29,35 @@ class AssetMesh:
     """(C, 2), not a number where a corner has none; None where the file has no UV map."""
     name: str = ""
     """Of the mesh within its file; empty where that has one alone."""
-    scale: float = 1.0
-    """Of its first instance: lengths in the scene to those of `vertices`, the geometric mean over the axes."""
+    placement: npt.NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
+    """(4, 4) of its first instance: from `vertices`, as columns with a 1 below, to the scene."""
+    seam_edges: npt.NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    """(S, 2) vertices of the edges that the file marks as seams."""
+    pinned_corners: npt.NDArray[np.bool_] | None = None
+    """(C,) those whose UV the file says to keep; None for none."""
+
+    @property
+    def scale(self) -> float:
+        """Lengths in the scene to those of `vertices`, the geometric mean over the axes; 1 where that is no length."""
+        scale = float(abs(np.linalg.det(self.placement[:3, :3]))) ** (1 / 3)
+        return scale if np.isfinite(scale) and scale > 0.0 else 1.0
+
+    @property
+    def is_scaled_evenly(self) -> bool:
+        """Whether all lengths in the scene are those of `vertices` times `scale`, within a hundredth."""
+        with np.errstate(invalid="ignore"):
+            stretch = np.sqrt(np.linalg.eigvalsh(self.placement[:3, :3].T @ self.placement[:3, :3]).clip(0.0))
+        return bool((np.abs(stretch / self.scale - 1.0) <= 0.01).all())
+
+    def face_of_corner(self) -> npt.NDArray[np.int64]:
+        """Return the face of every corner, (C,)."""
+        return np.repeat(np.arange(len(self.face_offsets) - 1), np.diff(self.face_offsets))
+
+    def has_uv(self) -> npt.NDArray[np.bool_]:
+        """Return the faces that have a UV at every corner, (faces,)."""
+        if self.corner_uv is None:
+            return np.zeros(len(self.face_offsets) - 1, dtype=bool)
+        return np.logical_and.reduceat(np.isfinite(self.corner_uv).all(axis=1), self.face_offsets[:-1])
 
 
 @dataclass(frozen=True)
@@ -46,11 +73,19 @@ class UvMap:
 class Asset(Protocol):
     """A file as it was read."""
 
+    path: Path | None
+    """Of the file; None where nothing of it but the meshes is kept."""
     suffix: str
     """Of the files that are made of it, with the dot: its own, if its format holds UVs."""
+    uv_map: str
+    """Name of the map that is read and written, as `assets.read` takes it; empty where the format has one alone."""
     meshes: Sequence[AssetMesh]
     warnings: Sequence[str]
     """What else had to be changed, and what could not be kept; of the last files."""
+
+    def references(self) -> Iterable[str]:
+        """Return the files that it names by paths from its folder, and that `files` does not return."""
+        ...
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return, by path, the content of the files that this asset is with other UV maps.
@@ -65,7 +100,9 @@ class Asset(Protocol):
 class OneMeshAsset:
     """A file of one mesh, and nothing beside it."""
 
+    path: Path
     mesh: AssetMesh
+    uv_map = ""
     warnings: Sequence[str] = ()
 
     @property
@@ -77,6 +114,10 @@ class OneMeshAsset:
         """Return the file with another UV map, by its path."""
         (uv_map,) = maps
         return {out: self.with_uv(uv_map.uv, uv_map.mapped)}
+
+    def references(self) -> Iterable[str]:
+        """Return the files that it names by paths from its folder."""
+        raise NotImplementedError
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
         """Return the content of the file with another UV map; arguments as in `UvMap`."""
@@ -100,6 +141,13 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
 def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:
     """Return where each face begins among the corners, and the number of corners, from how many each has."""
     return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))]).astype(np.int64)
+
+
+def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
+    """Return the corner that follows every corner in its face, (C,)."""
+    following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
+    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    return following
 
 
 def numbers(where: str, words: list[str], count: int) -> list[float]:

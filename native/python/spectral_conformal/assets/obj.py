@@ -5,18 +5,21 @@ The format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visua
 
 from __future__ import annotations
 
+import os
 import re
 import warnings
-from collections.abc import Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 import numpy.typing as npt
 
+from . import references
 from .edits import Integers, edited, numbered
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+_LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE)
 _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
 _BLANK = np.zeros(256, dtype=bool)
 _BLANK[list(b" \t\r\n\v\f")] = True
@@ -39,7 +42,7 @@ class ObjAsset(OneMeshAsset):
             AssetError: a line is broken, or there is no mesh.
             OSError: the file cannot be opened.
         """
-        self._path = path
+        self.path = path
         self._data = path.read_bytes()
         self._newline = b"\r\n" if b"\r\n" in self._data else b"\n" if b"\n" in self._data else b"\r"
         self._find_statements()
@@ -69,7 +72,7 @@ class ObjAsset(OneMeshAsset):
         _, different, index = numbered(self.mesh.corner_vertices[corner_mapped], uv[corner_mapped])
         first_face = self._faces[0]
         lines_of_uv = self._lines_of(_UV)
-        referring, referred = self._references()
+        referring, referred = self._uses_of_uv()
         before = 0
         if len(referring):
             # What refers to UVs and is no face keeps them.
@@ -89,7 +92,16 @@ class ObjAsset(OneMeshAsset):
         ends = np.concatenate([ends, np.append(self._starts, len(self._data))[lines_of_uv + 1], starts[-1:]])
         return edited(self._data, starts, ends, texts)
 
-    def _references(self) -> tuple[Integers, Integers]:
+    def references(self) -> Iterator[str]:
+        """Yield the files of materials, and the textures that these name."""
+        for line in _LIBRARY.findall(self._data):
+            rest = os.fsdecode(line.strip())
+            for name in [rest] if (self.path.parent / rest).is_file() else rest.split():
+                yield name
+                folder = PurePosixPath(name).parent
+                yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
+
+    def _uses_of_uv(self) -> tuple[Integers, Integers]:
         """Return the words outside of faces that name a UV, and which each names."""
         words, named = [], []
         for line in self._lines_of(_REFERRER).tolist():
@@ -157,7 +169,7 @@ class ObjAsset(OneMeshAsset):
 
     def _broken(self, line: int, problem: object) -> AssetError:
         number = self._data.count(self._newline[-1:], 0, int(self._starts[line])) + 1
-        return AssetError(f"{self._path}:{number}: {problem}.")
+        return AssetError(f"{self.path}:{number}: {problem}.")
 
     # Numbers
 
@@ -238,15 +250,21 @@ class ObjAsset(OneMeshAsset):
 class PlainAsset:
     """Meshes of a format that holds no UVs, or of which another is asked for: written as OBJ."""
 
+    path = None
     suffix = ".obj"
+    uv_map = ""
     warnings: Sequence[str] = ()
 
     def __init__(self, meshes: Sequence[AssetMesh]) -> None:
         """Take the meshes, which become objects where they have names."""
         self.meshes = meshes
 
+    def references(self) -> Sequence[str]:
+        """Return no files."""
+        return ()
+
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return an OBJ file, by its path; positions and UVs to the last digit."""
+        """Return an OBJ file, by its path; positions in the scene and UVs to the last digit."""
         n_vertices, n_uv, rows = 0, 0, []
         for mesh, uv_map in zip(self.meshes, maps):
             corner_mapped = np.repeat(uv_map.mapped, np.diff(mesh.face_offsets))
@@ -254,7 +272,10 @@ class PlainAsset:
             numbers = np.zeros(len(uv_map.uv), dtype=np.int64)
             numbers[corner_mapped] = n_uv + 1 + index
             rows += [f"o {mesh.name}"] if mesh.name else []
-            rows += [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
+            placed = mesh.vertices
+            if not np.array_equal(mesh.placement, np.eye(4)):
+                placed = mesh.vertices @ mesh.placement[:3, :3].T + mesh.placement[:3, 3]
+            rows += [f"v {x!r} {y!r} {z!r}" for x, y, z in placed.tolist()]
             rows += [f"vt {u!r} {v!r}" for u, v in different.tolist()]
             vertices = (n_vertices + 1 + mesh.corner_vertices).tolist()
             corners = [f"{v}/{t}" if t else str(v) for v, t in zip(vertices, numbers.tolist())]

@@ -5,8 +5,9 @@ The format: Greg Turk, "The PLY Polygon File Format", 1994.
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -86,7 +87,7 @@ class PlyAsset(OneMeshAsset):
             AssetError: the content is broken, or there is no mesh.
             OSError: the file cannot be opened.
         """
-        self._path = path
+        self.path = path
         self._data = path.read_bytes()
         self._read_header()
         at = self._header_end
@@ -128,10 +129,10 @@ class PlyAsset(OneMeshAsset):
     def _read_header(self) -> None:
         data = self._data
         if data[:3] != b"ply":
-            raise AssetError(f"{self._path}:1: a PLY file begins with 'ply'.")
+            raise AssetError(f"{self.path}:1: a PLY file begins with 'ply'.")
         end = data.find(b"end_header")
         if end < 0:
-            raise AssetError(f"{self._path}: the header has no 'end_header'.")
+            raise AssetError(f"{self.path}: the header has no 'end_header'.")
         self._header_end = data.find(b"\n", end) + 1 or len(data)
         self._header = data[: self._header_end].splitlines(keepends=True)
         self._order: str | None = "?"
@@ -153,9 +154,9 @@ class PlyAsset(OneMeshAsset):
                     raise ValueError
             except (KeyError, IndexError, ValueError):
                 told = " ".join(words)
-                raise AssetError(f"{self._path}:{number + 1}: '{told}' is no line of a PLY header.") from None
+                raise AssetError(f"{self.path}:{number + 1}: '{told}' is no line of a PLY header.") from None
         if self._order == "?":
-            raise AssetError(f"{self._path}: the header has no 'format'.")
+            raise AssetError(f"{self.path}: the header has no 'format'.")
 
     def _read_text(self, element: _Element, at: int) -> int:
         for row in range(element.rows):
@@ -167,7 +168,7 @@ class PlyAsset(OneMeshAsset):
                     break
                 at = end + 1
             if not spans:
-                raise AssetError(f"{self._path}: ends at {element.name} {row} of {element.rows}.")
+                raise AssetError(f"{self.path}: ends at {element.name} {row} of {element.rows}.")
             words = [self._data[first:last].decode("ascii", errors="replace") for first, last in spans]
             place = 0
             for each in element.properties.values():
@@ -188,7 +189,7 @@ class PlyAsset(OneMeshAsset):
             return numbers("", words, count)
         except AssetError:
             line = self._data.count(b"\n", 0, at) + 1
-            return numbers(f"{self._path}:{line}", words, count)
+            return numbers(f"{self.path}:{line}", words, count)
 
     def _read_binary(self, element: _Element, at: int) -> int:
         """Read the rows of an element in pieces of those whose lists are as long as the first's."""
@@ -224,7 +225,7 @@ class PlyAsset(OneMeshAsset):
                 kind = np.dtype(self._order + each.count_type)
                 length = int(np.frombuffer(self._piece(at, kind.itemsize, element, row), kind)[0])
                 if length < 0:
-                    raise AssetError(f"{self._path}: {element.name} {row} has a list of negative length.")
+                    raise AssetError(f"{self.path}: {element.name} {row} has a list of negative length.")
                 layout.append((f"n {each.name}", kind))
                 at += kind.itemsize
                 # Before a type of any such size is made.
@@ -236,8 +237,15 @@ class PlyAsset(OneMeshAsset):
     def _piece(self, at: int, size: int, element: _Element, row: int) -> bytes:
         piece = self._data[at : at + size]
         if len(piece) < size:
-            raise AssetError(f"{self._path}: ends at {element.name} {row} of {element.rows}.")
+            raise AssetError(f"{self.path}: ends at {element.name} {row} of {element.rows}.")
         return piece
+
+    def references(self) -> Iterator[str]:
+        """Yield the textures, which MeshLab names in comments."""
+        for line in self._header:
+            words = line.split(None, 2)
+            if words[:2] == [b"comment", b"TextureFile"] and len(words) == 3:
+                yield os.fsdecode(words[2].strip())
 
     # Writing
 
@@ -284,7 +292,7 @@ class PlyAsset(OneMeshAsset):
             line = self._header[last_column.line].decode("ascii", errors="replace").rstrip()
             free = [names for names in _VERTEX_UV if not set(names) & self._vertex.properties.keys()]
             if not free:
-                raise AssetError(f"{self._path}: vertices have properties of all names that UVs could have.")
+                raise AssetError(f"{self.path}: vertices have properties of all names that UVs could have.")
             new_lines = "".join(f"\nproperty {_NAMES[kind]} {name}" for name in free[0])
             changes.set_line(last_column.line, line + new_lines)
         copies = []

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from .._quality import face_distortion, map_defects
-from .mesh import AssetMesh
+from .._quality import face_distortion, face_triangles, map_defects
+from . import welding
+from .mesh import AssetMesh, next_corner
 
 # Of the mean area of a face: faces below have no shape that could be kept.
 _DEGENERATE = 1e-10
+_UNKNOWN = float("nan")
+# Of the area: what is shown in the range of colours; and the least width of that, so that a good map looks good.
+_SHOWN = 0.98
+_LEAST_SHOWN = 0.2
 _COMPARISONS = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
@@ -56,58 +61,182 @@ class MapReport:
     fill: float
     """Area of the map over the area of all tiles of the texture that it lies in."""
 
+    @classmethod
+    def from_json(cls, values: Mapping[str, float | None]) -> MapReport:
+        """Return the report that has these numbers, None for what is no number, and perhaps others beside them."""
+        return cls(**{name: _UNKNOWN if values[name] is None else values[name] for name in _NAMES})
+
+
+@dataclass(frozen=True)
+class IslandReport:
+    """One island of a map; numbers as in `MapReport`."""
+
+    mesh: str
+    faces: int
+    area: float
+    """In the scene."""
+    border_length: float
+    """In the scene; an edge between two faces of the island counts twice."""
+    flips: int
+    overlaps: int
+    qc_mean: float
+    qc_p99: float
+    qc_max: float
+    density: float
+    """Texel density: the root of area in the map over area in the scene, weighted by the latter."""
+
+
+class Measurement:
+    """The map of an asset, face by face; all of its meshes are one, in the scene's scale, vertices welded.
+
+    Attributes:
+        vertices: (V, 3)
+        face_offsets: (F + 1,)
+        corner_vertices: (C,) of the welded meshes.
+        uv: (C, 2), 0 where a face has no map.
+        mesh_of_face: (F,)
+        has_map: (F,) bool.
+        qc: (F,) as in `FaceDistortion`, like the next two.
+        area: (F,)
+        image_area: (F,)
+        island_of_face: (F,) as in `MapDefects`, like the next two.
+        flipped: (F,) bool.
+        overlapping: (F,) bool, between islands, too.
+        counted: (F,) bool, those that are neither degenerate nor collapsed.
+    """
+
+    def __init__(self, meshes: Sequence[AssetMesh]) -> None:
+        """Measure; faces without UVs are counted and left out."""
+        self.names = [mesh.name for mesh in meshes]
+        sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
+        self.face_offsets = np.append(0, np.cumsum(sizes))
+        first = np.append(0, np.cumsum([len(mesh.vertices) for mesh in meshes]))
+        stands = [_welded(mesh)[mesh.corner_vertices] for mesh in meshes]
+        self.corner_vertices = np.concatenate([start + corners for start, corners in zip(first, stands)])
+        self.vertices = np.concatenate([mesh.scale * mesh.vertices for mesh in meshes])
+        self.mesh_of_face = np.repeat(np.arange(len(meshes)), [len(mesh.face_offsets) - 1 for mesh in meshes])
+        self.has_map = np.concatenate([mesh.has_uv() for mesh in meshes])
+        uv = [np.zeros((len(m.corner_vertices), 2)) if m.corner_uv is None else m.corner_uv for m in meshes]
+        self.uv = np.where(np.repeat(self.has_map, sizes)[:, None], np.concatenate(uv), 0.0)
+        polygons = self.face_offsets, self.corner_vertices, self.uv
+        found = face_distortion(self.vertices, *polygons, selected_faces=self.has_map)
+        self.qc, self.area, self.image_area = found.qc, found.area, np.abs(found.image_area)
+        defects = map_defects(*polygons, selected_faces=self.has_map, between_islands=True)
+        self.island_of_face = defects.island_of_face
+        self.flipped, self.overlapping = defects.flipped, defects.overlapping
+        mapped = self.area[self.has_map]
+        self.is_degenerate = self.has_map & (self.area <= _DEGENERATE * (mapped.mean() if len(mapped) else 0.0))
+        self.is_collapsed = self.has_map & ~self.is_degenerate & ~np.isfinite(self.qc)
+        self.counted = self.has_map & ~self.is_degenerate & ~self.is_collapsed
+
+    def report(self) -> MapReport:
+        """Return what the whole map is like."""
+        mean, p99, largest = self._qc(self.counted)
+        spread = _UNKNOWN
+        if self.counted.any():
+            density, weight = self._densities(self.counted), self.area[self.counted]
+            average = np.average(density, weights=weight)
+            spread = float(np.sqrt(np.average((density - average) ** 2, weights=weight)) / average)
+        uv = self.uv[np.repeat(self.has_map, np.diff(self.face_offsets))]
+        tiles = np.unique(np.floor(uv - 1e-6 * np.sign(uv)), axis=0)
+        return MapReport(
+            faces=len(self.has_map),
+            degenerate=int(self.is_degenerate.sum()),
+            unmapped=int((~self.has_map).sum()),
+            collapsed=int(self.is_collapsed.sum()),
+            islands=int(self.island_of_face.max(initial=-1)) + 1,
+            flips=int(self.flipped.sum()),
+            overlaps=int(self.overlapping.sum()),
+            qc_mean=mean,
+            qc_p99=p99,
+            qc_max=largest,
+            density_spread=spread,
+            fill=float(self.image_area[self.has_map].sum() / len(tiles)) if len(tiles) else _UNKNOWN,
+        )
+
+    def islands(self) -> Iterator[IslandReport]:
+        """Yield what every island is like, in the order of their numbers."""
+        island = self.island_of_face
+        order = np.argsort(island, kind="stable")
+        order = order[island[order] >= 0]
+        borders = self._border_lengths()
+        for faces in np.split(order, np.flatnonzero(np.diff(island[order])) + 1) if len(order) else ():
+            counted = faces[self.counted[faces]]
+            mean, p99, largest = self._qc(counted)
+            weight = self.area[counted]
+            yield IslandReport(
+                mesh=self.names[self.mesh_of_face[faces[0]]],
+                faces=len(faces),
+                area=float(self.area[faces].sum()),
+                border_length=float(borders[island[faces[0]]]),
+                flips=int(self.flipped[faces].sum()),
+                overlaps=int(self.overlapping[faces].sum()),
+                qc_mean=mean,
+                qc_p99=p99,
+                qc_max=largest,
+                density=float(np.average(self._densities(counted), weights=weight)) if len(counted) else _UNKNOWN,
+            )
+
+    def qc_range(self) -> tuple[float, float]:
+        """Return the values to show as the two ends of colours: 1, and what most of the area does not exceed."""
+        end = percentile(self.qc[self.counted], self.area[self.counted], _SHOWN) if self.counted.any() else 1.0
+        return 1.0, max(end, 1.0 + _LEAST_SHOWN)
+
+    def triangles(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the mapped faces as triangles: UVs (T, 3, 2), and the QC of each (T,)."""
+        polygons = self.vertices, self.face_offsets, self.corner_vertices
+        corners, faces = face_triangles(*polygons, selected_faces=self.has_map)
+        return self.uv[corners], self.qc[faces]
+
+    def _qc(self, faces: np.ndarray) -> tuple[float, float, float]:
+        """Return mean, 99th percentile and maximum over some faces; not numbers where there are none."""
+        qc, weight = self.qc[faces], self.area[faces]
+        if not len(qc):
+            return _UNKNOWN, _UNKNOWN, _UNKNOWN
+        return float(np.average(qc, weights=weight)), percentile(qc, weight, 0.99), float(qc.max())
+
+    def _densities(self, faces: np.ndarray) -> np.ndarray:
+        return np.sqrt(self.image_area[faces] / self.area[faces])
+
+    def _border_lengths(self) -> np.ndarray:
+        """Return the length of the edges around every island: those that another face of it does not share in the map.
+
+        An edge is there twice within an island, with the same vertices and UVs at both ends.
+        """
+        face = np.repeat(np.arange(len(self.has_map)), np.diff(self.face_offsets))
+        following = next_corner(self.face_offsets)
+        corner, vertices = np.arange(len(following)), self.corner_vertices
+        forward = vertices < vertices[following]
+        start, end = np.where(forward, corner, following), np.where(forward, following, corner)
+        island = self.island_of_face[face]
+        # One number for each place of the map, since sorting rows takes ten times as long.
+        place = np.unique(self.uv.astype(np.float64).view(np.complex128).ravel(), return_inverse=True)[1].ravel()
+        columns = (vertices[start], vertices[end], place[start], place[end], island)
+        order = np.lexsort(columns)
+        rows = np.column_stack(columns)[order]
+        differs = (np.diff(rows, axis=0) != 0).any(axis=1)
+        alone = np.append(True, differs) & np.append(differs, True)
+        border = order[alone & (island[order] >= 0)]
+        ends = self.vertices[vertices[border]], self.vertices[vertices[following[border]]]
+        lengths = np.linalg.norm(ends[0] - ends[1], axis=1)
+        return np.bincount(island[border], lengths, int(self.island_of_face.max(initial=-1)) + 1)
+
 
 def map_report(meshes: Sequence[AssetMesh]) -> MapReport:
     """Measure the map of an asset; faces without UVs are counted and left out."""
-    sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
-    offsets = np.append(0, np.cumsum(sizes))
-    first = np.append(0, np.cumsum([len(mesh.vertices) for mesh in meshes]))
-    corners = np.concatenate([start + mesh.corner_vertices for start, mesh in zip(first, meshes)])
-    vertices = np.concatenate([mesh.scale * mesh.vertices for mesh in meshes])
-    uv = np.concatenate(
-        [
-            np.full((len(mesh.corner_vertices), 2), np.nan) if mesh.corner_uv is None else mesh.corner_uv
-            for mesh in meshes
-        ]
-    )
-    has_map = np.logical_and.reduceat(np.isfinite(uv).all(axis=1), offsets[:-1])
-    uv = np.where(np.repeat(has_map, sizes)[:, None], uv, 0.0)
-    found = face_distortion(vertices, offsets, corners, uv, selected_faces=has_map)
-    defects = map_defects(offsets, corners, uv, selected_faces=has_map, between_islands=True)
-    mapped = np.flatnonzero(has_map)
-    area, image = found.area[mapped], np.abs(found.image_area[mapped])
-    is_degenerate = area <= _DEGENERATE * area.mean() if len(area) else area > 0
-    is_collapsed = ~is_degenerate & ~np.isfinite(found.qc[mapped])
-    counted = ~is_degenerate & ~is_collapsed
-    qc, weight = found.qc[mapped][counted], area[counted]
-    unknown = float("nan")
-    mean = largest = p99 = spread = unknown
-    if len(qc):
-        mean, largest, p99 = float(np.average(qc, weights=weight)), float(qc.max()), _percentile(qc, weight, 0.99)
-        density = np.sqrt(image[counted] / weight)
-        average = np.average(density, weights=weight)
-        spread = float(np.sqrt(np.average((density - average) ** 2, weights=weight)) / average)
-    tiles = np.unique(np.floor(uv[np.repeat(has_map, sizes)] - 1e-6 * np.sign(uv[np.repeat(has_map, sizes)])), axis=0)
-    return MapReport(
-        faces=len(sizes),
-        degenerate=int(is_degenerate.sum()),
-        unmapped=int((~has_map).sum()),
-        collapsed=int(is_collapsed.sum()),
-        islands=int(defects.island_of_face.max(initial=-1)) + 1,
-        flips=int(defects.flipped.sum()),
-        overlaps=int(defects.overlapping.sum()),
-        qc_mean=mean,
-        qc_p99=p99,
-        qc_max=largest,
-        density_spread=spread,
-        fill=float(image.sum() / len(tiles)) if len(tiles) else unknown,
-    )
+    return Measurement(meshes).report()
 
 
-def _percentile(values: np.ndarray, weights: np.ndarray, part: float) -> float:
+def _welded(mesh: AssetMesh) -> np.ndarray:
+    """Return the vertex that stands for each: files have one for every normal, which ends no island of a map."""
+    return welding.coincident_vertices(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, welding.DISTANCES[0])
+
+
+def percentile(values: np.ndarray, weights: np.ndarray, part: float) -> float:
+    """Return what so large a part of the weights, 0 to 1, does not exceed; all finite and at least one."""
     order = np.argsort(values)
     below = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(below, part * below[-1])])
+    return float(values[order][min(int(np.searchsorted(below, part * below[-1])), len(order) - 1)])
 
 
 class Requirement:

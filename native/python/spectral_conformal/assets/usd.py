@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,11 +29,12 @@ _BINARY = b"PXR-USDC"
 class UsdAsset:
     """A USD file: its meshes, prototypes of instances once."""
 
-    def __init__(self, path: Path, *, over: bool = False) -> None:
+    def __init__(self, path: Path, uv_map: str = "", *, over: bool = False) -> None:
         """Read the file, and what it is composed of.
 
         Args:
             path: of a .usd, .usda, .usdc or .usdz file.
+            uv_map: name of the primvar that is read and written; "st" unless given.
             over: write UVs into a layer over the file, which then stays as it is.
 
         Raises:
@@ -48,6 +49,7 @@ class UsdAsset:
         self.suffix = ".usda" if over else path.suffix.lower()
         self.warnings: list[str] = []
         self._over = over
+        self.uv_map = uv_map or _NAME
         try:
             self._stage = Usd.Stage.Open(str(path))
         except Tf.ErrorException as error:
@@ -86,6 +88,17 @@ class UsdAsset:
     def _tell(self, warning: str) -> None:
         if warning not in self.warnings:
             self.warnings.append(warning)
+
+    def references(self) -> Iterator[str]:
+        """Yield layers and assets that the file is composed of; a package and a layer over a file need none."""
+        from pxr import UsdUtils
+
+        if self._over or self.suffix == ".usdz":
+            return
+        layers, others, _ = UsdUtils.ComputeAllDependencies(str(self.path))
+        for found in [layer.realPath for layer in layers] + list(others):
+            if found and Path(found) != self.path.resolve():
+                yield Path(os.path.relpath(found, self.path.resolve().parent)).as_posix()
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the file with other UVs, or the layer over it, by its path."""
@@ -184,20 +197,19 @@ class _Mesh:
         from pxr import UsdGeom
 
         matrix = np.array(UsdGeom.XformCache(self._time).GetLocalToWorldTransform(self._mesh.GetPrim()))
-        scale = float(abs(np.linalg.det(matrix[:3, :3]))) ** (1 / 3)
         return AssetMesh(
             self._positions,
             self._offsets,
             self._indices[self._order],
             self._uv(),
             str(self.place.StripAllVariantSelections()),
-            scale,
+            matrix.T,
         )
 
     def _uv(self) -> npt.NDArray[np.float64] | None:
         from pxr import UsdGeom
 
-        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(_NAME)
+        variable = UsdGeom.PrimvarsAPI(self._mesh).GetPrimvar(self._asset.uv_map)
         found = variable.ComputeFlattened(self._time) if variable and variable.HasValue() else None
         if not found:
             return None
@@ -220,7 +232,7 @@ class _Mesh:
         uv[~mapped] = 0.0
         _, different, index = numbered(self._indices, uv.astype(np.float32))
         prim = Sdf.CreatePrimInLayer(layer, self.place)
-        names = (f"primvars:{_NAME}", f"primvars:{_NAME}:indices")
+        names = (f"primvars:{self._asset.uv_map}", f"primvars:{self._asset.uv_map}:indices")
         kinds = (Sdf.ValueTypeNames.TexCoord2fArray, Sdf.ValueTypeNames.IntArray)
         values = (Vt.Vec2fArray.FromNumpy(different.astype(np.float32)), Vt.IntArray.FromNumpy(index.astype(np.int32)))
         for name, kind, value in zip(names, kinds, values):

@@ -1,0 +1,59 @@
+"""Records of options on a command line: each field is an option, with its documentation."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Iterable
+from dataclasses import fields
+from typing import Any
+
+from ._options import _CHOICES, documented
+
+
+def add_fields(
+    group: Any,  # noqa: ANN401 - argparse keeps the name of its groups to itself
+    record: Any,  # noqa: ANN401 - any dataclass whose docstring lists its attributes
+    left_out: Iterable[str] = (),
+    prefix: str = "",
+) -> list[str]:
+    """Add an option for every field of a record, with dashes for underscores; return the fields' names.
+
+    What is not given is not among the parsed arguments. Values of fields that are no flags and no choices are numbers,
+    or words that the record takes or refuses by name.
+
+    Args:
+        group: of an `argparse.ArgumentParser`, or one itself.
+        record: with the defaults; its docstring documents the fields.
+        left_out: names of fields that are no options.
+        prefix: of the names in the parsed arguments.
+    """
+    documentation, names = documented(type(record)), []
+    for field in fields(record):
+        if field.name in left_out:
+            continue
+        names.append(field.name)
+        default = getattr(record, field.name)
+        text = re.sub(r"\s+", " ", documentation.get(field.name, "").partition(":")[2]).strip().replace("%", "%%")
+        shown = "" if default in (None, "") else f" ({default})"
+        how: dict[str, object] = {"help": text + shown, "default": argparse.SUPPRESS, "dest": prefix + field.name}
+        if isinstance(default, bool):
+            how["action"] = argparse.BooleanOptionalAction
+        elif field.name in _CHOICES:
+            how["choices"] = _CHOICES[field.name]
+        else:
+            how["type"], how["metavar"] = number_or_word, "X"
+            if field.name == "front":
+                how["nargs"], how["metavar"] = 3, ("X", "Y", "Z")
+        group.add_argument(f"--{field.name.replace('_', '-')}", **how)
+    return names
+
+
+def number_or_word(text: str) -> float | str:
+    """Return a number, whole where it is written so; or the text."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text

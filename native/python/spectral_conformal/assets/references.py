@@ -1,0 +1,58 @@
+"""Files that an asset names by paths from its own folder: they go along where it is written into another one."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Iterable
+from pathlib import Path, PurePosixPath
+
+from .temporary import temporary_beside
+
+# Of "MTL material format", Wavefront's appendix to the manual of OBJ, and what later programs have added.
+_TEXTURE = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
+
+
+def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
+    """Copy files to where an asset that is written elsewhere names them; return what could not be, in sentences.
+
+    Args:
+        source: the asset.
+        target: where it is written.
+        names: paths from the folder of the source, which may not be there.
+    """
+    origin, goal = source.resolve().parent, target.resolve().parent
+    if origin == goal:
+        return []
+    warnings = []
+    for name in dict.fromkeys(names):
+        if not (origin / name).is_file():
+            continue
+        if (
+            PurePosixPath(name).is_absolute()
+            or Path(os.path.normpath(goal / name)).parts[: len(goal.parts)] != goal.parts
+        ):
+            warnings.append(f"{name} stays where it is, above the folder of {source.name}, which names it.")
+            continue
+        there = goal / name
+        if not there.exists():
+            there.parent.mkdir(parents=True, exist_ok=True)
+            partial = temporary_beside(there)
+            try:
+                shutil.copy2(origin / name, partial)
+                partial.replace(there)
+            finally:
+                partial.unlink(missing_ok=True)
+    return warnings
+
+
+def textures_of(library: Path) -> list[str]:
+    """Return what a file of materials names, by paths from its folder; empty for one that cannot be read."""
+    try:
+        lines = _TEXTURE.findall(library.read_bytes())
+    except OSError:
+        return []
+    rests = [os.fsdecode(line.strip()).replace("\\", "/") for line in lines]
+    # A name may have blanks; options may stand before it.
+    return [rest if (library.parent / rest).is_file() else rest.split()[-1] for rest in rests]

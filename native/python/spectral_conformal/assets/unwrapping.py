@@ -1,0 +1,222 @@
+"""From the meshes of an asset to its UV map: cut into islands, unwrapped, laid out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _layout
+from .._options import Options, SeamOptions
+from .._results import Unwrap
+from .._seams import suggest_cuts
+from .._unwrapping import unwrap
+from . import welding
+from .mesh import AssetMesh, UvMap
+from .welding import Integers
+
+SEAMS = ("keep", "suggest", "sharp")
+
+
+@dataclass(frozen=True)
+class Cutting:
+    """Where meshes are cut.
+
+    Attributes:
+        seams: "keep": at the edges that the file marks as seams, or, where it marks none, at the borders of the islands
+            that its map has. "suggest": at marked edges, and where that lowers the distortion most. "sharp": at marked
+            edges, and at those between two faces that lie at `sharp_angle` or more.
+        keep_islands: also cut where the map of the file is cut, whatever `seams` says.
+        sharp_angle: in degrees, between the normals of two faces.
+        weld_distance: vertices on open borders nearer to each other than this part of the bounding box's diagonal count
+            as one, 0 for none. With "keep" those of a file without a map count one by one, since nothing else is there
+            that says where its islands end.
+        options: of the search for seams.
+    """
+
+    seams: str = "keep"
+    keep_islands: bool = False
+    sharp_angle: float = 30.0
+    weld_distance: float = welding.DISTANCES[0]
+    options: SeamOptions = SeamOptions()
+
+
+@dataclass(frozen=True)
+class CutMesh:
+    """A mesh and where it is cut."""
+
+    mesh: AssetMesh
+    vertex_of: Integers
+    """(V,) the vertex that stands for each."""
+    seam_edges: Integers
+    """(S, 2) edges of the welded mesh."""
+    message: str = ""
+    """For people: parts that no seams were found for; empty where there are none."""
+
+    @property
+    def polygons(self) -> tuple[npt.NDArray[np.float64], Integers, Integers]:
+        """The welded mesh."""
+        return self.mesh.vertices, self.mesh.face_offsets, self.vertex_of[self.mesh.corner_vertices]
+
+    @property
+    def seam_length(self) -> float:
+        """Length of the seams in the mesh's unit, of the edges at one place once."""
+        pairs = np.unique(np.sort(self.seam_edges, axis=1), axis=0)
+        ends = self.mesh.vertices[pairs]
+        return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum())
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How islands are laid out.
+
+    Attributes:
+        pack: all together in the unit square; otherwise each goes where it was.
+        margin: in pixels, between islands, and between them and the border of the texture.
+        width: of the texture, in pixels.
+        height: of the texture, in pixels.
+    """
+
+    pack: bool = True
+    margin: float = 4.0
+    width: int = 1024
+    height: int = 1024
+
+
+def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
+    """Find where a mesh is cut.
+
+    Raises:
+        ValueError: the search for seams refuses the mesh; the message says why.
+    """
+    keeps_map = cutting.keep_islands or (cutting.seams == "keep" and not len(mesh.seam_edges))
+    vertex_of = np.arange(len(mesh.vertices))
+    if cutting.weld_distance and (cutting.seams != "keep" or mesh.corner_uv is not None):
+        vertex_of = welding.coincident_vertices(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, cutting.weld_distance
+        )
+    found = CutMesh(mesh, vertex_of, vertex_of[mesh.seam_edges])
+    seams = [found.seam_edges]
+    if keeps_map and mesh.corner_uv is not None:
+        seams.append(_layout.map_seams(mesh.face_offsets, vertex_of[mesh.corner_vertices], mesh.corner_uv))
+    message = ""
+    if cutting.seams == "sharp":
+        seams.append(welding.sharp_edges(mesh, vertex_of, math.radians(cutting.sharp_angle)))
+    elif cutting.seams == "suggest":
+        cuts = suggest_cuts(*found.polygons, seam_edges=np.concatenate(seams), options=cutting.options)
+        seams += cuts
+        message = cuts.message
+    return CutMesh(mesh, vertex_of, np.concatenate(seams).astype(np.int64), message)
+
+
+def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
+    """Unwrap a mesh that is cut; what its file pins is held.
+
+    Raises:
+        ValueError: the mesh cannot be unwrapped; the message says why.
+    """
+    mesh = cut_mesh.mesh
+    pins = mesh.pinned_corners
+    if pins is not None and mesh.corner_uv is not None:
+        pins = pins & np.isfinite(mesh.corner_uv).all(axis=1)
+    held = {} if pins is None or not pins.any() else {"pinned_corners": pins, "corner_uv": mesh.corner_uv}
+    return unwrap(*cut_mesh.polygons, seam_edges=cut_mesh.seam_edges, options=options, **held)
+
+
+def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layout: Layout) -> list[UvMap]:
+    """Place the islands of all meshes of an asset, at one scale in the scene, in one texture.
+
+    Islands that could not be unwrapped, and meshes without a result, keep the UVs that they have in the file; islands
+    that two pins or more hold lie where these are.
+
+    Raises:
+        ValueError: the margin leaves no room for so many islands.
+    """
+    new, packed, found = [], [], []
+    for mesh, result in zip(meshes, results):
+        n_corners = len(mesh.corner_vertices)
+        if result is None:
+            new.append(np.full(n_corners, -1))
+            packed.append(np.full(n_corners, -1))
+            found.append(np.zeros((n_corners, 2)))
+            continue
+        solved = result.charts.column("status") == "solved"
+        is_held = result.charts.column("n_pins") > 1
+        new.append(_of_corner(mesh, result, solved))
+        packed.append(_of_corner(mesh, result, solved & ~is_held))
+        scale = np.where(packed[-1] < 0, 1.0, mesh.scale)
+        found.append(scale[:, None] * result.uv)
+    former = _former(meshes)
+    uv = _placed(np.concatenate(found), former, _numbered_together(packed), layout)
+    is_kept = np.concatenate(new) < 0
+    uv[is_kept] = former[is_kept]
+    return _maps(meshes, uv)
+
+
+def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layout: Layout) -> list[UvMap]:
+    """Lay out the islands that meshes have; each at the scale that it has now.
+
+    Args:
+        meshes: of an asset.
+        islands: of each mesh (faces,), -1 for faces in none.
+        layout: what to do.
+
+    Raises:
+        ValueError: the margin leaves no room for so many islands.
+    """
+    uv = _former(meshes)
+    if layout.pack:
+        chart = [np.where(mesh.has_uv(), island, -1)[mesh.face_of_corner()] for mesh, island in zip(meshes, islands)]
+        # The map is the texture's, whatever its aspect.
+        uv = _layout.packed(uv, _numbered_together(chart), _margin(layout))
+    return _maps(meshes, uv)
+
+
+def _placed(
+    uv: npt.NDArray[np.float64], former: npt.NDArray[np.float64], chart: Integers, layout: Layout
+) -> npt.NDArray[np.float64]:
+    aspect = layout.width / layout.height
+    if not layout.pack:
+        isotropy = np.array([aspect**0.5, aspect**-0.5])
+        there, placed = _layout.onto_former(uv, former * isotropy, chart)
+        uv = np.where(placed[:, None], there / isotropy, uv)
+        chart = np.where(placed, -1, chart)
+    return _layout.packed(uv, chart, _margin(layout), aspect)
+
+
+def _margin(layout: Layout) -> tuple[float, float]:
+    return layout.margin / layout.width, layout.margin / layout.height
+
+
+def _of_corner(mesh: AssetMesh, result: Unwrap, counted: npt.NDArray[np.bool_]) -> Integers:
+    """Return the chart of every corner (C,), -1 for charts that do not count."""
+    chart = np.where(np.append(counted, False)[result.chart_of_face], result.chart_of_face, -1)
+    return chart[mesh.face_of_corner()]
+
+
+def _numbered_together(charts: Sequence[Integers]) -> Integers:
+    first, numbered = 0, []
+    for chart in charts:
+        numbered.append(np.where(chart >= 0, first + chart, -1))
+        first += int(chart.max(initial=-1)) + 1
+    return np.concatenate(numbered)
+
+
+def _former(meshes: Sequence[AssetMesh]) -> npt.NDArray[np.float64]:
+    """Return the UVs that all corners have, (C, 2), not a number where they have none."""
+    return np.concatenate(
+        [np.full((len(m.corner_vertices), 2), np.nan) if m.corner_uv is None else m.corner_uv for m in meshes]
+    )
+
+
+def _maps(meshes: Sequence[AssetMesh], uv: npt.NDArray[np.float64]) -> list[UvMap]:
+    parts = np.split(uv, np.cumsum([len(mesh.corner_vertices) for mesh in meshes])[:-1])
+    maps = []
+    for mesh, part in zip(meshes, parts):
+        mapped = np.logical_and.reduceat(np.isfinite(part).all(axis=1), mesh.face_offsets[:-1])
+        part = np.where(np.repeat(mapped, np.diff(mesh.face_offsets))[:, None], part, 0.0)
+        maps.append(UvMap(part, mapped))
+    return maps

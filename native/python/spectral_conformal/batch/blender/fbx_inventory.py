@@ -1,0 +1,98 @@
+"""What kinds of things an FBX file holds, and how many, so that what Blender loses of it can be named.
+
+The binary form, as Blender's developers have described it ("FBX binary file format specification", 2013): records of an
+end offset, a number of properties and a name, within each other.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections import Counter
+from collections.abc import Iterator
+
+_MAGIC = b"Kaydara FBX Binary  \x00\x1a\x00"
+# From this version on numbers in records have 64 bits.
+_WIDE = 7500
+_SIZES = {b"Y": 2, b"C": 1, b"B": 1, b"I": 4, b"F": 4, b"D": 8, b"L": 8}
+_ARRAYS = b"fdlibc"
+
+
+def count(data: bytes) -> Counter[str]:
+    """Return how many things of every kind there are: objects, their custom properties, layers of meshes.
+
+    Nothing is counted of files in words, nor behind what cannot be read.
+    """
+    found: Counter[str] = Counter()
+    if not data.startswith(_MAGIC):
+        return found
+    (version,) = struct.unpack_from("<I", data, 23)
+    try:
+        for name, _, at, end in _records(data, 27, len(data), version):
+            if name == "Objects":
+                for kind, own, start, stop in _records(data, at, end, version):
+                    found[_title(kind, own)] += 1
+                    found.update(_parts(data, start, stop, version))
+    except (struct.error, KeyError, IndexError):
+        pass
+    return found
+
+
+def lost(before: Counter[str], after: Counter[str]) -> list[str]:
+    """Return a sentence for each kind of which there are fewer, or where nothing like it was, more."""
+    said = []
+    for kind in sorted(set(before) | set(after)):
+        if after[kind] < before[kind]:
+            said.append(f"FBX through Blender: {after[kind]} of {before[kind]} {kind} are left.")
+        elif not before[kind]:
+            said.append(f"FBX through Blender: {after[kind]} {kind} were added.")
+    return said
+
+
+def _title(kind: str, properties: list[object]) -> str:
+    subtype = properties[2] if len(properties) > 2 and isinstance(properties[2], bytes) else b""
+    return " ".join(filter(None, (subtype.decode(errors="replace"), kind)))
+
+
+def _parts(data: bytes, at: int, end: int, version: int) -> Iterator[str]:
+    for name, _, start, stop in _records(data, at, end, version):
+        if name.startswith("LayerElement"):
+            yield re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()
+        elif name == "Properties70":
+            for kind, values, *_ in _records(data, start, stop, version):
+                # Those of users are marked so.
+                if kind == "P" and len(values) > 3 and isinstance(values[3], bytes) and b"U" in values[3]:
+                    yield "custom properties"
+
+
+def _records(data: bytes, at: int, end: int, version: int) -> Iterator[tuple[str, list[object], int, int]]:
+    """Yield name, properties, and where those within begin and end, of the records from `at` to `end`."""
+    head = struct.Struct("<QQQB" if version >= _WIDE else "<IIIB")
+    while at + head.size <= end:
+        stop, n_properties, size, length = head.unpack_from(data, at)
+        if not stop:
+            return
+        at += head.size
+        name = data[at : at + length].decode(errors="replace")
+        at += length
+        yield name, list(_properties(data, at, n_properties)), at + size, stop
+        at = stop
+
+
+def _properties(data: bytes, at: int, count: int) -> Iterator[object]:
+    for _ in range(min(count, 8)):
+        kind = data[at : at + 1]
+        at += 1
+        if kind in _SIZES:
+            yield data[at : at + _SIZES[kind]]
+            at += _SIZES[kind]
+        elif kind in (b"S", b"R"):
+            (size,) = struct.unpack_from("<I", data, at)
+            yield data[at + 4 : at + 4 + size] if kind == b"S" else None
+            at += 4 + size
+        elif kind and kind in _ARRAYS:
+            yield None
+            (size,) = struct.unpack_from("<I", data, at + 8)
+            at += 12 + size
+        else:
+            return

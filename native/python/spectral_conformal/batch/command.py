@@ -1,0 +1,389 @@
+"""The command: which assets, with what settings, by which workers; what became of them."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import importlib.metadata
+import json
+import logging
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .._command_line import add_fields
+from ..assets.report import MapReport, Requirement, RequirementError
+from ..assets.temporary import left_beside
+from . import entries, files, memory, overview, pool, progress, report_file
+from .entries import Entry, InputError
+from .settings import NAMES, BatchSettings, SettingsError, from_values
+from .worker_process import Launcher, Limits, StartError, blender_command, python_command
+
+ALL_WORKED, SOME_WORKED, NONE_WORKED, INTERRUPTED, WRONG_USE = 0, 1, 2, 130, 64
+WORKED = ("unwrapped", "kept")
+LOG = "batch.log"
+WORKER_LOGS = "logs"
+# Before the names of settings among the arguments.
+_SETTING = "setting_"
+_EXIT_CODES = (
+    f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
+    f"wrong arguments or no Blender, {INTERRUPTED} interrupted. An asset with islands that could not be unwrapped is "
+    "written, and counts as one that did not work. A part has worked when all of its assets are accounted for."
+)
+
+_log = logging.getLogger(__name__)
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> None:
+        raise SettingsError(message)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    result = _Parser(prog="python -m spectral_conformal batch", description="Unwrap many files.", epilog=_EXIT_CODES)
+    result.add_argument("inputs", nargs="+", metavar="INPUT", help=f"file or folder; {', '.join(entries.READABLE)}")
+    result.add_argument("--out", required=True, type=Path, metavar="DIR", help="folder of the results")
+    result.add_argument("--format", default="", help="obj: the meshes alone, as OBJ; by default that of the source")
+    result.add_argument("--overwrite-source", action="store_true", help="write the unwrapped files over the sources")
+    result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
+    result.add_argument("--dry-run", action="store_true", help="say what would be done, and do nothing")
+    result.add_argument("--resume", action="store_true", help="leave out what an interrupted run has done already")
+    result.add_argument(
+        "--part", type=_part, metavar="K/N", help="do the K-th of N parts of the assets, and write no overview"
+    )
+    result.add_argument(
+        "--overview", action="store_true", help="write the overview of what parts have done, do no more"
+    )
+    result.add_argument(
+        "--require",
+        metavar="CONDITION",
+        help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"; an asset that does not meet it is written, and '
+        "counts as one that did not work",
+    )
+    run = result.add_argument_group("running")
+    run.add_argument("--jobs", type=_positive, metavar="N", default=_cores(), help="assets at once (%(default)s)")
+    run.add_argument("--seconds", type=_positive_number, metavar="N", help="after which an asset is given up")
+    run.add_argument("--memory", type=_positive, metavar="MIB", help="that a worker may hold")
+    run.add_argument("--recycle", type=_positive, default=50, metavar="N", help="files per worker (%(default)s)")
+    run.add_argument("--threads", type=_positive, metavar="N", default=1, help="that a worker may use (%(default)s)")
+    run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
+    run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster that is to do the work")
+    run.add_argument("--quiet", action="store_true", help="print errors only")
+    group = result.add_argument_group("settings, also keys of the settings file with _ for -")
+    default = BatchSettings()
+    for record in dict.fromkeys(NAMES.values()):
+        own = [name for name, of in NAMES.items() if of == record]
+        found = getattr(default, record) if record else default
+        left_out = {field.name for field in dataclasses.fields(found)} - set(own)
+        add_fields(group, found, left_out, _SETTING)
+    return result
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _part(text: str) -> tuple[int, int]:
+    part, _, parts = text.partition("/")
+    if not (part.isdecimal() and parts.isdecimal() and 1 <= int(part) <= int(parts)):
+        raise argparse.ArgumentTypeError(f"{text} is not a part and a number of parts, such as 1/4")
+    return int(part), int(parts)
+
+
+def _positive(text: str) -> int:
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not at least 1")
+    return int(text)
+
+
+def _positive_number(text: str) -> float:
+    if not float(text) > 0.0:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0")
+    return float(text)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a command line asks for.
+
+    Attributes:
+        entries: the assets, in the order of their names.
+        settings: of all of them.
+        out: folder of the results, absolute.
+        arguments: everything else.
+        requirement: what every map is to meet; None for nothing.
+    """
+
+    entries: Sequence[Entry]
+    settings: BatchSettings
+    out: Path
+    arguments: argparse.Namespace
+    requirement: Requirement | None = None
+
+
+def plan(arguments: Sequence[str]) -> Plan:
+    """Return what a command line asks for.
+
+    Raises:
+        SettingsError: an argument is unknown, or wrong.
+        InputError: the inputs cannot be a batch.
+    """
+    parsed = parser().parse_args(arguments)
+    values = _settings_file(parsed.settings) if parsed.settings else {}
+    given = {name[len(_SETTING) :]: value for name, value in vars(parsed).items() if name.startswith(_SETTING)}
+    settings = from_values({**values, **given})
+    try:
+        requirement = Requirement(parsed.require) if parsed.require else None
+    except RequirementError as error:
+        raise SettingsError(f"--require: {error}") from error
+    if parsed.memory and not memory.is_measurable() and not parsed.scheduler:
+        raise SettingsError("--memory needs psutil on this system: pip install psutil, or leave it out.")
+    suffix = parsed.format.lower()
+    suffix = f".{suffix}" if suffix and not suffix.startswith(".") else suffix
+    out = parsed.out.resolve()
+    if out.exists() and not out.is_dir():
+        raise InputError(f"--out {parsed.out} is a file, and must be a folder.")
+    found = entries.find(parsed.inputs, out, suffix, settings.usd_over, parsed.overwrite_source)
+    if parsed.part:
+        part, parts = parsed.part
+        found = found[part - 1 :: parts]
+    return Plan(found, settings, out, parsed, requirement)
+
+
+def _settings_file(path: Path) -> dict[str, Any]:
+    try:
+        import tomllib
+    except ImportError:
+        try:
+            import tomli as tomllib
+        except ImportError as error:
+            raise SettingsError("--settings needs Python 3.11, or tomli in this one; give options instead.") from error
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise SettingsError(f"{path}: {error}") from error
+
+
+def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code.
+
+    `worker_words` start a worker in place of those that `worker_process` finds.
+    """
+    try:
+        wanted = plan(arguments)
+        if wanted.arguments.dry_run:
+            _print_plan(wanted)
+            return ALL_WORKED
+        return _run(wanted, worker_words)
+    except (SettingsError, InputError, StartError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return WRONG_USE
+    except OSError as error:
+        print(f"error: the results cannot be written: {error}", file=sys.stderr)
+        return WRONG_USE
+    except SystemExit as end:
+        # Of the help, with which argparse ends.
+        return int(end.code or 0)
+
+
+def _print_plan(wanted: Plan) -> None:
+    for asset in wanted.entries:
+        done = wanted.arguments.resume and _is_done(asset, wanted.settings)
+        print(f"{asset.name} -> {asset.target}{' (done already)' if done else ''}")
+    print(json.dumps(wanted.settings.as_json(), indent=1))
+
+
+def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
+    arguments = wanted.arguments
+    logs = wanted.out / WORKER_LOGS
+    logs.mkdir(parents=True, exist_ok=True)
+    # Parts may run at once, on machines that share the folder.
+    name = LOG if not arguments.part else "batch-{}-{}.log".format(*arguments.part)
+    handler = logging.FileHandler(wanted.out / name, encoding="utf-8", errors="backslashreplace")
+    _claim(handler, wanted.out / name)
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    _log.setLevel(logging.INFO)
+    _log.propagate = False
+    _log.addHandler(handler)
+    reports: dict[str, dict[str, Any]] = {}
+    try:
+        if arguments.overview:
+            reports.update(_found(wanted))
+        elif arguments.resume:
+            reports.update(_done(wanted))
+        todo = [asset for asset in wanted.entries if asset.name not in reports]
+        _log.info("%d assets, %d of them done before; settings %s", len(wanted.entries), len(reports), wanted.settings)
+        is_interrupted = not arguments.overview and _work(wanted, todo, reports, worker_words)
+        if arguments.part:
+            return INTERRUPTED if is_interrupted else ALL_WORKED
+        for report in reports.values():
+            if wanted.requirement and "totals" in report:
+                report["not_met"] = wanted.requirement.failures(MapReport.from_json(report["totals"]))
+        overview.write(wanted.out, [reports.get(a.name) or _missing(a) for a in wanted.entries], is_interrupted)
+        return INTERRUPTED if is_interrupted else _exit_code(wanted, reports)
+    finally:
+        _log.removeHandler(handler)
+        handler.close()
+
+
+def _claim(handler: logging.FileHandler, path: Path) -> None:
+    """Hold a log as long as it is open, so that no other batch writes the same results meanwhile.
+
+    Raises:
+        InputError: another batch does that.
+    """
+    try:
+        import fcntl
+    except ImportError:
+        # Windows lets two processes write into a log.
+        return
+    try:
+        fcntl.flock(handler.stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        handler.close()
+        raise InputError(f"Another batch writes into {path.parent}: wait for it, or name another --out.") from error
+    except OSError:
+        # A disk that has no locks.
+        return
+
+
+def _work(
+    wanted: Plan, todo: Sequence[Entry], reports: dict[str, dict[str, Any]], worker_words: Sequence[str] | None
+) -> bool:
+    """Unwrap the assets and enter their reports; return whether the user interrupted it."""
+    for entry in todo:
+        entry.folder.mkdir(parents=True, exist_ok=True)
+        _clean(entry)
+    with progress.bar(len(todo), wanted.arguments.quiet) as advance:
+        try:
+            for asset, report in _reports(wanted, todo, worker_words):
+                report = _completed(asset, report, wanted)
+                reports[asset.name] = report
+                level = logging.INFO if _has_worked(report) else logging.ERROR
+                _log.log(level, "%s: %s", asset.name, overview.line(report))
+                advance(asset.name, report["status"], overview.line(report))
+        except KeyboardInterrupt:
+            _log.error("interrupted")
+            return True
+    return False
+
+
+def _reports(
+    wanted: Plan, todo: Sequence[Entry], worker_words: Sequence[str] | None
+) -> Iterator[tuple[Entry, dict[str, Any]]]:
+    arguments = wanted.arguments
+    logs, limits = wanted.out / WORKER_LOGS, _limits(arguments)
+    requests = [
+        (request_line(entry, wanted.settings), files.needs_blender(entry.source, wanted.settings)) for entry in todo
+    ]
+    if not todo:
+        return
+    if arguments.scheduler:
+        from . import dask_cluster
+
+        place = (arguments.scheduler, limits, arguments.blender, arguments.threads, logs)
+        yield from ((todo[i], r) for i, r in dask_cluster.run(requests, *place))
+        return
+    launchers: dict[bool, Launcher] = {}
+    try:
+        for in_blender in {needs for _, needs in requests}:
+            try:
+                words = blender_command(arguments.blender, arguments.threads) if in_blender else python_command()
+            except StartError as error:
+                if arguments.blender:
+                    raise
+                # The others need none.
+                failed = {"status": "failed", "failure": {"kind": "error", "message": str(error)}}
+                yield from ((entry, dict(failed)) for entry, (_, needs) in zip(todo, requests) if needs)
+                continue
+            launchers[in_blender] = Launcher(worker_words or words, logs, arguments.threads)
+        served = [(i, line, launchers[needs]) for i, (line, needs) in enumerate(requests) if needs in launchers]
+        places = [i for i, *_ in served]
+        for k, report in pool.run([request for _, *request in served], limits, arguments.jobs):
+            yield todo[places[k]], report
+    finally:
+        for launcher in launchers.values():
+            launcher.close()
+
+
+def _limits(arguments: argparse.Namespace) -> Limits:
+    return Limits(arguments.seconds, arguments.memory << 20 if arguments.memory else None, arguments.recycle)
+
+
+def request_line(asset: Entry, settings: BatchSettings) -> str:
+    """Return the request for an asset, as `task.request_of` reads it."""
+    paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
+    return json.dumps({"name": asset.name, **paths, "settings": settings.as_json()})
+
+
+def _clean(asset: Entry) -> None:
+    """Remove what an earlier run has left of an asset that is now made anew; the target waits until it is replaced."""
+    for name in (entries.REPORT, entries.LAYOUT, entries.CHECKER, entries.THUMBNAIL):
+        (asset.folder / name).unlink(missing_ok=True)
+
+
+def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, Any]:
+    """Return the report with what only this side knows, having written it."""
+    known = {"name": entry.name, "source": str(entry.source), "settings": wanted.settings.as_json()}
+    report = {**known, "warnings": [], **report}
+    report.setdefault("versions", {})["spectral_conformal"] = _version()
+    if report["status"] == "failed":
+        for path in (*left_beside(entry.target), *entry.folder.glob(".*.partial*")):
+            path.unlink(missing_ok=True)
+    elif wanted.requirement:
+        report["not_met"] = wanted.requirement.failures(MapReport.from_json(report["totals"]))
+    try:
+        entry.folder.mkdir(parents=True, exist_ok=True)
+        report_file.write(entry.folder, report)
+    except OSError as error:
+        report.update(status="failed", failure={"kind": "error", "message": f"its report cannot be written: {error}"})
+    return report
+
+
+def _version() -> str:
+    try:
+        return importlib.metadata.version("spectral-conformal")
+    except importlib.metadata.PackageNotFoundError:
+        return "unknown"
+
+
+def _missing(asset: Entry) -> dict[str, Any]:
+    failure = {"kind": "interrupted", "message": "not begun, or not finished"}
+    return {"name": asset.name, "source": str(asset.source), "status": "failed", "failure": failure}
+
+
+def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
+    done = ((asset.name, _is_done(asset, wanted.settings)) for asset in wanted.entries)
+    return {name: report for name, report in done if report}
+
+
+def _is_done(asset: Entry, settings: BatchSettings) -> dict[str, Any] | None:
+    """Return the report of an asset that was made of the same file with the same settings, and is still there."""
+    report = report_file.read(asset.folder)
+    if report is None or report["status"] == "failed" or report["settings"] != settings.as_json():
+        return None
+    if not asset.target.is_file() or entries.digest(asset.target) != report["output_digest"]:
+        return None
+    # Written over its source, it is that no more.
+    unchanged = (report["source_digest"], report["output_digest"])[: 2 if asset.target == asset.source else 1]
+    return report if entries.digest(asset.source) in unchanged else None
+
+
+def _found(wanted: Plan) -> dict[str, dict[str, Any]]:
+    found = ((asset.name, report_file.read(asset.folder)) for asset in wanted.entries)
+    return {name: report for name, report in found if report}
+
+
+def _exit_code(wanted: Plan, reports: dict[str, dict[str, Any]]) -> int:
+    worked = sum(_has_worked(reports.get(entry.name, {})) for entry in wanted.entries)
+    if worked == len(wanted.entries):
+        return ALL_WORKED
+    return SOME_WORKED if worked else NONE_WORKED
+
+
+def _has_worked(report: dict[str, Any]) -> bool:
+    return report.get("status") in WORKED and not report.get("not_met")

@@ -1,0 +1,130 @@
+"""The batch on an existing Dask cluster: a task is an asset, and goes to a worker process of the batch's own there.
+
+Dask's worker itself never loads Blender: it would grow, and a crash or a hang of Blender would be its own.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import platform
+import threading
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from .settings import SettingsError
+from .worker_process import Launcher, Limits, StartError, WorkerProcess, blender_command, python_command
+
+_CONNECT_SECONDS = 30.0
+
+_own = threading.local()
+_started: list[tuple[WorkerProcess, Launcher]] = []
+
+
+def unwrap(
+    line: str, in_blender: bool, limits: Limits, blender: str | None, threads: int, log_folder: str
+) -> dict[str, Any]:
+    """Return the report of a request. Called in a thread of a Dask worker, which keeps its process for the next one."""
+    limit = _memory_limit()
+    if limit is not None:
+        limits = dataclasses.replace(limits, memory=min(limit, limits.memory or limit))
+    wanted = (in_blender, limits, blender, threads, log_folder)
+    kept = getattr(_own, "kept", None)
+    if kept is None or kept[1] != wanted:
+        if kept is not None:
+            kept[0].close()
+        words = blender_command(blender, threads) if in_blender else python_command()
+        launcher = Launcher(words, Path(log_folder), threads)
+        name = f"{platform.node()}-{os.getpid()}-{threading.get_ident()}"
+        kept = _own.kept = (WorkerProcess(launcher, name, limits), wanted)
+        _started.append((kept[0], launcher))
+    return kept[0].run(line)
+
+
+def _memory_limit() -> int | None:
+    """Return the bytes that Dask grants one thread of the worker that this is called in; None for any number."""
+    import distributed
+
+    try:
+        worker = distributed.get_worker()
+    except ValueError:
+        return None
+    limit = worker.memory_manager.memory_limit
+    return limit // worker.state.nthreads if limit else None
+
+
+def _close() -> None:
+    while _started:
+        process, launcher = _started.pop()
+        process.close()
+        launcher.close()
+    _own.__dict__.clear()
+
+
+def run(
+    requests: Sequence[tuple[str, bool]],
+    address: str,
+    limits: Limits,
+    blender: str | None,
+    threads: int,
+    log_folder: Path,
+) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Yield the index of every request and its report, as they come from the cluster.
+
+    Requests are lines, each with whether it is for a worker with Blender. A Dask worker that dies is Dask's to replace,
+    and its asset begun again by another. An asset that ran out of memory
+    is given to a worker that has more, where there is one.
+
+    Raises:
+        SettingsError: Dask is not installed, or nothing answers at the address.
+        StartError: a Dask worker cannot start a worker of the batch.
+    """
+    try:
+        import distributed
+    except ImportError as error:
+        raise SettingsError("--scheduler needs Dask: pip install distributed.") from error
+    try:
+        client = distributed.Client(address, timeout=_CONNECT_SECONDS)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise SettingsError(f"No Dask scheduler answers at {address}: {error}") from error
+    with client:
+        arguments = (limits, blender, threads, str(log_folder))
+        futures = {client.submit(unwrap, *each, *arguments, pure=False): i for i, each in enumerate(requests)}
+        running = distributed.as_completed(list(futures))
+        tried_again: set[int] = set()
+        try:
+            for future in running:
+                index = futures.pop(future)
+                report = _report(future)
+                larger = _larger_workers(client, report) if index not in tried_again else []
+                if larger:
+                    tried_again.add(index)
+                    again = client.submit(unwrap, *requests[index], *arguments, pure=False, workers=larger)
+                    futures[again] = index
+                    running.add(again)
+                    continue
+                yield index, {**report, "attempts": report.get("attempts", 1) + (index in tried_again)}
+        finally:
+            client.cancel(list(futures))
+            client.run(_close)
+
+
+def _report(future: Any) -> dict[str, Any]:  # noqa: ANN401 - distributed is not installed everywhere
+    """Return the report of a task, also of one that Dask gave up."""
+    error = future.exception()
+    if error is None:
+        return future.result()
+    if isinstance(error, StartError):
+        raise error
+    return {"status": "failed", "failure": {"kind": "crash", "message": f"{type(error).__name__}: {error}"}}
+
+
+def _larger_workers(client: Any, report: dict[str, Any]) -> list[str]:  # noqa: ANN401 - as above
+    """Return the addresses of the Dask workers with more memory than the limit by which an asset has failed."""
+    failure = report.get("failure", {})
+    if failure.get("kind") != "memory" or "limit" not in failure:
+        return []
+    workers = client.scheduler_info(n_workers=-1)["workers"]
+    granted = {name: worker["memory_limit"] / worker["nthreads"] for name, worker in workers.items()}
+    return [name for name, memory in granted.items() if memory == 0 or memory > failure["limit"]]

@@ -1,0 +1,111 @@
+"""The assets of a batch: which files, and where what is made of them goes."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from .. import assets
+
+OF_BLENDER = (".blend", ".fbx")
+READABLE = (*OF_BLENDER, *assets.READABLE)
+_PLAIN = ".obj"
+USD = (".usd", ".usda", ".usdc", ".usdz")
+REPORT = "report.json"
+LAYOUT = "layout.png"
+CHECKER = "checker.png"
+THUMBNAIL = "thumbnail.png"
+
+
+class InputError(Exception):
+    """The inputs cannot be a batch; the message says which and why."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An asset: a file to unwrap.
+
+    Attributes:
+        name: path below the folder that all inputs have in common, with slashes; unique in the batch.
+        source: the file, absolute.
+        folder: where its report and pictures go, absolute.
+        target: the unwrapped file, absolute.
+    """
+
+    name: str
+    source: Path
+    folder: Path
+    target: Path
+
+
+def find(
+    inputs: Sequence[str], out: Path, suffix: str = "", usd_over: bool = False, overwrite_source: bool = False
+) -> list[Entry]:
+    """Return the assets in files and, with all below them, folders, sorted by name.
+
+    Args:
+        inputs: files and folders. Of a folder those files count that can be read; a file always counts.
+        out: folder of the results; what lies in it is no input.
+        suffix: ".obj" for unwrapped files with the meshes alone; empty for that of the source.
+        usd_over: USD becomes a layer over the source.
+        overwrite_source: write every unwrapped file over its source.
+
+    Raises:
+        InputError: an input does not exist, nothing is found, or two results would be one file.
+    """
+    out = out.resolve()
+    roots = [_resolved(name) for name in inputs]
+    missing = [name for name, root in zip(inputs, roots) if not root.exists()]
+    if missing:
+        raise InputError(f"There is no {', no '.join(missing)}.")
+    if suffix not in ("", _PLAIN):
+        raise InputError(f"--format {suffix[1:]}: files keep their format, or become {_PLAIN[1:]}.")
+    sources = sorted({source for root in roots for source in _files(root, out)})
+    if not sources:
+        raise InputError(f"No file to read in {', '.join(inputs)}: there may be {', '.join(READABLE)}.")
+    common = Path(os.path.commonpath([root if root.is_dir() else root.parent for root in roots]))
+    return [_entry(source, common, out, suffix, usd_over, overwrite_source) for source in sources]
+
+
+def _resolved(name: str) -> Path:
+    try:
+        return Path(name).resolve()
+    except (OSError, RuntimeError) as error:
+        raise InputError(f"{name} is a link that leads nowhere: {error}.") from error
+
+
+def _files(root: Path, out: Path) -> Iterable[Path]:
+    if root.is_file():
+        return [root]
+    # Links to folders, which may go in circles, are not followed; a folder that cannot be read is left out.
+    walked = (Path(folder, name) for folder, _, names in os.walk(root) for name in names)
+    found = (path for path in walked if path.suffix.lower() in READABLE and path.is_file())
+    return (path for path in found if out not in path.parents and not path.name.startswith("."))
+
+
+def _entry(source: Path, common: Path, out: Path, suffix: str, usd_over: bool, overwrite_source: bool) -> Entry:
+    name = source.relative_to(common).as_posix()
+    folder = out / name
+    own = source.suffix.lower()
+    if overwrite_source:
+        if suffix not in ("", own):
+            raise InputError(f"{name} cannot be written over as {suffix}: leave out --format or --overwrite-source.")
+        if own not in OF_BLENDER and assets.written_as(source) != own:
+            raise InputError(f"{name} cannot be written over: {own} holds no UVs.")
+        return Entry(name, source, folder, source)
+    if usd_over and own in USD:
+        return Entry(name, source, folder, folder / f"{source.stem}.uv.usda")
+    new = suffix or (source.suffix if own in OF_BLENDER or assets.written_as(source) == own else _PLAIN)
+    return Entry(name, source, folder, folder / f"{source.stem}{new}")
+
+
+def digest(path: Path) -> str:
+    """Return a digest of a file's content."""
+    state = hashlib.blake2b(digest_size=16)
+    with path.open("rb") as file:
+        while block := file.read(1 << 20):
+            state.update(block)
+    return state.hexdigest()

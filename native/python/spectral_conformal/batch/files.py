@@ -1,0 +1,81 @@
+"""Assets of all formats: read, written with UVs, and read again."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import assets
+from ..assets import Asset, AssetMesh, UvMap
+from ..assets.temporary import temporary_beside
+from ..assets.usd import UsdAsset
+from .entries import OF_BLENDER, USD
+from .settings import SMART, BatchSettings
+
+if TYPE_CHECKING:
+    from .blender.files import BlenderAsset
+
+_Z_UP = (".blend", ".ply", ".stl", ".off")
+
+
+def needs_blender(source: Path, settings: BatchSettings) -> bool:
+    """Tell whether an asset is for a worker with Blender."""
+    return source.suffix.lower() in OF_BLENDER or settings.checker or settings.seams == SMART
+
+
+def read(source: Path, settings: BatchSettings) -> Asset | BlenderAsset:
+    """Read an asset.
+
+    Raises:
+        AssetError: it cannot be read, or holds nothing to unwrap.
+        OSError: the file cannot be opened.
+    """
+    suffix = source.suffix.lower()
+    if suffix in OF_BLENDER:
+        from .blender.files import BlenderAsset
+
+        return BlenderAsset(source, settings.uv_map)
+    if source.stat().st_size == 0:
+        raise assets.AssetError(f"{source.name} is empty.")
+    if settings.usd_over and suffix in USD:
+        return UsdAsset(source, settings.uv_map, over=True)
+    return assets.read(source, settings.uv_map)
+
+
+def write(
+    target: Path, asset: Asset | BlenderAsset, maps: Sequence[UvMap]
+) -> tuple[Sequence[AssetMesh], Sequence[str]]:
+    """Write an asset with other UVs; return its meshes as they are read again, and what is to be said of it.
+
+    What lay there is replaced when that which was written has been read again and is right.
+
+    Raises:
+        AssetError: it cannot be written.
+        OSError: it cannot be written, or is not read again as it was written.
+    """
+    if target.suffix.lower() not in OF_BLENDER:
+        warnings = assets.write(target, asset, maps)
+        return assets.read(target, asset.uv_map).meshes, warnings
+    partial = temporary_beside(target)
+    try:
+        asset.save(partial, maps)
+        with partial.open("rb+") as file:
+            os.fsync(file.fileno())
+        written = type(asset)(partial, asset.uv_map)
+        asset.check(written, maps)
+        partial.replace(os.path.realpath(target))
+    except (assets.AssetError, OSError) as error:
+        reason = str(error).replace(str(partial), target.name).replace(partial.name, target.name)
+        raise OSError(
+            f"It cannot be written, or is not read again as it was written; is the disk full? {reason}"
+        ) from error
+    finally:
+        partial.unlink(missing_ok=True)
+    return written.meshes, asset.warnings
+
+
+def y_is_up(source: Path) -> bool:
+    """Tell whether the second axis points upwards by the custom of a format."""
+    return source.suffix.lower() not in _Z_UP

@@ -1,0 +1,62 @@
+"""The memory that a process holds: resident pages, of which a machine runs out; not addresses, of which Blender
+reserves many times as much, so that a limit of those (RLIMIT_AS) would stop it at once."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+_PROC = Path("/proc")
+_KIBIBYTE = 1024
+
+
+def reset_peak() -> None:
+    """Let `peak` begin anew; where the system has no such thing, it goes on from the start of the process."""
+    # Not Linux, or a container that forbids it.
+    with contextlib.suppress(OSError):
+        (_PROC / "self" / "clear_refs").write_text("5")
+
+
+def peak() -> int | None:
+    """Return the most bytes that this process has held since `reset_peak`; None where the system does not tell."""
+    return _status("self", "VmHWM")
+
+
+def _status(process: object, name: str) -> int | None:
+    try:
+        text = (_PROC / str(process) / "status").read_text(encoding="ascii", errors="replace")
+    except OSError:
+        return None
+    found = re.search(rf"^{name}:\s+(\d+) kB", text, re.MULTILINE)
+    return int(found.group(1)) * _KIBIBYTE if found else None
+
+
+def resident(process: int) -> int | None:
+    """Return the bytes that another process holds; None where it is gone or the system does not tell."""
+    if sys.platform == "linux":
+        return _status(process, "VmRSS")
+    measure = _psutil_measure()
+    return measure(process) if measure else None
+
+
+def is_measurable() -> bool:
+    """Tell whether `resident` works here."""
+    return sys.platform == "linux" or _psutil_measure() is not None
+
+
+def _psutil_measure() -> Callable[[int], int | None] | None:
+    try:
+        import psutil
+    except ImportError:
+        return None
+
+    def measure(process: int) -> int | None:
+        try:
+            return psutil.Process(process).memory_info().rss
+        except psutil.Error:
+            return None
+
+    return measure

@@ -1,0 +1,58 @@
+"""How far a batch is: a bar of tqdm's where that is installed and a terminal there, else a line per asset."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+# Takes the name of an asset, its status and what to say of it.
+Advance = Callable[[str, str, str], None]
+
+
+@contextmanager
+def bar(total: int, quiet: bool) -> Iterator[Advance]:
+    """Yield a function to be called for every asset that is done; with `quiet` only what failed is printed."""
+    if quiet:
+        yield _print_failure
+        return
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        tqdm = None
+    if tqdm is None or not sys.stderr.isatty():
+        yield _lines(total)
+        return
+    with tqdm(total=total, unit="asset", file=sys.stderr) as shown:
+
+        def advance(name: str, status: str, said: str) -> None:
+            if status == "failed":
+                shown.write(f"{name}: {said}", file=sys.stderr)
+            shown.update()
+
+        yield advance
+
+
+def _print_failure(name: str, status: str, said: str) -> None:
+    if status == "failed":
+        print(f"{name}: {said}", file=sys.stderr)
+
+
+def _lines(total: int) -> Advance:
+    start, done = time.monotonic(), 0
+
+    def advance(name: str, _status: str, said: str) -> None:
+        nonlocal done
+        done += 1
+        left = (time.monotonic() - start) / done * (total - done)
+        print(f"[{done}/{total}, {duration(left)} left] {name}: {said}", file=sys.stderr, flush=True)
+
+    return advance
+
+
+def duration(seconds: float) -> str:
+    """Return hours, minutes and seconds as people write them."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

@@ -1,0 +1,156 @@
+"""What a batch does with every asset, as options of the command line, keys of a settings file, and JSON."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from dataclasses import dataclass, fields
+from typing import Any
+
+from .._options import AUTOMATIC, Options, SeamOptions
+from ..assets import welding
+from ..assets.unwrapping import SEAMS, Cutting, Layout
+
+SMART = "smart"
+ALL_SEAMS = (*SEAMS, SMART)
+# As the operator of the add-on is set.
+_OPTIONS = Options(hole_rigidity=AUTOMATIC, polish=True)
+# Nobody looks at each asset to ask for more cuts, so a mesh gets those that pay until its distortion of angles is not
+# seen. Of 23 kinds of generated meshes 12 had more of it than xatlas leaves with the operator's limit, 3 with this one,
+# as without any limit, which cuts a good rock into 34 islands instead of 6 (tests/benchmarks/generated_assets.py).
+_SUGGESTION = SeamOptions(qc_limit=1.01, qc_gain=0.001)
+# Given by the options of the maps.
+_SHARED = ("weights", "boundary", "factorization")
+_RECORDS = ("options", "suggestion")
+
+
+class SettingsError(Exception):
+    """A setting that is unknown, or a value that it cannot have; the message names both."""
+
+
+@dataclass(frozen=True)
+class BatchSettings:
+    """What to do with seams, islands and packing of an asset, and what to write beside it.
+
+    Attributes:
+        seams: keep: the seams that the file marks, or where it marks none, the islands of its map. The others add to
+            marked seams: suggest: where that lowers the distortion most; sharp: by the angle between faces; smart: the
+            borders of the islands of Blender's Smart UV Project, which needs Blender.
+        sharp_angle: degrees between two faces from which "sharp" makes their edge a seam.
+        weld_distance: part of the bounding box's diagonal within which vertices on open borders count as one, so that
+            islands go across; the file's own vertices stay; 0 for none.
+        unwrap: solve the islands, or leave them as they are.
+        pack: pack all islands together, or leave them where they are.
+        margin_pixels: between packed islands, and between them and the border of the texture, in pixels of it.
+        texture_size: of one side in pixels, or width and height, such as 2048x1024.
+        uv_map: name of the UV map to write, made where it is missing; without one that which the format's programs use
+            first. Of glTF the n of TEXCOORD_n, or any name for a set that no mesh has.
+        usd_over: write a USD layer over the untouched source in place of a whole file.
+        picture_size: pixels of one side of the picture of the layout, 0 for none.
+        checker: render the asset with a checker, which needs Blender.
+        options: how maps are made.
+        suggestion: what the search for seams is set to.
+    """
+
+    seams: str = "suggest"
+    sharp_angle: float = 30.0
+    weld_distance: float = welding.DISTANCES[0]
+    unwrap: bool = True
+    pack: bool = True
+    margin_pixels: float = 4.0
+    texture_size: str = "1024"
+    uv_map: str = ""
+    usd_over: bool = False
+    picture_size: int = 512
+    checker: bool = False
+    options: Options = _OPTIONS
+    suggestion: SeamOptions = _SUGGESTION
+
+    def __post_init__(self) -> None:
+        """Check every value.
+
+        Raises:
+            ValueError: a value is of the wrong kind or out of its range.
+        """
+        for field in fields(self):
+            if field.name in _RECORDS:
+                continue
+            value, kind = getattr(self, field.name), type(field.default)
+            if kind is float and isinstance(value, int) and not isinstance(value, bool):
+                value = float(value)
+            elif kind is str and isinstance(value, (int, float)) and not isinstance(value, bool):
+                value = f"{value:g}" if isinstance(value, float) else str(value)
+            if type(value) is not kind:
+                raise ValueError(f"{field.name} must be of type {kind.__name__}, not {value!r}.")
+            object.__setattr__(self, field.name, value)
+        low, high = welding.DISTANCES
+        smallest = min(self.texture)
+        for name, holds, what in (
+            ("seams", self.seams in ALL_SEAMS, f"one of {', '.join(ALL_SEAMS)}"),
+            ("sharp_angle", 0.0 <= self.sharp_angle <= 180.0, "from 0 to 180"),
+            ("weld_distance", not self.weld_distance or low <= self.weld_distance <= high,
+             f"0, or from {low:g} to {high:g}"),
+            ("margin_pixels", 0.0 <= self.margin_pixels < smallest, "from 0 to less than texture_size"),
+            ("picture_size", not self.picture_size or 64 <= self.picture_size <= 8192, "0, or from 64 to 8192"),
+        ):  # fmt: skip
+            if not holds:
+                raise ValueError(f"{name} must be {what}, not {getattr(self, name)!r}.")
+
+    @property
+    def texture(self) -> tuple[int, int]:
+        """Width and height of the texture, in pixels."""
+        found = re.fullmatch(r"([1-9]\d{0,6})(?:x([1-9]\d{0,6}))?", self.texture_size)
+        if not found:
+            raise ValueError(
+                f"texture_size must be at least 1, or two such sizes as 2048x1024, not {self.texture_size!r}."
+            )
+        return int(found.group(1)), int(found.group(2) or found.group(1))
+
+    @property
+    def layout(self) -> Layout:
+        """How islands are laid out."""
+        return Layout(self.pack, self.margin_pixels, *self.texture)
+
+    @property
+    def cutting(self) -> Cutting:
+        """Where meshes are cut; "smart" is for Blender, and counts as "keep" here."""
+        shared = {name: getattr(self.options, name) for name in _SHARED}
+        options = dataclasses.replace(self.suggestion, **shared)
+        seams = "keep" if self.seams == SMART else self.seams
+        return Cutting(seams, False, self.sharp_angle, self.weld_distance, options)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the settings by name, as `from_values` takes them."""
+        found = {name: getattr(getattr(self, record) if record else self, name) for name, record in NAMES.items()}
+        return {name: list(value) if isinstance(value, tuple) else value for name, value in found.items()}
+
+
+def _names() -> dict[str, str]:
+    own = {field.name: "" for field in fields(BatchSettings) if field.name not in _RECORDS}
+    maps = {field.name: "options" for field in fields(Options)}
+    return {**own, **maps, **{field.name: "suggestion" for field in fields(SeamOptions) if field.name not in _SHARED}}
+
+
+# Every setting, and the field of `BatchSettings` that holds it; "" for its own.
+NAMES = _names()
+
+
+def from_values(values: dict[str, Any]) -> BatchSettings:
+    """Return the settings that have these values, by the names of `NAMES`; the others have their defaults.
+
+    Raises:
+        SettingsError: a name is unknown, or a value not one of its setting.
+    """
+    unknown = sorted(set(values) - set(NAMES))
+    if unknown:
+        raise SettingsError(f"unknown: {', '.join(unknown)}. Known are {', '.join(sorted(NAMES))}.")
+
+    def chosen(record: str) -> dict[str, Any]:
+        return {name: value for name, value in values.items() if NAMES[name] == record}
+
+    default = BatchSettings()
+    try:
+        records = {name: dataclasses.replace(getattr(default, name), **chosen(name)) for name in _RECORDS}
+        return BatchSettings(**chosen(""), **records)
+    except ValueError as error:
+        raise SettingsError(str(error)) from error

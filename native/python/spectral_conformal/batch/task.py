@@ -1,0 +1,275 @@
+"""One asset by some settings to a report: what every door of the batch comes to."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import sys
+import time
+import traceback
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._build import build_info
+from .._results import Unwrap
+from ..assets import Asset, AssetError, AssetMesh, UvMap
+from ..assets.report import Measurement
+from ..assets.unwrapping import CutMesh, Layout, cut, laid_out, laid_out_anew, unwrapped
+from . import entries, files, layout_picture, memory, report_file
+from .settings import SMART, BatchSettings, SettingsError, from_values
+
+if TYPE_CHECKING:
+    from .blender.files import BlenderAsset
+
+THUMBNAIL = 160
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to unwrap, by values that JSON has.
+
+    Attributes:
+        name: of the asset in the batch.
+        source: the file.
+        folder: where report and pictures go; must exist.
+        target: the unwrapped file.
+        settings: as `settings.from_values` takes them.
+    """
+
+    name: str
+    source: str
+    folder: str
+    target: str
+    settings: dict[str, Any]
+
+
+class _Phases:
+    """Seconds by the name of a phase."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def __call__(self, name: str) -> Iterator[None]:
+        start = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
+
+
+def run(request: Request) -> dict[str, Any]:
+    """Unwrap one asset, write the file, the pictures and at last the report, and return it.
+
+    What is wrong with the asset is in the report; the results appear whole or not at all.
+    """
+    memory.reset_peak()
+    start = time.perf_counter()
+    phases = _Phases()
+    report: dict[str, Any] = {
+        "name": request.name,
+        "source": request.source,
+        "settings": request.settings,
+        "warnings": [],
+    }
+    try:
+        report["source_digest"] = entries.digest(Path(request.source))
+        _run(request, from_values(request.settings), phases, report)
+    except (AssetError, SettingsError, MemoryError, OSError) as error:
+        kind = "memory" if isinstance(error, MemoryError) else "error"
+        report.update(status="failed", failure={"kind": kind, "message": str(error) or "there is too little memory"})
+    except Exception as error:  # noqa: BLE001 - importers are others' Python; the next asset is not their fault
+        # The log has where it was.
+        traceback.print_exc()
+        report.update(status="failed", failure={"kind": "error", "message": f"{type(error).__name__}: {error}"})
+    report["versions"] = versions()
+    report["seconds"] = {**phases.seconds, "total": time.perf_counter() - start}
+    report["peak_memory"] = memory.peak()
+    report_file.write(Path(request.folder), report)
+    return report
+
+
+def versions() -> dict[str, str]:
+    """Return what the result may depend on."""
+    build = build_info()
+    found = {
+        "factorization": str(build["factorization"]),
+        "blas": str(build["blas"]),
+        "kernel": str(build["kernel"]),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "platform": f"{sys.platform}-{platform.machine()}",
+    }
+    blender = sys.modules.get("bpy")
+    return {**found, "blender": blender.app.version_string} if blender else found
+
+
+def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dict[str, Any]) -> None:
+    source, target = Path(request.source), Path(request.target)
+    with phases("read"):
+        asset = files.read(source, settings)
+    if asset.suffix != source.suffix.lower() and not settings.usd_over:
+        report["warnings"].append(f"{source.suffix} holds no UVs: written as {target.suffix}.")
+    maps = _unwrap(asset, settings, phases, report) if settings.unwrap else _keep(asset, settings.layout, phases)
+    with phases("write"):
+        written, warnings = files.write(target, asset, maps)
+    report["warnings"] += warnings
+    with phases("measure"):
+        measured = Measurement(written)
+        report["islands"] = [_told(asdict(island)) for island in measured.islands()]
+        totals = {**_told(asdict(measured.report())), **report.pop("counts", {})}
+        report["totals"] = {"meshes": len(asset.meshes), "failed": 0, **totals}
+    report["warnings"] += _on_scales(asset.meshes) + _on_faces(report["totals"])
+    with phases("picture"):
+        _draw(request, settings, measured, written, report)
+    report["output"] = os.path.relpath(target, request.folder)
+    report["output_digest"] = entries.digest(target)
+    failed = report["totals"]["failed"]
+    report["status"] = "incomplete" if failed else "unwrapped" if settings.unwrap else "kept"
+
+
+def _on_scales(meshes: Sequence[AssetMesh]) -> list[str]:
+    """Say of meshes whose density in the scene is that of the others on average only."""
+    uneven = [mesh.name for mesh in meshes if not mesh.is_scaled_evenly]
+    return [f"Scaled unevenly in the scene, so that density is an average: {', '.join(uneven)}."] if uneven else []
+
+
+def _on_faces(totals: dict[str, Any]) -> list[str]:
+    """Say how many faces have nothing to paint on, by a fault of the mesh or of the map."""
+    kinds = {
+        "degenerate": "have no area",
+        "collapsed": "have no area in the map",
+        "unmapped": "have no UVs",
+    }
+    return [f"{totals[kind]} of {totals['faces']} faces {what}." for kind, what in kinds.items() if totals[kind]]
+
+
+def _told(values: dict[str, Any]) -> dict[str, Any]:
+    """Return values as JSON has them, which knows nothing that is no number."""
+    return {name: None if value != value else value for name, value in values.items()}
+
+
+def _unwrap(
+    asset: Asset | BlenderAsset, settings: BatchSettings, phases: _Phases, report: dict[str, Any]
+) -> list[UvMap]:
+    with phases("seams"):
+        cut_meshes = _cut(asset.meshes, settings, report["warnings"])
+    failures: Counter[str] = Counter()
+    with phases("solve"):
+        results = [_unwrapped(each, settings, failures) for each in cut_meshes]
+    _note(results, failures, report)
+    if not any(result is not None and result.solved_corners.any() for result in results):
+        raise AssetError(f"No island could be unwrapped: {'; '.join(failures)}")
+    with phases("pack"):
+        maps = laid_out(asset.meshes, results, settings.layout)
+    for reason, number in failures.items():
+        islands = "1 island" if number == 1 else f"{number} islands"
+        report["warnings"].append(f"{islands} could not be unwrapped: {reason}")
+    report["counts"] = {
+        "vertices": sum(len(mesh.vertices) for mesh in asset.meshes),
+        "welded": sum(int((each.vertex_of != np.arange(len(each.vertex_of))).sum()) for each in cut_meshes),
+        "seam_length": sum(each.mesh.scale * each.seam_length for each in cut_meshes),
+        "failed": sum(failures.values()),
+    }
+    return maps
+
+
+def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[str]) -> list[CutMesh]:
+    """Cut every mesh; one that the search refuses is cut where it was, and named."""
+    found = []
+    for mesh in meshes:
+        try:
+            each = cut(mesh, settings.cutting)
+        except ValueError as error:
+            each = cut(mesh, replace(settings.cutting, seams="keep"))
+            warnings.append(_named(mesh, f"no seams were found: {error}"))
+        if each.message:
+            warnings.append(_named(mesh, each.message))
+        found.append(each)
+    if settings.seams == SMART:
+        from .blender import smart_project
+
+        more = smart_project.seams(found)
+        found = [replace(each, seam_edges=np.concatenate([each.seam_edges, edges])) for each, edges in zip(found, more)]
+    return found
+
+
+def _unwrapped(cut_mesh: CutMesh, settings: BatchSettings, failures: Counter[str]) -> Unwrap | None:
+    """Return the maps of a mesh, None for one that is refused as a whole; count what failed by its reason."""
+    try:
+        result = unwrapped(cut_mesh, settings.options)
+    except (ValueError, MemoryError) as error:
+        reason = str(error) or "there is too little memory for it."
+        failures[_named(cut_mesh.mesh, reason)] += 1
+        return None
+    charts = result.charts
+    failed = charts.column("status") != "solved"
+    failures.update(charts.column("message")[failed].tolist())
+    return result
+
+
+def _named(mesh: AssetMesh, sentence: str) -> str:
+    return f"{mesh.name}: {sentence}" if mesh.name else sentence
+
+
+def _note(results: Sequence[Unwrap | None], failures: Counter[str], report: dict[str, Any]) -> None:
+    """Enter which islands were solved by a fallback or after a repair, and which not at all."""
+    fallbacks: Counter[str] = Counter()
+    repairs: Counter[str] = Counter()
+    for result in filter(None, results):
+        solved = result.charts.column("status") == "solved"
+        fallbacks.update(filter(None, result.charts.column("fallback")[solved].tolist()))
+        repairs.update(filter(None, result.charts.column("message")[solved].tolist()))
+    report.update(fallbacks=dict(fallbacks), repairs=dict(repairs), failed_islands=dict(failures))
+
+
+def _keep(asset: Asset | BlenderAsset, layout: Layout, phases: _Phases) -> list[UvMap]:
+    """Return the maps that there are, packed where that is asked for."""
+    missing = [mesh.name or asset.suffix for mesh in asset.meshes if not mesh.has_uv().any()]
+    if len(missing) == len(asset.meshes):
+        raise AssetError(f"There is no UV map in {', '.join(missing)}: leave out --no-unwrap.")
+    with phases("pack"):
+        measured = Measurement(asset.meshes)
+        faces = np.cumsum([len(mesh.face_offsets) - 1 for mesh in asset.meshes])[:-1]
+        return laid_out_anew(asset.meshes, np.split(measured.island_of_face, faces), layout)
+
+
+def _draw(
+    request: Request,
+    settings: BatchSettings,
+    measured: Measurement,
+    written: Sequence[AssetMesh],
+    report: dict[str, Any],
+) -> None:
+    """Write the picture of the layout, and the checker where it is asked for."""
+    folder = Path(request.folder)
+    if settings.picture_size:
+        picture = layout_picture.draw(*measured.triangles(), *measured.qc_range(), settings.picture_size)
+        report_file.replace(folder / entries.LAYOUT, layout_picture.png(picture))
+        report["layout"] = entries.LAYOUT
+        small = layout_picture.thumbnail(picture[: settings.picture_size], THUMBNAIL)
+        report_file.replace(folder / entries.THUMBNAIL, layout_picture.png(small))
+    if settings.checker:
+        from .blender import checker
+
+        checker.render(
+            folder / entries.CHECKER, settings.picture_size or 512, written, files.y_is_up(Path(request.source))
+        )
+        report["checker"] = entries.CHECKER
+
+
+def request_of(text: str) -> Request:
+    """Return the request that a line of JSON says."""
+    return Request(**json.loads(text))
+
+
+def line_of(request: Request) -> str:
+    """Return a request as a line of JSON."""
+    return json.dumps(asdict(request))

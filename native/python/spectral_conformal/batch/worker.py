@@ -1,0 +1,55 @@
+"""A process that unwraps one asset after another: requests come in as lines of JSON, reports go out as such."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, TextIO
+
+# Before a report, since Blender and its importers print what they like.
+MARK = "@spectral_conformal "
+READY = "ready"
+# In the environment: how many threads a worker may use.
+THREADS = "SPECTRAL_CONFORMAL_THREADS"
+_POLL_SECONDS = 1.0
+
+
+def main(run: Callable[[str], dict[str, Any]] | None = None) -> int:
+    """Serve requests from standard input until it ends; return the exit code.
+
+    `run` makes a report of a request's line; that of `task` unless given.
+    """
+    # What others print goes to the log, standard error; the channel of the reports is this process's alone.
+    channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
+    if run is None:
+        from .._threads import limit_threads
+        from . import task
+
+        limit_threads(int(os.environ[THREADS]))
+        run = lambda line: task.run(task.request_of(line))  # noqa: E731
+    _send(channel, {"status": READY})
+    for line in sys.stdin:
+        _send(channel, run(line))
+    return 0
+
+
+def _send(channel: TextIO, report: dict[str, Any]) -> None:
+    channel.write(f"{MARK}{json.dumps(report)}\n")
+    channel.flush()
+
+
+def _end_with_parent(parent: int) -> None:
+    """End this process at once when the one that started it has died, even in the middle of a solve."""
+    while os.getppid() == parent:
+        time.sleep(_POLL_SECONDS)
+    os._exit(1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,266 @@
+"""Worker processes from outside: started, fed, limited, ended and started anew."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.util
+import json
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import memory, worker
+
+_MODULE = "spectral_conformal.batch.worker"
+_POLL_SECONDS = 0.05
+# A Blender on a slow disk may take this long until it is ready.
+_START_SECONDS = 300.0
+_LOG_LINES = 8
+_THREADS = (worker.THREADS, "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class StartError(Exception):
+    """There is no program to start, or it does not get ready; the message says what to do."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What an asset may take.
+
+    Attributes:
+        seconds: until its worker is ended; None for any time.
+        memory: bytes that its worker may hold; None for any number.
+        files: after which a worker is replaced by a new one, since Blender's memory grows over many files.
+        retries: how often an asset is tried again whose worker crashed or was ended.
+    """
+
+    seconds: float | None = None
+    memory: int | None = None
+    files: int = 50
+    retries: int = 1
+
+
+def python_command() -> list[str]:
+    """Return the words that start a worker in this Python."""
+    return [sys.executable, "-m", _MODULE]
+
+
+def blender_command(blender: str | None = None, threads: int = 1) -> list[str]:
+    """Return the words that start a worker with Blender.
+
+    That is the program that is named; else a Python with `bpy`, if this is one; else a Blender that is on the path.
+
+    Raises:
+        StartError: there is none of them.
+    """
+    if blender is None:
+        if importlib.util.find_spec("bpy") is not None:
+            return python_command()
+        blender = shutil.which("blender")
+    if blender is None or shutil.which(blender) is None:
+        missing = f"There is no program {blender}." if blender else "There is neither bpy in this Python nor a Blender."
+        raise StartError(f"{missing} Install one (pip install bpy), or name one with --blender.")
+    return [
+        *(shutil.which(blender), "--background", "--factory-startup", "--python-use-system-env"),
+        *("--python-exit-code", "1", "--threads", str(threads)),
+        *("--python-expr", f"import sys, {_MODULE}; sys.exit({_MODULE}.main())"),
+    ]
+
+
+class Launcher:
+    """What starts workers: the command, and the environment that it needs."""
+
+    def __init__(self, words: Sequence[str], log_folder: Path, threads: int = 1) -> None:
+        """Take the words that start a worker; their output goes to files in `log_folder`, which must exist."""
+        self.words = list(words)
+        self.log_folder = log_folder
+        self._links: str | None = None
+        # Several single-threaded workers are faster than one with several threads, and give the same bits everywhere.
+        self.environ = {**os.environ, **dict.fromkeys(_THREADS, str(threads))}
+        if not _is_python(self.words):
+            self._add_module()
+
+    def _add_module(self) -> None:
+        """Let a Blender with factory settings find `spectral_conformal`, and nothing else of where it is installed."""
+        self._links = tempfile.mkdtemp(prefix="spectral_conformal_")
+        folder = Path(__file__).resolve().parents[1]
+        for path in (folder, folder.with_name(f"{folder.name}.libs")):
+            if path.is_dir():
+                _link(path, Path(self._links) / path.name)
+        paths = [self._links, self.environ.get("PYTHONPATH", "")]
+        self.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
+
+    def close(self) -> None:
+        """Remove what it made."""
+        if self._links is not None:
+            shutil.rmtree(self._links, ignore_errors=True)
+
+
+def _is_python(words: Sequence[str]) -> bool:
+    return Path(words[0]) == Path(sys.executable)
+
+
+def _link(path: Path, link: Path) -> None:
+    try:
+        link.symlink_to(path, target_is_directory=True)
+    except OSError:
+        # Windows lets not everybody make links.
+        shutil.copytree(path, link)
+
+
+class WorkerProcess:
+    """One worker at a time, replaced when it has died, was ended, or has seen enough files.
+
+    Another thread may close it while it runs a request, which then fails.
+    """
+
+    def __init__(self, launcher: Launcher, name: object, limits: Limits) -> None:
+        """Start nothing yet; `name` tells the log files apart."""
+        self.launcher = launcher
+        self._limits = limits
+        self._log = launcher.log_folder / f"worker-{name}.log"
+        self._process: subprocess.Popen[str] | None = None
+        self._reports: queue.Queue[dict[str, Any] | None] = queue.Queue()
+        self._served = 0
+
+    @property
+    def pid(self) -> int | None:
+        """The process, None while there is none."""
+        return self._process.pid if self._process else None
+
+    def run(self, line: str) -> dict[str, Any]:
+        """Let a worker make the report of a request, within the limits.
+
+        A worker that dies or is ended for the limits leaves a report with the status "failed", and a `failure` of the
+        kind "crash", "time" or "memory", after `retries` further attempts. Its number is in `attempts`.
+
+        Raises:
+            StartError: no worker gets ready.
+        """
+        for attempt in range(1, self._limits.retries + 2):
+            report = self._attempt(line)
+            report["attempts"] = attempt
+            if report["status"] != "failed" or report["failure"]["kind"] == "error":
+                break
+        return report
+
+    def _attempt(self, line: str) -> dict[str, Any]:
+        process = self._process
+        if process is None or process.poll() is not None or self._served >= self._limits.files:
+            self.close()
+            report = self._start()
+            if report["status"] != worker.READY:
+                return report
+            process = self._process
+        self._served += 1
+        try:
+            if process is None:
+                raise BrokenPipeError
+            process.stdin.write(f"{line}\n")
+            process.stdin.flush()
+        except (OSError, ValueError):
+            # Ended, or closed by another thread.
+            return self._failure("crash", f"the worker had ended{_exit_code(process) if process else ''}")
+        return self._await(self._limits.seconds)
+
+    def _start(self) -> dict[str, Any]:
+        """Start a worker; return what it says of itself, or its failure where the limit of memory ended it.
+
+        Raises:
+            StartError: it does not get ready.
+        """
+        self._served = 0
+        self._reports = queue.Queue()
+        with self._log.open("ab") as log:
+            self._process = subprocess.Popen(
+                self.launcher.words,
+                env=self.launcher.environ,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+                encoding="utf-8",
+                errors="replace",
+                # Ctrl-C is for the batch, which ends its workers itself.
+                start_new_session=True,
+            )
+        threading.Thread(target=_collect, args=(self._process, self._reports), daemon=True).start()
+        report = self._await(_START_SECONDS)
+        if report["status"] != worker.READY and report["failure"]["kind"] != "memory":
+            last = "".join(f"\n  {line}" for line in report["failure"]["log"])
+            raise StartError(f"No worker gets ready: {report['failure']['message']}. It said:{last}")
+        return report
+
+    def _await(self, seconds: float | None) -> dict[str, Any]:
+        """Return the next report, or that of what became of the worker."""
+        end = None if seconds is None else time.monotonic() + seconds
+        limit = self._limits.memory
+        process = self._process
+        if process is None:
+            return self._failure("crash", "the worker was ended")
+        while True:
+            try:
+                report = self._reports.get(timeout=_POLL_SECONDS)
+            except queue.Empty:
+                held = memory.resident(process.pid) if limit else None
+                if held is not None and held > limit:
+                    _kill(process)
+                    return self._failure("memory", f"more than {limit >> 20} MiB of memory", limit=limit)
+                if end is not None and time.monotonic() > end:
+                    _kill(process)
+                    return self._failure("time", f"more than {seconds:g} seconds")
+                continue
+            if report is not None:
+                return report
+            process.wait()
+            return self._failure("crash", f"the worker ended{_exit_code(process)}")
+
+    def _failure(self, kind: str, message: str, **further: object) -> dict[str, Any]:
+        last = self._last_lines()
+        self.close()
+        return {"status": "failed", "failure": {"kind": kind, "message": message, "log": last, **further}}
+
+    def _last_lines(self) -> list[str]:
+        lines = self._log.read_text(encoding="utf-8", errors="replace").splitlines() if self._log.exists() else []
+        return lines[-_LOG_LINES:]
+
+    def close(self) -> None:
+        """End the worker, if there is one."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        _kill(process)
+        for stream in (process.stdin, process.stdout):
+            # What was still to be written goes nowhere any more.
+            with contextlib.suppress(OSError):
+                stream.close()
+
+
+def _kill(process: subprocess.Popen[str]) -> None:
+    process.kill()
+    process.wait()
+
+
+def _exit_code(process: subprocess.Popen[str]) -> str:
+    code = process.poll()
+    return "" if code is None else f" by signal {-code}" if code < 0 else f" with exit code {code}"
+
+
+def _collect(process: subprocess.Popen[str], reports: queue.Queue[dict[str, Any] | None]) -> None:
+    """Put every report of a worker into the queue, None when it has ended."""
+    try:
+        for line in process.stdout:
+            if line.startswith(worker.MARK):
+                reports.put(json.loads(line[len(worker.MARK) :]))
+    except ValueError:
+        # Closed while it was read, or half a line of a worker that died.
+        pass
+    reports.put(None)

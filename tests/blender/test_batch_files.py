@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The batch on what Blender alone reads: its own files and FBX, renders, and Smart UV Project; in every Blender."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.blender import blenders
+from tests.module import batch_assets
+
+ROOT = Path(__file__).resolve().parents[2]
+SECONDS = 500
+BPY = [blender for blender in blenders.all_blenders() if blender.python and not blender.system]
+EVERYWHERE = [blender for blender in blenders.all_blenders() if not blender.system]
+
+pytestmark = pytest.mark.skipif(not BPY, reason="no bpy for this Python")
+
+
+def run(blender, folder, *arguments):
+    """Run the batch of `blender`'s Python, or of this one with that program, on what is in `folder`/in."""
+    words = [blender.python or sys.executable, "-m", "spectral_conformal", "batch", folder / "in"]
+    words += ["--out", folder / "out", "--jobs", 1, *arguments]
+    words += [] if blender.python else ["--blender", blenders.system_blender()]
+    environ = {**os.environ, "PYTHONPATH": str(blenders.STARTUP)}
+    done = subprocess.run(list(map(str, words)), env=environ, capture_output=True, text=True, timeout=SECONDS)
+    return done.returncode, done.stdout + done.stderr
+
+
+def in_blender(blender, folder, text, *arguments):
+    """Run a script in a Blender and return what it prints after RESULT, as JSON has it."""
+    script = folder / "script.py"
+    script.write_text(text)
+    words = [*blender.script_command(script), *([] if blender.python else ["--"]), *map(str, arguments)]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=SECONDS)
+    assert done.returncode == 0, done.stdout + done.stderr
+    results = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
+    return json.loads(results[-1].removeprefix("RESULT ")) if results else None
+
+
+def report_of(folder, name):
+    return json.loads((folder / "out" / name / "report.json").read_text())
+
+
+MAKE = """
+import bpy, json, os, sys
+folder = sys.argv[-1]
+os.makedirs(folder + "/tex", exist_ok=True)
+
+def new(name):
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    return cube(name)
+
+def cube(name):
+    bpy.ops.mesh.primitive_cube_add()
+    item = bpy.context.object
+    item.name = item.data.name = name
+    for corner in item.data.uv_layers[0].data:
+        corner.uv = (0.5, 0.5)
+    return item
+
+def hidden(item):
+    collection = bpy.data.collections.new("C")
+    bpy.context.scene.collection.children.link(collection)
+    for old in list(item.users_collection):
+        old.objects.unlink(item)
+    collection.objects.link(item)
+    return bpy.context.view_layer.layer_collection.children["C"]
+
+def save(name):
+    bpy.ops.wm.save_as_mainfile(filepath=folder + "/" + name + ".blend")
+
+new("A"); b = cube("B"); b.hide_select = True; save("not_selectable")
+new("A"); b = cube("B"); hidden(b).exclude = True; save("excluded")
+new("A"); b = cube("B"); hidden(b); b.hide_viewport = True; save("hidden")
+a = new("A"); [setattr(face, "hide", face.index < 3) for face in a.data.polygons]; save("hidden_faces")
+a = new("A"); scene = bpy.data.scenes.new("S"); b = bpy.data.objects.new("B", a.data.copy())
+scene.collection.objects.link(b); save("two_scenes")
+a = new("A"); a.shape_key_add(name="Basis"); key = a.shape_key_add(name="K")
+key.data[0].co = (5, 5, 5); key.value = 1.0; a.active_shape_key_index = 1; save("shape_key")
+a = new("A"); bpy.ops.object.mode_set(mode="EDIT"); save("edit_mode")
+a = new("A"); second = a.data.uv_layers.new(name="second"); a.data.uv_layers[0].active_render = True; save("two_maps")
+a = new("A"); a.scale = (2, 2, 2); b = cube("B"); b.scale = (1, -1, 1); save("scaled")
+a = new("A"); a.scale = (1, 1, 3); save("uneven")
+a = new("A"); a.data.vertices[0].co = a.data.vertices[1].co = a.data.vertices[2].co = (0, 0, 0); save("no_area")
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True); save("nothing")
+"""
+
+READ = """
+import bpy, json, sys
+bpy.ops.wm.open_mainfile(filepath=sys.argv[-1])
+mode = bpy.context.mode
+if mode != "OBJECT":
+    bpy.ops.object.mode_set(mode="OBJECT")
+found = {}
+for mesh in bpy.data.meshes:
+    for layer in mesh.uv_layers:
+        found[mesh.name + "/" + layer.name] = [list(corner.uv) for corner in layer.data]
+    found[mesh.name] = [list(vertex.co) for vertex in mesh.vertices]
+print("RESULT", json.dumps({"mode": mode, **found}))
+"""
+
+
+@pytest.fixture(scope="module", params=EVERYWHERE, ids=lambda blender: blender.name)
+def blend(request, tmp_path_factory):
+    """Scenes with things that a user interface leaves out, through the batch of one Blender."""
+    folder = tmp_path_factory.mktemp("blend")
+    (folder / "in").mkdir()
+    in_blender(request.param, folder, MAKE, folder / "in")
+    code, told = run(request.param, folder, "--seams", "sharp", "--picture-size", 0)
+    return request.param, folder, code, told
+
+
+def test_what_cannot_be_selected_is_mapped_all_the_same(blend):
+    _, folder, code, told = blend
+    assert code == 1, told
+    for name in ("not_selectable", "excluded", "hidden", "two_scenes"):
+        report = report_of(folder, f"{name}.blend")
+        assert (report["status"], report["totals"]["islands"], report["totals"]["faces"]) == ("unwrapped", 12, 12), name
+        assert report["totals"]["overlaps"] == 0
+    assert report_of(folder, "hidden_faces.blend")["totals"]["islands"] == 6
+    assert "no mesh with faces" in report_of(folder, "nothing.blend")["failure"]["message"]
+
+
+def test_written_files_have_the_map_and_their_state(blend):
+    blender, folder, _, told = blend
+    found = in_blender(blender, folder, READ, folder / "out" / "edit_mode.blend" / "edit_mode.blend")
+    assert found["mode"] == "EDIT_MESH"
+    assert np.ptp(found["A/UVMap"], axis=0).min() > 0.5, told
+    # The basis counts, and stays, whatever key is active.
+    found = in_blender(blender, folder, READ, folder / "out" / "shape_key.blend" / "shape_key.blend")
+    assert np.abs(found["A"]).max() == 1.0
+    assert report_of(folder, "shape_key.blend")["totals"]["qc_max"] < 1.001
+    # The active map is written, the other stays.
+    found = in_blender(blender, folder, READ, folder / "out" / "two_maps.blend" / "two_maps.blend")
+    both = [np.ptp(found[f"A/{name}"], axis=0).max() for name in ("UVMap", "second")]
+    assert sorted(extent > 0.5 for extent in both) == [False, True]
+
+
+def test_density_is_equal_in_the_scene_and_said_where_it_is_not(blend):
+    _, folder, *_ = blend
+    report = report_of(folder, "scaled.blend")
+    assert report["totals"]["density_spread"] < 1e-4 and report["warnings"] == []
+    assert report_of(folder, "uneven.blend")["warnings"] == [
+        "Scaled unevenly in the scene, so that density is an average: A."
+    ]
+    report = report_of(folder, "no_area.blend")
+    assert report["status"] == "unwrapped"
+    assert f"{report['totals']['degenerate']} of 6 faces have no area." in report["warnings"]
+
+
+MAKE_LINKED = """
+import bpy, os, sys
+folder = sys.argv[-1]
+for name in ("tex", "lib"):
+    os.makedirs(folder + "/" + name, exist_ok=True)
+empty = lambda: bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+empty(); bpy.ops.mesh.primitive_cube_add(); bpy.context.object.name = "Linked"
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/lib/lib.blend")
+empty(); image = bpy.data.images.new("w", 8, 8); image.filepath_raw = folder + "/tex/w.png"; image.save()
+empty(); bpy.ops.mesh.primitive_cube_add(); bpy.ops.wm.save_as_mainfile(filepath=folder + "/a.blend")
+image = bpy.data.images.load("//tex/w.png"); image.use_fake_user = True
+with bpy.data.libraries.load("//lib/lib.blend", link=True, relative=True) as (_, into):
+    into.objects = ["Linked"]
+bpy.context.collection.objects.link(into.objects[0])
+bpy.ops.wm.save_as_mainfile(filepath=folder + "/a.blend")
+"""
+
+PATHS = """
+import bpy, json, os, sys
+bpy.ops.wm.open_mainfile(filepath=sys.argv[-1])
+there = [*bpy.data.images, *bpy.data.libraries]
+print("RESULT", json.dumps([[each.filepath, os.path.isfile(bpy.path.abspath(each.filepath))] for each in there]))
+"""
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_relative_paths_hold_from_where_the_file_lies(blender, tmp_path):
+    in_blender(blender, tmp_path, MAKE_LINKED, tmp_path / "in")
+    for options in ((), ("--overwrite-source",)):
+        code, told = run(blender, tmp_path, "--seams", "sharp", "--picture-size", 0, *options)
+        assert code == 0, told
+        written = tmp_path / "in" / "a.blend" if options else tmp_path / "out" / "a.blend" / "a.blend"
+        paths = in_blender(blender, tmp_path, PATHS, written)
+        assert len(paths) == 2 and all(path.startswith("//") and is_there for path, is_there in paths), paths
+        assert any("other files hold them" in warning for warning in report_of(tmp_path, "a.blend")["warnings"])
+
+
+MAKE_FBX = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+bpy.ops.mesh.primitive_cube_add()
+cube = bpy.context.object
+cube["owner"] = "props"
+cube.shape_key_add(name="Basis")
+cube.shape_key_add(name="Smile").data[0].co = (2, 2, 2)
+bpy.ops.object.light_add(type="SUN")
+bpy.ops.object.camera_add()
+bpy.ops.object.armature_add()
+bpy.ops.export_scene.fbx(filepath=sys.argv[-1], use_custom_props=True, add_leaf_bones=False)
+"""
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_fbx_keeps_what_it_has_or_says_what_is_lost(blender, tmp_path):
+    from spectral_conformal.batch.blender import fbx_inventory
+
+    (tmp_path / "in").mkdir()
+    in_blender(blender, tmp_path, MAKE_FBX, tmp_path / "in" / "cube.fbx")
+    code, told = run(blender, tmp_path, "--seams", "sharp", "--picture-size", 0)
+    assert code == 0, told
+    report = report_of(tmp_path, "cube.fbx")
+    assert (report["totals"]["islands"], report["totals"]["qc_max"] < 1.001) == (6, True)
+    before, after = (
+        fbx_inventory.count(path.read_bytes())
+        for path in (tmp_path / "in" / "cube.fbx", tmp_path / "out" / "cube.fbx" / "cube.fbx")
+    )
+    assert {"Mesh Geometry", "Light NodeAttribute", "Camera NodeAttribute", "Shape Geometry"} <= set(before)
+    told = [warning for warning in report["warnings"] if warning.startswith("FBX through Blender")]
+    assert told == fbx_inventory.lost(before, after)
+    assert not any(kind in line for line in told for kind in ("Mesh", "Shape", "Light", "Camera", "LimbNode")), told
+
+
+def cube(folder):
+    """Write a cube of quads."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    path = folder / "in" / "cube.obj"
+    path.parent.mkdir(exist_ok=True)
+    batch_assets.write_obj(path, corners, np.array(quads))
+    return path
+
+
+@pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
+def test_smart_islands_and_a_checker_are_for_any_format(blender, tmp_path):
+    from matplotlib.image import imread
+
+    cube(tmp_path)
+    code, told = run(blender, tmp_path, "--seams", "smart", "--checker", "--picture-size", 96)
+    assert code == 0, told
+    report = report_of(tmp_path, "cube.obj")
+    assert report["totals"]["islands"] == 6
+    assert report["totals"]["seam_length"] == pytest.approx(24.0)
+    assert report["versions"]["blender"]
+    picture = imread(tmp_path / "out" / "cube.obj" / "checker.png")[..., :3]
+    assert picture.shape == (96, 96, 3)
+    # Blue and grey fields in turn, seen in a row through the middle.
+    blueness = picture[48, 20:-20, 2] - picture[48, 20:-20, 0]
+    assert np.count_nonzero(np.diff(blueness > 0.1)) >= 4
+    assert 'href="cube.obj/checker.png"' in (tmp_path / "out" / "index.html").read_text()
+
+
+def test_a_checker_is_as_clear_inside_a_box_as_outside(tmp_path):
+    from matplotlib.image import imread
+
+    path = cube(tmp_path)
+    # Without the face at the end it is open towards the camera.
+    lines = path.read_text().strip().split("\n")
+    path.write_text("\n".join(lines[:-1]) + "\n")
+    # Small islands have large fields.
+    options = ("--seams", "sharp", "--checker", "--picture-size", 512, "--margin-pixels", 160)
+    code, told = run(BPY[0], tmp_path, *options)
+    assert code == 0, told
+    picture = imread(tmp_path / "out" / "cube.obj" / "checker.png")[..., :3]
+    # Flat faces have two colours each, but for the pixels where fields meet. Shadows inside make many more.
+    counts = np.unique((picture * 64).astype(int).reshape(-1, 3), axis=0, return_counts=True)[1]
+    assert np.sort(counts)[-24:].sum() > 0.85 * 512 * 512
+
+
+@pytest.mark.parametrize("name", ["chair{0}.obj", "a{.obj", "ch###.obj", "50%.obj", "[1].obj"])
+def test_a_checker_is_rendered_whatever_the_asset_is_called(name, tmp_path):
+    path = cube(tmp_path)
+    path.rename(path.with_name(name))
+    code, told = run(BPY[0], tmp_path, "--seams", "sharp", "--checker", "--picture-size", 64)
+    assert code == 0, told
+    assert sorted(each.name for each in (tmp_path / "out" / name).iterdir()) == [
+        *sorted(["checker.png", name, "layout.png", "report.json", "thumbnail.png"])
+    ]
+
+
+def test_assets_that_need_a_blender_fail_alone_where_there_is_none(tmp_path):
+    cube(tmp_path)
+    (tmp_path / "in" / "a.blend").write_bytes(b"BLENDER")
+    code = (
+        "import importlib.util as u, shutil, sys; find = u.find_spec\n"
+        "u.find_spec = lambda name, *rest: None if name == 'bpy' else find(name, *rest)\n"
+        "shutil.which = lambda name, *rest: None\n"
+        "from spectral_conformal.batch import command; sys.exit(command.main(sys.argv[1:]))"
+    )
+    words = [sys.executable, "-c", code, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=SECONDS)
+    assert done.returncode == 1, done.stderr
+    assert report_of(tmp_path, "cube.obj")["status"] == "unwrapped"
+    failure = report_of(tmp_path, "a.blend")["failure"]
+    assert failure["kind"] == "error" and "neither bpy in this Python nor a Blender" in failure["message"]

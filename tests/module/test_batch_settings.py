@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings of the batch: every option of maps and seams, on the command line, in a file and as JSON."""
+
+import json
+import re
+from dataclasses import fields
+
+import pytest
+from spectral_conformal import Options, SeamOptions
+from spectral_conformal._options import documented
+from spectral_conformal.assets.unwrapping import Layout
+from spectral_conformal.batch import command
+from spectral_conformal.batch.settings import NAMES, BatchSettings, SettingsError, from_values
+
+
+@pytest.fixture
+def arguments(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\n")
+    return [str(tmp_path / "a.obj"), "--out", str(tmp_path / "out")]
+
+
+def test_every_option_of_maps_and_search_is_there_once():
+    assert {field.name for record in (Options, SeamOptions) for field in fields(record)} <= set(NAMES)
+    own = {field.name for field in fields(BatchSettings)} - {"options", "suggestion"}
+    assert own <= set(NAMES) and not own & {field.name for record in (Options, SeamOptions) for field in fields(record)}
+    assert all(re.search(rf"--{name.replace('_', '-')}\b", command.parser().format_help()) for name in NAMES)
+    assert {name for name in own if not documented(BatchSettings).get(name)} == set()
+
+
+def test_json_comes_back_as_the_same_settings():
+    changed = from_values(
+        {"seams": "sharp", "area_blend": 1, "front": [0, -1, 0], "margin_pixels": 8, "fold_free": True}
+        | {"max_length": None, "texture_size": 2048}
+    )
+    assert changed.options.area_blend == 1.0
+    assert changed.options.fold_free
+    assert changed.layout == Layout(margin=8.0, width=2048, height=2048)
+    assert changed.suggestion.front == (0.0, -1.0, 0.0)
+    assert from_values(json.loads(json.dumps(changed.as_json()))) == changed
+    assert from_values({}) == BatchSettings()
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"area_blended": 1.0}, "area_blended"),
+        ({"area_blend": "much"}, "area_blend must"),
+        ({"fold_free": 1}, "fold_free must be True or False"),
+        ({"pack": 1}, "pack must be of type bool"),
+        ({"seams": "everywhere"}, "one of keep, suggest, sharp, smart"),
+        ({"front": [1.0, 2.0]}, "front must be three finite numbers"),
+        ({"texture_size": 0}, "texture_size must be at least 1"),
+        ({"texture_size": "2048x"}, "texture_size must be at least 1"),
+        ({"margin_pixels": 64.0, "texture_size": "128x64"}, "margin_pixels must be"),
+        ({"picture_size": 3}, "picture_size must be"),
+        ({"weld_distance": 1.0}, "weld_distance must be"),
+    ],
+)
+def test_wrong_values_are_named(values, said):
+    with pytest.raises(SettingsError, match=said):
+        from_values(values)
+
+
+def test_a_texture_has_one_size_or_two():
+    assert BatchSettings().texture == (1024, 1024)
+    assert from_values({"texture_size": "2048x512"}).texture == (2048, 512)
+    assert not from_values({"pack": False}).layout.pack
+
+
+def test_search_solves_as_the_maps_are_made():
+    options = from_values({"weights": "inverse_area", "qc_limit": 1.5}).cutting.options
+    assert (options.weights, options.qc_limit) == ("inverse_area", 1.5)
+
+
+def test_the_limits_of_suggest_seams_in_blender_can_be_set():
+    assert BatchSettings().suggestion != SeamOptions()
+    assert from_values({"qc_limit": 1.1, "qc_gain": 0.0}).suggestion == SeamOptions()
+
+
+def test_an_option_goes_before_the_settings_file(arguments, tmp_path):
+    file = tmp_path / "batch.toml"
+    file.write_text('seams = "keep"\narea_blend = 0.25\nfold_free = true\nfront = [0, 0, 1]\n')
+    settings = command.plan([*arguments, "--settings", str(file), "--area-blend", "0.5", "--no-fold-free"]).settings
+    assert (settings.seams, settings.suggestion.front) == ("keep", (0.0, 0.0, 1.0))
+    assert settings.options.area_blend == 0.5
+    assert not settings.options.fold_free
+
+
+@pytest.mark.parametrize("text", ["seams = keep", "colour = 1"])
+def test_a_wrong_settings_file_is_named(arguments, tmp_path, text):
+    file = tmp_path / "batch.toml"
+    file.write_text(text)
+    with pytest.raises(SettingsError, match=r"batch\.toml|colour"):
+        command.plan([*arguments, "--settings", str(file)])
+
+
+def test_the_example_of_the_document_is_valid(arguments, tmp_path):
+    document = (command.Path(__file__).parents[2] / "docs" / "batch.md").read_text(encoding="utf-8")
+    file = tmp_path / "batch.toml"
+    file.write_text(document.partition("```toml\n")[2].partition("```")[0])
+    settings = command.plan([*arguments, "--settings", str(file)]).settings
+    assert settings.margin_pixels == 4.0
+    codes = {command.ALL_WORKED, command.SOME_WORKED, command.NONE_WORKED, command.WRONG_USE, command.INTERRUPTED}
+    table = document.partition("| exit code |")[2].partition("\n\n")[0]
+    assert {int(row.split("|")[1]) for row in table.splitlines()[2:]} == codes

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The overview of a batch: nothing in it is code, whatever files are called."""
+
+import csv
+import html.parser
+import json
+import os
+import sys
+
+import pytest
+from spectral_conformal.batch import overview
+
+NAMES = [
+    *("chair{0}.obj", "=1+1.obj", "+1.obj", "-1.obj", "@sum.obj", "\tx.obj", "new\nline.obj", "cr\rx.obj", "a,b.obj"),
+    *('d"q.obj', "<script>alert(1)</script>.obj", "<img src=x onerror=alert(1)>.obj", "ä€日本 😀.obj", "\u202ertl.obj"),
+]
+
+
+def report_of(name, message=None):
+    failure = {"kind": "broken", "message": message} if message else None
+    return {"name": name, "status": "failed" if message else "unwrapped", "failure": failure, "seconds": {"total": 1.0}}
+
+
+class Tags(html.parser.HTMLParser):
+    """The elements of a page, and its texts."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.tags, self.texts, self.links = [], [], []
+        self.feed(page)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.links += [value for name, value in attributes if name == "href"]
+        assert not [name for name, _ in attributes if name.startswith("on")]
+
+    def handle_data(self, data):
+        self.texts.append(data)
+
+
+def test_names_and_messages_are_no_code(tmp_path):
+    plain = [report_of(f"{k}.obj", "no message") for k in range(len(NAMES))]
+    overview.write(tmp_path, plain)
+    expected = Tags((tmp_path / overview.PAGE).read_text(encoding="utf-8")).tags
+    overview.write(tmp_path, [report_of(name, f"{name} is broken") for name in NAMES])
+    page = Tags((tmp_path / overview.PAGE).read_text(encoding="utf-8"))
+    assert page.tags == expected
+    assert all(name.replace("\r", "\n") in "\n".join(page.texts).replace("\r", "\n") for name in NAMES)
+    with (tmp_path / overview.CSV).open(newline="", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    assert [row["name"].removeprefix("'") for row in rows] == NAMES
+    assert not [cell for row in rows for cell in row.values() if cell[:1] in tuple("=+-@\t\r")]
+    assert [row["name"] for row in json.loads((tmp_path / overview.JSON).read_text())["rows"]] == NAMES
+
+
+def test_numbers_stay_numbers(tmp_path):
+    report = {**report_of("a.obj"), "totals": {"qc_mean": -1.5}}
+    overview.write(tmp_path, [report])
+    with (tmp_path / overview.CSV).open(newline="") as table:
+        assert next(csv.DictReader(table))["qc_mean"] == "-1.5"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are text there")
+def test_a_name_that_is_no_text_is_in_the_overview(tmp_path):
+    name = os.fsdecode(b"b\xfcro.obj")
+    (tmp_path / name).mkdir()
+    (tmp_path / name / "report.json").write_text("{}")
+    overview.write(tmp_path, [report_of(name)])
+    page = Tags((tmp_path / overview.PAGE).read_text(encoding="utf-8"))
+    assert "b%FCro.obj/report.json" in page.links and "b?ro.obj" in page.texts
+    assert b"b\xfcro.obj" in (tmp_path / overview.CSV).read_bytes()
+    assert json.loads((tmp_path / overview.JSON).read_text())["rows"][0]["name"] == name
