@@ -3,27 +3,23 @@
     build/venv/bin/python -m tests.benchmarks.instructions OUT.json [case ...]
     build/venv/bin/python -m tests.benchmarks.instructions --compare BEFORE.json AFTER.json
 
-From the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. Each case runs twice under
-callgrind, calling once and twice; the difference is one call, without the start of the interpreter and what a first
-call sets up. BLAS runs in one thread. Two counts of one build have differed by 0.5 %.
+From the project's folder; PYTHONPATH may name another build of the module. Needs valgrind. Of each case the second call
+is counted, without what a first call sets up. BLAS runs in one thread. Two counts of one build have differed by 0.5 %.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
-import re
-import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
 
+from tests import callgrind
 from tests.module import meshes
 
-ROOT = Path(__file__).resolve().parents[2]
 # A change of structure may cost no more than 3 %.
 LIMIT = 1.03
 
@@ -145,29 +141,10 @@ CASES: dict[str, Callable[[], Callable[[], object]]] = {
 }
 
 
-def instructions(case: str, calls: int) -> int:
-    """Return the instructions of a process that makes some calls."""
-    environ = {
-        **os.environ,
-        "OPENBLAS_NUM_THREADS": "1",
-        "OMP_NUM_THREADS": "1",
-        # The same instructions on every processor that has them; valgrind knows no newer ones.
-        "OPENBLAS_CORETYPE": "Haswell",
-        "PYTHONHASHSEED": "0",
-    }
-    valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
-    result = subprocess.run(
-        [*valgrind, sys.executable, "-m", "tests.benchmarks.instructions", "--call", case, str(calls)],
-        cwd=ROOT,
-        env=environ,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    counted = re.search(r"Collected : (\d+)", result.stderr)
-    if result.returncode or not counted:
-        raise SystemExit(f"{case}: {result.stderr[-2000:]}")
-    return int(counted[1])
+def instructions(cases: Iterable[str]) -> dict[str, int]:
+    """Return the instructions of a call of each case."""
+    cases = list(cases)
+    return dict(zip(cases, callgrind.counts(len(cases), "-m", "tests.benchmarks.instructions", "--call", *cases)))
 
 
 def compare(before: Path, after: Path) -> int:
@@ -186,23 +163,23 @@ def main() -> int:
     """Count, or compare counts."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--compare", nargs=2, type=Path, metavar=("BEFORE.json", "AFTER.json"))
-    parser.add_argument("--call", nargs=2, metavar=("CASE", "TIMES"), help=argparse.SUPPRESS)
+    parser.add_argument("--call", nargs="+", metavar="CASE", help=argparse.SUPPRESS)
     parser.add_argument("file", nargs="?", type=Path, metavar="OUT.json")
     parser.add_argument("cases", nargs="*", metavar="case", help=", ".join(CASES))
     options = parser.parse_args()
     if options.compare:
         return compare(*options.compare)
     if options.call:
-        call = CASES[options.call[0]]()
-        for _ in range(int(options.call[1])):
+        for case in options.call:
+            call = CASES[case]()
             call()
+            callgrind.count(call)
         return 0
     if not options.file or not set(options.cases) <= CASES.keys():
         parser.error(f"give OUT.json, then cases among {', '.join(CASES)}")
-    counts = {}
-    for case in options.cases or CASES:
-        counts[case] = instructions(case, 2) - instructions(case, 1)
-        print(f"{case:24}{counts[case]:>16,}", flush=True)
+    counts = instructions(options.cases or CASES)
+    for case, count in counts.items():
+        print(f"{case:24}{count:>16,}")
     options.file.write_text(json.dumps(counts, indent=1) + "\n")
     return 0
 

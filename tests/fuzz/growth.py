@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -21,12 +19,10 @@ from pathlib import Path
 
 import numpy as np
 
+from tests import callgrind
 from tests.fuzz.random_meshes import Mesh
 
-ROOT = Path(__file__).resolve().parents[2]
 SIZES = (500, 2000)
-# Before and after what is counted; Python itself does not call it.
-MARKER = "getppid"
 
 
 # Families: (rng, size) -> vertices and faces
@@ -306,7 +302,7 @@ def prepared(case: str, seed: int, size: int) -> Callable[[], object]:
 
 
 def work(seed: int, cases: list[str]) -> None:
-    """Call each case once at every size, between markers."""
+    """Call each case once at every size."""
     import spectral_conformal as sc
 
     sc.limit_threads(1)
@@ -314,44 +310,14 @@ def work(seed: int, cases: list[str]) -> None:
     prepared("valence/unwrap", seed, 100)()
     for case in cases:
         for size in SIZES:
-            call = prepared(case, seed, size)
-            os.getppid()
-            call()
-            os.getppid()
+            callgrind.count(prepared(case, seed, size))
 
 
 def instructions(seed: int, cases: list[str]) -> dict[str, list[int]]:
     """Return the instructions of each case at every size."""
-    environ = {
-        **os.environ,
-        "OPENBLAS_NUM_THREADS": "1",
-        "OMP_NUM_THREADS": "1",
-        "OPENBLAS_CORETYPE": "Haswell",
-        "PYTHONHASHSEED": "0",
-    }
-    with tempfile.TemporaryDirectory() as folder:
-        profile = Path(folder) / "profile"
-        result = subprocess.run(
-            [
-                *("valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}", f"--dump-before={MARKER}"),
-                *(sys.executable, "-m", "tests.fuzz.growth", "--seed", str(seed), "--worker", *cases),
-            ],
-            cwd=ROOT,
-            env=environ,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        if result.returncode:
-            raise RuntimeError(f"{' '.join(cases)}: {result.stderr[-3000:]}")
-        counts = iter(_counted(Path(f"{profile}.{k}")) for k in range(2, 2 * len(cases) * len(SIZES) + 1, 2))
-        return {case: [next(counts) for _ in SIZES] for case in cases}
-
-
-def _counted(profile: Path) -> int:
-    found = re.search(r"^summary: (\d+)", profile.read_text(errors="replace"), re.MULTILINE)
-    assert found, f"{profile} has no summary"
-    return int(found[1])
+    worker = ("-m", "tests.fuzz.growth", "--seed", str(seed), "--worker", *cases)
+    counted = iter(callgrind.counts(len(cases) * len(SIZES), *worker))
+    return {case: [next(counted) for _ in SIZES] for case in cases}
 
 
 def in_parallel(seed: int, cases: list[str]) -> dict[str, list[int]]:
