@@ -80,4 +80,6 @@ def run(sequence):
         bpy.ops.wm.quit_blender()
         return None
 
+    # Blender would draw everything eight times, on the processor.
+    bpy.context.preferences.system.viewport_aa = "OFF"
     bpy.app.timers.register(advance, first_interval=3.0, persistent=True)
