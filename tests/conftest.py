@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every test is marked with the name of its folder; --blender leaves out the tests in other Blenders."""
 
+import os
+import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 TESTS = Path(__file__).resolve().parent
-BUILDS = pytest.StashKey()
+AHEAD = pytest.StashKey()
 
 
 def pytest_addoption(parser):
@@ -44,21 +47,35 @@ def pytest_collection_modifyitems(config, items):
 
 
 def pytest_collection_finish(session):
-    """Begin to build what the C++ tests need, beside the tests that leave a core idle."""
-    fuzzed = any(item.path == TESTS / "fuzz" / "test_native_fuzz.py" for item in session.items)
-    tested = [item.callspec.params["build"] for item in session.items if item.path == TESTS / "native/test_native.py"]
-    if session.config.option.collectonly or not (fuzzed or tested):
+    """Begin the tests that are marked `ahead`, one after the other, each in a process that gives way to others."""
+    ahead = [item.nodeid for item in session.items if item.get_closest_marker("ahead")]
+    # What is alone is run here: so it is in that process.
+    if session.config.option.collectonly or len(session.items) == 1 or sys.platform != "linux" or not ahead:
         return
-    from tests.fuzz import run_native
-    from tests.native import flavours
+    worker = ThreadPoolExecutor(1)
+    # Tests of what happens without memory limit that of this process meanwhile.
+    command = ["nice", "-n", "15", "prlimit", "--as=unlimited"]
+    command += [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    options = {"cwd": TESTS.parent, "env": {**os.environ}, "stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE}
+    options.update(stderr=subprocess.STDOUT, text=True, errors="replace")
+    begun = {nodeid: worker.submit(subprocess.run, [*command, nodeid], **options) for nodeid in ahead}
+    session.stash[AHEAD] = worker, begun
 
-    wanted = [("sanitized", *run_native.TARGETS)] if fuzzed else []
-    session.stash[BUILDS] = flavours.build_ahead([*wanted, *((flavour,) for flavour in dict.fromkeys(tested))])
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem):
+    _, begun = pyfuncitem.session.stash.get(AHEAD, (None, {}))
+    if pyfuncitem.nodeid not in begun:
+        return None
+    result = begun[pyfuncitem.nodeid].result()
+    if result.returncode:
+        pytest.fail(result.stdout, pytrace=False)
+    return True
 
 
 def pytest_sessionfinish(session):
-    if BUILDS in session.stash:
-        session.stash[BUILDS].shutdown(wait=False, cancel_futures=True)
+    if AHEAD in session.stash:
+        session.stash[AHEAD][0].shutdown(wait=False, cancel_futures=True)
 
 
 def blender_of(item):

@@ -43,6 +43,7 @@ pytestmark = pytest.mark.skipif(not shutil.which("valgrind"), reason="no valgrin
 
 
 @pytest.mark.slow
+@pytest.mark.ahead
 def test_nothing_grows_faster_than_n_log_n():
     counts = growth.in_parallel(seed=1, cases=TESTED)
     assert list(counts) == TESTED

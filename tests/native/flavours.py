@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Configurations of the C++ library and its tests, each in a build folder of its own."""
 
+import contextlib
+import fcntl
+import os
 import subprocess
 import sys
-import threading
-from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pybind11
@@ -51,49 +51,50 @@ FLAVOURS = {
 }
 # What a flavour builds and tests, where that is not everything: (target, test).
 ONLY = {"thread": ("spectral_conformal_thread_tests", "threads")}
-_LOCKS = {flavour: threading.RLock() for flavour in FLAVOURS}
 
 
-def run(*command):
+def run(*command, **environ):
     """Run a command; raise AssertionError with what it printed when it fails."""
     result = subprocess.run(
-        [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+        [str(word) for word in command],
+        env={**os.environ, **environ},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
     )
     assert result.returncode == 0, f"{' '.join(map(str, command))}\n{result.stdout[-20000:]}"
     return result.stdout
 
 
+def folder_of(flavour):
+    """Return the build folder of a flavour."""
+    return ROOT / "build" / "tests-native" / flavour
+
+
+@contextlib.contextmanager
+def exclusive(flavour):
+    """Let one process at a time work in the folder of a flavour."""
+    folder_of(flavour).mkdir(parents=True, exist_ok=True)
+    with (folder_of(flavour) / ".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 def configure(flavour):
-    """Configure a flavour and return its build folder, which holds compile_commands.json."""
-    folder = ROOT / "build" / "tests-native" / flavour
+    """Configure a flavour and return its build folder."""
     if "SPECTRAL_CONFORMAL_CORE" in FLAVOURS[flavour]:
         assert environment.is_native_module_built(), "the built library is older than its sources: run build_addon.py"
     settings = {**COMMON, **solver_libraries.settings(), **FLAVOURS[flavour]}
     definitions = [f"-D{name}={value}" for name, value in settings.items()]
-    with _LOCKS[flavour]:
-        run(TOOLS / "cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", *definitions)
-    return folder
+    run(TOOLS / "cmake", "-S", ROOT, "-B", folder_of(flavour), "-G", "Ninja", *definitions)
+    return folder_of(flavour)
 
 
 def build(flavour, *targets):
     """Configure a flavour and build its targets, those of its tests where none is named; return its build folder."""
-    with _LOCKS[flavour]:
+    targets = targets or ONLY.get(flavour, ("all",))[:1]
+    with exclusive(flavour):
         folder = configure(flavour)
-        targets = targets or ONLY.get(flavour, ("all",))[:1]
-        # Below other tests where one runs beside (`build_ahead`).
-        run("nice", "-n", "15", TOOLS / "cmake", "--build", folder, "--target", *targets)
-        return folder
-
-
-def build_ahead(wanted: Sequence[tuple[str, ...]]) -> ThreadPoolExecutor:
-    """Begin to build, one after the other, on what other tests leave of the cores; return who does it.
-
-    Whatever fails here fails again, and is told, in the test that needs it.
-
-    Args:
-        wanted: the arguments of `build`, for each.
-    """
-    worker = ThreadPoolExecutor(1)
-    for arguments in wanted:
-        worker.submit(build, *arguments)
-    return worker
+        run(TOOLS / "cmake", "--build", folder, "--parallel", environment.compile_jobs(), "--target", *targets)
+    return folder

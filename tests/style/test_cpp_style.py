@@ -6,12 +6,12 @@ import os
 import shlex
 import shutil
 import subprocess
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from tests.native import flavours
 from tools import environment
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -37,10 +37,32 @@ def output_if_failed(*command):
     return result.stdout if result.returncode else ""
 
 
-def clang_tidy(path, compile_commands, *options):
-    # The language version stands here because g++ takes C++17 for granted and CMake then leaves it out.
-    common = ["--quiet", "--extra-arg=-std=c++17", "-p", compile_commands]
-    return output_if_failed(tool("clang-tidy"), *common, *options, path)
+def one_unit(sources, folder):
+    """CMake puts as many sources into a unit as it likes, others with every new file: all must go into one."""
+    unit = folder / f"with_{sources[0].name}"
+    unit.write_text("".join(f'#include "{path}"\n' for path in sources))
+    return unit
+
+
+# The language version stands here because g++ takes C++17 for granted and CMake then leaves it out.
+STANDARD = "-std=c++17"
+
+
+def clang_tidy(sources, folder, *options):
+    """Check sources together: Eigen's headers have some 30,000 findings, which take as long as the sources' own."""
+    checks = "--checks=-clang-analyzer-*,-bugprone-suspicious-include"
+    common = ["--quiet", f"--config-file={ROOT / '.clang-tidy'}", checks, "--header-filter=/native/(include|src)/.*"]
+    return output_if_failed(tool("clang-tidy"), *common, one_unit(sources, folder), "--", STANDARD, *options)
+
+
+def static_analysis(path, *options):
+    """Run clang's static analyzer itself: clang-tidy, which takes twice as long, looks into Eigen's headers, too."""
+    errors = ["--analyzer-output", "text", "-Xclang", "-analyzer-werror"]
+    return output_if_failed(tool("clang++"), "--analyze", *errors, STANDARD, *options, path)
+
+
+def errors_in_one_unit(sources, folder, *options):
+    return output_if_failed(tool("clang++"), "-fsyntax-only", STANDARD, *options, one_unit(sources, folder))
 
 
 def test_clang_format():
@@ -53,32 +75,6 @@ def test_clang_format_sees_a_violation(tmp_path):
     assert "bad.cpp" in output_if_failed(CLANG_FORMAT, "--dry-run", "--Werror", tmp_path / "bad.cpp")
 
 
-def findings(paths, *arguments):
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        return "\n".join(filter(None, threads.map(lambda path: clang_tidy(path, *arguments), paths)))
-
-
-# Every file brings some 30,000 findings in Eigen's headers, which take as long as the analysis of the file itself: for
-# the checks that also see included sources, once for several files.
-
-
-@pytest.mark.slow
-def test_clang_tidy():
-    folder = flavours.configure("sanitized")
-    commands = json.loads((folder / "compile_commands.json").read_text())
-    library = [command["file"] for command in commands if "spectral_conformal_core.dir" in command["command"]]
-    units = [path for path in library if "/Unity/" in path]
-    included = "".join(Path(unit).read_text() for unit in units)
-    assert all(str(path) in (*library, *included.split('"')) for path in SOURCES)
-    assert not findings(library, folder, "--checks=-clang-analyzer-*", "--header-filter=native/(include|src)/.*")
-
-
-def static_analysis(path, *options):
-    """Run clang's static analyzer itself: clang-tidy, which takes twice as long, looks into Eigen's headers, too."""
-    errors = ["--analyzer-output", "text", "-Xclang", "-analyzer-werror"]
-    return output_if_failed(tool("clang++"), "--analyze", *errors, "-std=c++17", *options, path)
-
-
 def definitions_and_folders():
     """What the sources are compiled with: -DX, -Ifolder, -isystem folder."""
     commands = json.loads((environment.NATIVE_BUILD / "compile_commands.json").read_text())
@@ -88,34 +84,27 @@ def definitions_and_folders():
 
 
 @pytest.mark.slow
-def test_clang_static_analyzer():
-    options = definitions_and_folders()
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        found = threads.map(lambda path: static_analysis(path, *options), SOURCES)
-        assert not "\n".join(filter(None, found))
+@pytest.mark.ahead
+def test_clang_finds_nothing():
+    """clang-tidy in the library, its static analyzer in each source, clang in the unit tests: together, on all cores.
 
-
-# CMake puts as many sources into a translation unit as it likes, others with every file that is added. So all of them
-# must go into one, and no two anonymous namespaces may hold the same name.
-
-
-def errors_in_one_unit(sources, folder, *options):
-    unit = folder / "all_sources.cpp"
-    unit.write_text("".join(f'#include "{path}"\n' for path in sources))
-    return output_if_failed(tool("g++"), "-fsyntax-only", "-std=c++17", "-Wno-subobject-linkage", *options, unit)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("sources", [SOURCES, UNIT_TESTS], ids=["library", "unit tests"])
-def test_all_sources_go_into_one_translation_unit(tmp_path, sources):
+    Of files in one unit, no two anonymous namespaces may hold the same name.
+    """
     options = (*definitions_and_folders(), f"-I{ROOT / 'native' / 'include'}", f"-I{ROOT / 'tests' / 'native'}")
-    assert not errors_in_one_unit(sources, tmp_path, *options)
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as threads:
+        runs = [
+            threads.submit(clang_tidy, SOURCES, Path(folder), *options),
+            threads.submit(errors_in_one_unit, UNIT_TESTS, Path(folder), *options),
+            *(threads.submit(static_analysis, path, *options) for path in SOURCES),
+        ]
+    assert not "\n".join(filter(None, (run.result() for run in runs)))
 
 
-def test_one_translation_unit_shows_a_name_of_two_files(tmp_path):
+@pytest.mark.parametrize("check", [clang_tidy, errors_in_one_unit])
+def test_one_translation_unit_shows_a_name_of_two_files(tmp_path, check):
     for name in ("one.cpp", "two.cpp"):
         (tmp_path / name).write_text("namespace {\nconstexpr int count = 3;\n}\n")
-    assert "redefinition" in errors_in_one_unit([tmp_path / "one.cpp", tmp_path / "two.cpp"], tmp_path)
+    assert "redefinition" in check([tmp_path / "one.cpp", tmp_path / "two.cpp"], tmp_path)
 
 
 def test_clang_static_analyzer_sees_a_violation(tmp_path):
@@ -124,7 +113,7 @@ def test_clang_static_analyzer_sees_a_violation(tmp_path):
 
 
 def test_clang_tidy_sees_a_violation(tmp_path):
-    shutil.copy(ROOT / ".clang-tidy", tmp_path)
-    (tmp_path / "bad.cpp").write_text("int* f() { return 0; }\n")
-    (tmp_path / "compile_flags.txt").write_text("")
-    assert "modernize-use-nullptr" in clang_tidy(tmp_path / "bad.cpp", tmp_path)
+    source = tmp_path / "native" / "src" / "bad.cpp"
+    source.parent.mkdir(parents=True)
+    source.write_text("int* f() { return 0; }\n")
+    assert "modernize-use-nullptr" in clang_tidy([source], tmp_path)
