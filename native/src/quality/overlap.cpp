@@ -4,12 +4,15 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "geometry/box_tree.h"
+#include "geometry/orientation.h"
 #include "geometry/quad_splits.h"
+#include "geometry/triangle_sweep.h"
 #include "graph/parallel_calls.h"
 #include "quality/flips.h"
 #include "quality/map_degree.h"
@@ -20,6 +23,9 @@ namespace {
 /// Triangles that a thread tests at a time.
 constexpr std::size_t tested_at_once = 4096;
 constexpr double testing_nanoseconds = 1000;
+
+/// Pairs of meeting boxes that are looked at for each triangle before a sweep takes over, which costs about as much.
+constexpr std::size_t pairs_of_each = 100;
 
 /// A triangle in the plane, with what every pair of triangles needs.
 struct PlaneTriangle {
@@ -63,6 +69,7 @@ bool separated_by_side(const PlaneTriangle& a, const PlaneTriangle& b, double to
 /// Whether `t` tests the pair that it makes with `other`, which does so otherwise. Of many triangles at one place each
 /// has about as many to test, in whatever order they come: one soon finds another that it overlaps.
 bool tests_pair(std::size_t t, std::size_t other) { return (t + other) % 2 == 0 ? t < other : t > other; }
+bool any_pair(std::size_t, std::size_t) { return true; }
 
 /// The triangles of a map, and which of them were found to overlap others. Threads share the triangles; which pairs are
 /// tested depends on them where triangles overlap several others, what is found does not.
@@ -71,59 +78,84 @@ class OverlapTest {
   OverlapTest(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map, const std::vector<int>& face,
               double resolution)
       : triangles_(triangles), face_(face), resolution_(resolution), overlapping_(triangles.size()) {
-    // Products of coordinates must neither overflow nor vanish, whatever the unit.
+    // Products of coordinates must neither overflow nor vanish, whatever the unit. A power of two keeps points on
+    // lines.
     double extent = 0;
     for (const auto& triangle : triangles) {
       for (const int v : triangle) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
     }
-    if (extent > 0) z_ = map / extent;
+    if (!(extent > 0)) return;
+    const int exponent = std::ilogb(extent);
+    z_ = map * std::ldexp(1.0, -exponent / 2) * std::ldexp(1.0, exponent / 2 - exponent);
   }
 
   /// A triangle that overlaps another tests no more pairs, so that faces which are stacked a thousandfold do not cost a
   /// million.
   std::vector<bool> among_all() {
     if (z_.size() == 0) return result();
-    std::vector<int> numbers(triangles_.size());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    const Subset all = subset(one_of_each_stack(numbers));
-    for_each_triangle([&](std::size_t t) {
-      if (!overlaps(t)) find_overlaps(t, all, tests_pair, true);
-    });
+    const Subset all = subset(one_of_each_stack(those_left()));
+    bool is_done = for_each_triangle(
+        [&](std::size_t t) { return overlaps(t) ? std::size_t{0} : find_overlaps(t, all, tests_pair, true); });
     // What overlaps none of those whose pairs it tested may overlap one that tested no more.
-    std::vector<int> found = all.triangles;
-    found.erase(std::remove_if(found.begin(), found.end(), [&](int t) { return !overlaps(t); }), found.end());
-    test_with(subset(std::move(found)), true);
+    if (is_done) is_done = test_with(subset(without_others(all.triangles, true)), true);
+    if (!is_done) sweep(all.triangles);
     return result();
   }
 
-  /// Tests pairs with one of these only.
+  /// Tests pairs with one of these only, unless that takes too many.
   std::vector<bool> with(std::vector<int> some) {
     if (z_.size() == 0) return result();
-    some = one_of_each_stack(some);
-    test_with(subset(some), true);
-    // Of these, what overlaps none of them may overlap others, which had found another of them first.
-    some.erase(std::remove_if(some.begin(), some.end(), [&](int t) { return overlaps(t); }), some.end());
-    test_with(subset(std::move(some)), false);
+    if (!test_those_with(one_of_each_stack(some))) sweep(subset(one_of_each_stack(those_left())).triangles);
     return result();
   }
 
  private:
+  static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
   struct Subset {
     std::vector<int> triangles;
     std::vector<PlaneTriangle> placed;
     BoxTree tree;
   };
 
-  Subset subset(std::vector<int> triangles) const {
+  /// Without those that cover nothing.
+  Subset subset(const std::vector<int>& triangles) {
+    std::vector<int> covering;
     std::vector<PlaneTriangle> placed;
     std::vector<PlaneBox> boxes;
+    covering.reserve(triangles.size());
     placed.reserve(triangles.size());
     boxes.reserve(triangles.size());
     for (const int t : triangles) {
-      placed.push_back(place(t));
+      const PlaneTriangle triangle = place(t);
+      if (covers_nothing(triangle)) {
+        leave_out(t);
+        continue;
+      }
+      covering.push_back(t);
+      placed.push_back(triangle);
       boxes.push_back(box_of(t));
     }
-    return {std::move(triangles), std::move(placed), BoxTree(boxes)};
+    return {std::move(covering), std::move(placed), BoxTree(boxes)};
+  }
+
+  void leave_out(int t) {
+    if (is_left_out_.empty()) is_left_out_.assign(triangles_.size(), 0);
+    is_left_out_[static_cast<std::size_t>(t)] = 1;
+  }
+  std::vector<int> those_left() const {
+    std::vector<int> numbers(triangles_.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    if (is_left_out_.empty()) return numbers;
+    const auto is_out = [this](int t) { return is_left_out_[static_cast<std::size_t>(t)] != 0; };
+    numbers.erase(std::remove_if(numbers.begin(), numbers.end(), is_out), numbers.end());
+    return numbers;
+  }
+  /// Those of some triangles that were found to overlap, or that were not.
+  std::vector<int> without_others(std::vector<int> some, bool overlapping) const {
+    const auto is_other = [&](int t) { return overlaps(static_cast<std::size_t>(t)) != overlapping; };
+    some.erase(std::remove_if(some.begin(), some.end(), is_other), some.end());
+    return some;
   }
 
   /// Leaves out those that lie exactly on another one, of which many may, in its order of corners: what is found of one
@@ -152,13 +184,10 @@ class OverlapTest {
           result.push_back(t);
         } else {
           stacked_.emplace_back(first, t);
+          leave_out(t);
         }
       }
       i = k;
-    }
-    if (!stacked_.empty()) {
-      is_left_out_.assign(triangles_.size(), 0);
-      for (const auto& [first, t] : stacked_) is_left_out_[static_cast<std::size_t>(t)] = 1;
     }
     std::sort(result.begin(), result.end());
     return result;
@@ -167,50 +196,152 @@ class OverlapTest {
   bool overlaps(std::size_t t) const { return overlapping_[t].load(std::memory_order_relaxed); }
   void mark(std::size_t t) { overlapping_[t].store(true, std::memory_order_relaxed); }
   std::vector<bool> result() {
-    for (const auto& [first, t] : stacked_) {
-      if (overlaps(static_cast<std::size_t>(first))) mark(static_cast<std::size_t>(t));
+    // What was left out last, may have stood for others.
+    for (auto pair = stacked_.rbegin(); pair != stacked_.rend(); ++pair) {
+      if (overlaps(static_cast<std::size_t>(pair->first))) mark(static_cast<std::size_t>(pair->second));
     }
     return {overlapping_.begin(), overlapping_.end()};
   }
 
+  /// Calls work(t), which returns how many pairs it looked at, for every triangle, until there were too many. Whether
+  /// it called all.
   template <class Work>
-  void for_each_triangle(const Work& work) const {
+  bool for_each_triangle(const Work& work, std::size_t most = pairs_of_each) const {
+    const std::size_t limit = most == no_limit ? no_limit : most * triangles_.size();
+    std::atomic<std::size_t> pairs{0};
     run_blocks_in_parallel(triangles_.size(), tested_at_once, testing_nanoseconds,
                            [&](std::size_t begin, std::size_t end) {
-                             for (std::size_t t = begin; t < end; ++t) {
-                               if (is_left_out_.empty() || is_left_out_[t] == 0) work(t);
+                             const std::size_t before = pairs.load(std::memory_order_relaxed);
+                             std::size_t own = 0;
+                             for (std::size_t t = begin; t < end && before + own <= limit; ++t) {
+                               if (is_left_out_.empty() || is_left_out_[t] == 0) own += work(t);
                              }
+                             pairs.fetch_add(own, std::memory_order_relaxed);
                            });
+    return pairs.load(std::memory_order_relaxed) <= limit;
   }
 
   /// Asks every triangle, or with `one_is_enough` those not found yet, which of `some` it overlaps.
-  void test_with(const Subset& some, bool one_is_enough) {
-    if (some.triangles.empty()) return;
-    const auto any = [](std::size_t, std::size_t) { return true; };
-    for_each_triangle([&](std::size_t t) {
-      if (!one_is_enough || !overlaps(t)) find_overlaps(t, some, any, one_is_enough);
-    });
+  bool test_with(const Subset& some, bool one_is_enough, std::size_t most = pairs_of_each) {
+    if (some.triangles.empty()) return true;
+    return for_each_triangle(
+        [&](std::size_t t) {
+          return one_is_enough && overlaps(t) ? std::size_t{0} : find_overlaps(t, some, any_pair, one_is_enough);
+        },
+        most);
   }
 
-  /// Marks a triangle and those of `some` that it overlaps, all or one.
+  /// Tests all pairs with one of these.
+  bool test_those_with(const std::vector<int>& some, std::size_t most = pairs_of_each) {
+    // Of these, what overlaps none of them may overlap others, which had found another of them first.
+    return test_with(subset(some), true, most) && test_with(subset(without_others(some, false)), false, most);
+  }
+
+  /// Marks a triangle and those of `some` that it overlaps, all or one. How many boxes it met.
   template <class Tested>
-  void find_overlaps(std::size_t t, const Subset& some, const Tested& is_tested, bool one_is_enough) {
+  std::size_t find_overlaps(std::size_t t, const Subset& some, const Tested& is_tested, bool one_is_enough) {
     std::optional<PlaneTriangle> own;
+    std::size_t met = 0;
     some.tree.for_each_meeting(box_of(t), [&](int k) {
+      ++met;
       const auto other = static_cast<std::size_t>(some.triangles[static_cast<std::size_t>(k)]);
-      if (other == t || (!face_.empty() && face_[other] == face_[t])) return true;
+      if (other == t || are_of_one_face(t, other)) return true;
       if (!is_tested(t, other) || (overlaps(t) && overlaps(other))) return true;
-      if (!own) own = place(t);
+      if (!own) {
+        own = place(t);
+        if (covers_nothing(*own)) return false;
+      }
       if (!overlap(*own, some.placed[static_cast<std::size_t>(k)])) return true;
       mark(t);
       mark(other);
       return !one_is_enough;
     });
+    return met;
   }
 
-  PlaneTriangle place(std::size_t t) const {
+  /// Finds the overlaps of some triangles, which are all but those left out, where too many boxes meet. Each round
+  /// moves a line over those that do not overlap and over as many others as do not meet either; of two that meet, one
+  /// is left for the next round. Then it tests as many pairs of what is left as cost as much.
+  void sweep(std::vector<int> others) {
+    std::vector<int> apart;   // not found to overlap; meet none of each other
+    std::vector<int> barely;  // met another less deep than counts, or of its own face: to be tested pair by pair
+    while (!others.empty()) {
+      others = sweep_once(apart, others, barely);
+      if (apart.empty()) break;
+      // All others are known to overlap, and those that are not among them any more meet none of these.
+      std::vector<char> waits(triangles_.size(), 0);
+      for (const int t : apart) waits[static_cast<std::size_t>(t)] = 1;
+      const Subset left = subset(others);
+      for_each_triangle([&](std::size_t t) {
+        if (waits[t] == 0) return std::size_t{0};
+        waits[t] = 0;
+        return find_overlaps(t, left, any_pair, true);
+      });
+      apart.erase(
+          std::remove_if(apart.begin(), apart.end(), [&](int t) { return waits[static_cast<std::size_t>(t)] == 0; }),
+          apart.end());
+    }
+    test_those_with(barely, no_limit);
+  }
+
+  /// Moves a line over triangles `apart` and others. Returns those others that meet another; makes `apart` those that
+  /// meet none and were not found to overlap, of both.
+  std::vector<int> sweep_once(std::vector<int>& apart, const std::vector<int>& others, std::vector<int>& barely) {
+    const auto n_apart = static_cast<int>(apart.size());
+    std::vector<int> swept = apart;
+    swept.insert(swept.end(), others.begin(), others.end());
+    std::vector<std::array<Complex, 3>> corners;
+    corners.reserve(swept.size());
+    for (const int t : swept) corners.push_back(counter_clockwise(static_cast<std::size_t>(t)));
+    std::vector<int> next;
+    std::vector<char> is_out(swept.size(), 0);
+    sweep_triangles(corners, [&](int i, int k) {
+      const auto first = static_cast<std::size_t>(swept[static_cast<std::size_t>(i)]);
+      const auto second = static_cast<std::size_t>(swept[static_cast<std::size_t>(k)]);
+      const bool is_deep = (overlaps(first) && overlaps(second)) ||
+                           (!are_of_one_face(first, second) && overlap(place(first), place(second)));
+      if (is_deep) {
+        mark(first);
+        mark(second);
+      }
+      const bool is_known_apart = std::min(i, k) < n_apart;
+      // What reaches farther finds more.
+      const bool first_ends =
+          right_end(corners[static_cast<std::size_t>(i)]) < right_end(corners[static_cast<std::size_t>(k)]);
+      const int out = is_known_apart ? (is_deep ? std::min(i, k) : std::max(i, k)) : (first_ends ? i : k);
+      is_out[static_cast<std::size_t>(out)] = 1;
+      if (out >= n_apart) (is_deep ? next : barely).push_back(swept[static_cast<std::size_t>(out)]);
+      return out;
+    });
+    apart.clear();
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+      if (is_out[i] == 0 && !overlaps(static_cast<std::size_t>(swept[i]))) apart.push_back(swept[i]);
+    }
+    return next;
+  }
+
+  bool are_of_one_face(std::size_t t, std::size_t other) const { return !face_.empty() && face_[other] == face_[t]; }
+
+  std::array<Complex, 3> corners_of(std::size_t t) const {
     const auto& [a, b, c] = triangles_[t];
-    return PlaneTriangle({z_[a], z_[b], z_[c]});
+    return {z_[a], z_[b], z_[c]};
+  }
+  PlaneTriangle place(std::size_t t) const { return PlaneTriangle(corners_of(t)); }
+  std::array<Complex, 3> counter_clockwise(std::size_t t) const {
+    std::array<Complex, 3> corners = corners_of(t);
+    if (orientation(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+    return corners;
+  }
+  static double right_end(const std::array<Complex, 3>& corners) {
+    return std::max({corners[0].real(), corners[1].real(), corners[2].real()});
+  }
+
+  /// Whether no overlap with it is deep enough to count.
+  bool covers_nothing(const PlaneTriangle& triangle) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (triangle.inwards[k] != 0.0 && std::abs(triangle.height[k]) <= resolution_ * triangle.reach) return true;
+    }
+    return orientation(triangle.corners[0], triangle.corners[1], triangle.corners[2]) == 0;
   }
 
   PlaneBox box_of(std::size_t t) const {
@@ -231,7 +362,7 @@ class OverlapTest {
   double resolution_;
   ComplexVector z_;                           ///< empty where the map has no extent
   std::vector<std::pair<int, int>> stacked_;  ///< a triangle, and one left out that lies on it
-  std::vector<char> is_left_out_;             ///< per triangle; empty where none is
+  std::vector<char> is_left_out_;             ///< per triangle: it stands in a stack or covers nothing; empty for none
   std::vector<std::atomic<bool>> overlapping_;
 };
 
