@@ -18,20 +18,13 @@ LIMITS = {
     "duplicate_corners/suggest_seams": 8.0,
     "valence/pack_boxes": 8.0,
 }
-# Islands whose borders touch, and polygons that a fan splits into triangles over each other: triangles with meeting
-# boxes are tested pair by pair.
-TOUCHING = {
-    f"{family}/{function}"
-    for family in ("pages", "bow_ties", "cap", "jagged_corners", "duplicate_corners")
-    for function in ("map_defects", "distortion")
-}
 
 
 def is_tested(case):
     """Leave out what is of no use."""
     family, function = case.split("/")
     # Of pages on one edge, every extender acts on every island.
-    if case in TOUCHING or case == "pages/extended":
+    if case == "pages/extended":
         return False
     # With pins everywhere nearly all faces are islands.
     return function != "pinned" or family == "valence"

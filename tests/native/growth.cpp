@@ -15,12 +15,14 @@
 #include "conformal/boundary_form.h"
 #include "conformal/start_vector.h"
 #include "conformal/upright.h"
+#include "geometry/ear_clipping.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
 #include "mesh/mirror_symmetry.h"
 #include "meshes.h"
 #include "spectral_conformal/box_packing.h"
 #include "spectral_conformal/kept_maps.h"
+#include "spectral_conformal/map_defects.h"
 #include "spectral_conformal/thread_limit.h"
 
 namespace {
@@ -165,6 +167,37 @@ std::function<void()> packing(int n, double longest) {
   return [=]() mutable { pack_boxes(boxes); };
 }
 
+/// Quads with vertices of their own in a row, each as long as all of them, aslant, so that their boxes meet; so far
+/// apart that they touch up to rounding, or do not.
+std::function<void()> slanting_islands(int n, double width) {
+  const auto mesh = std::make_shared<Mesh>();
+  const auto uv = std::make_shared<std::vector<double>>();
+  for (int k = 0; k < n; ++k) {
+    const Complex across(0.7, -0.7);
+    const Complex along(0.7 * n, 0.7 * n);
+    const Complex from = (1.0 * k) * across;
+    const Complex to = (k + width) * across;
+    for (const Complex p : {from, to, to + along, from + along}) {
+      mesh->points.emplace_back(p.real(), p.imag(), 0);
+      uv->insert(uv->end(), {static_cast<double>(static_cast<float>(p.real() / n)), p.imag() / n});
+    }
+    mesh->add({4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3});
+  }
+  return [=] { find_map_defects(mesh->view(), uv->data(), true); };
+}
+
+/// Triangles about one point, up to rounding.
+std::function<void()> covering_once(int n) {
+  std::vector<Complex> points;
+  std::vector<std::array<int, 3>> triangles;
+  for (int k = 0; k < n; ++k) {
+    const Complex at = std::polar(1e-9, 1.0 * k);
+    points.insert(points.end(), {at, std::polar(1.0, 2 * pi * k / n), std::polar(1.0, 2 * pi * (k + 1) / n)});
+    triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  return [=] { covers_once(points, triangles, 1e-6); };
+}
+
 const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
     {"boxes", [](int n) { return packing(16 * n, 0); }},  // a tree takes over from a list of 100 segments
     {"boxes, one of them long", [](int n) { return packing(n, n); }},
@@ -178,6 +211,9 @@ const std::map<std::string, std::function<std::function<void()>(int)>> cases = {
     {"mirror symmetry: duplicates", [](int n) { return mirror_symmetry(polygons(5, n)); }},
     {"pins at a pole", pins_at_pole},
     {"duplicate polygons", duplicate_polygons},
+    {"map defects: islands that touch aslant", [](int n) { return slanting_islands(n, 1); }},
+    {"map defects: islands apart aslant", [](int n) { return slanting_islands(n, 0.5); }},
+    {"covers once: triangles about one point", covering_once},
 };
 
 }  // namespace

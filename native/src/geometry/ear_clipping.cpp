@@ -8,7 +8,9 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
+#include "geometry/point_merging.h"
 #include "geometry/signed_area.h"
+#include "geometry/triangle_sweep.h"
 
 namespace spectral_conformal {
 namespace {
@@ -194,8 +196,12 @@ std::vector<std::array<int, 3>> clip_ears(const std::vector<Complex>& outline, d
 
 bool covers_once(const std::vector<Complex>& points, const std::vector<std::array<int, 3>>& triangles,
                  double tolerance) {
+  // What overlaps deeper still does, and no triangle that covers anything turns over.
+  constexpr double below_half = 0.49;
+  ComplexVector merged = Eigen::Map<const ComplexVector>(points.data(), static_cast<Eigen::Index>(points.size()));
+  if (tolerance > 0) merged = merge_points(merged, std::vector<double>(points.size(), below_half * tolerance));
   std::vector<std::array<Complex, 3>> placed;
-  std::vector<PlaneBox> boxes;
+  std::vector<std::array<Complex, 3>> swept;
   for (const auto& [a, b, c] : triangles) {
     const std::array<Complex, 3> corners{points[a], points[b], points[c]};
     double longest = 0;
@@ -204,15 +210,28 @@ bool covers_once(const std::vector<Complex>& points, const std::vector<std::arra
     if (twice_area < -tolerance * longest) return false;
     if (twice_area <= tolerance * longest) continue;  // covers nothing
     placed.push_back(corners);
-    boxes.push_back(PlaneBox::of({corners[0], corners[1], corners[2]}));
+    swept.push_back({merged[a], merged[b], merged[c]});
   }
+  const auto overlap = [&](std::size_t t, std::size_t other) {
+    return !is_beyond_a_side(placed[t], placed[other], tolerance) &&
+           !is_beyond_a_side(placed[other], placed[t], tolerance);
+  };
+  bool overlaps = false;
+  std::vector<std::size_t> barely;  // met another less deep, which they are not swept with: to be tested pair by pair
+  sweep_triangles(swept, [&](int first, int second) {
+    overlaps = overlap(static_cast<std::size_t>(first), static_cast<std::size_t>(second));
+    const int out = std::max(first, second);
+    barely.push_back(static_cast<std::size_t>(out));
+    return overlaps ? -1 : out;
+  });
+  if (overlaps || barely.empty()) return !overlaps;
+  std::vector<PlaneBox> boxes;
+  for (const auto& [a, b, c] : placed) boxes.push_back(PlaneBox::of({a, b, c}));
   const BoxTree tree(boxes);
-  for (std::size_t t = 0; t < placed.size(); ++t) {
-    bool overlaps = false;
+  for (const std::size_t t : barely) {
     tree.for_each_meeting(boxes[t], [&](int k) {
       const auto other = static_cast<std::size_t>(k);
-      overlaps = other > t && !is_beyond_a_side(placed[t], placed[other], tolerance) &&
-                 !is_beyond_a_side(placed[other], placed[t], tolerance);
+      overlaps = other != t && overlap(t, other);
       return !overlaps;
     });
     if (overlaps) return false;

@@ -12,6 +12,8 @@
 namespace spectral_conformal {
 namespace {
 
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
 struct BoundaryEdge {
   int from;
   int to;
@@ -43,11 +45,16 @@ class Boundary {
   Boundary(const std::vector<BoundaryLoop>& loops, const ComplexVector& z)
       : z_(z), edges_(edges_of(loops)), boxes_(boxes_of(edges_, z)), tree_(boxes_) {}
 
-  /// Whether no edge has a point in common with another but for those that neighbours share.
-  bool is_simple() const {
+  std::size_t n_edges() const { return edges_.size(); }
+
+  /// Whether no edge has a point in common with another but for those that neighbours share. Takes those that it looks
+  /// at from `most`, and returns false where none is left.
+  bool is_simple(std::size_t& most) const {
     bool simple = true;
     for (int i = 0; simple && i < static_cast<int>(edges_.size()); ++i) {
       tree_.for_each_meeting(box(i), [&](int other) {
+        if (most == 0) return simple = false;
+        --most;
         // Each pair once.
         if (other <= i) return true;
         simple = are_apart(edge(i), edge(other), z_);
@@ -55,6 +62,11 @@ class Boundary {
       });
     }
     return simple;
+  }
+
+  bool is_simple() const {
+    std::size_t most = no_limit;
+    return is_simple(most);
   }
 
   /// Whether the inside of a counter-clockwise triangle is surely free of the boundary.
@@ -67,12 +79,19 @@ class Boundary {
     return off;
   }
 
-  /// The sum of the winding numbers of all loops but one about a point that none of them meets.
-  int winding_number(Complex p, int left_out = -1) const {
+  /// The sum of the winding numbers of all loops about a point that none of them meets.
+  int winding_number(Complex p) const {
+    std::size_t most = no_limit;
+    return winding_number(p, -1, most);
+  }
+  /// The same of all but one. Takes the edges that it looks at from `most`; no number where none is left.
+  int winding_number(Complex p, int left_out, std::size_t& most) const {
     int result = 0;
     // Where a ray to the right crosses them.
     const PlaneBox ray{{p.real(), p.imag()}, {std::numeric_limits<double>::infinity(), p.imag()}};
     tree_.for_each_meeting(ray, [&](int i) {
+      if (most == 0) return false;
+      --most;
       if (edge(i).loop == left_out) return true;
       const Complex from = z_[edge(i).from];
       const Complex to = z_[edge(i).to];
@@ -241,12 +260,15 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
   const bool is_wide = box.high[0] - box.low[0] > box.high[1] - box.low[1];
   const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
   const Boundary boundary(loops, turned);
-  if (!boundary.is_simple()) return false;
+  // As many as a search for overlaps without this proof takes.
+  std::size_t most = 100 * boundary.n_edges();
+  if (!boundary.is_simple(most)) return false;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (loops[k].size() == 2) continue;
     const int sense = orientation_of_simple(loops[k], turned);
     if (sense == 0) return false;
-    if (sense > 0 && boundary.winding_number(turned[loops[k].front()], static_cast<int>(k)) > 0) return false;
+    if (sense > 0 && boundary.winding_number(turned[loops[k].front()], static_cast<int>(k), most) > 0) return false;
+    if (most == 0) return false;
   }
   return true;
 }

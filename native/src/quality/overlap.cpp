@@ -11,6 +11,7 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
+#include "geometry/point_merging.h"
 #include "geometry/quad_splits.h"
 #include "geometry/triangle_sweep.h"
 #include "graph/parallel_calls.h"
@@ -263,10 +264,11 @@ class OverlapTest {
   /// moves a line over those that do not overlap and over as many others as do not meet either; of two that meet, one
   /// is left for the next round. Then it tests as many pairs of what is left as cost as much.
   void sweep(std::vector<int> others) {
+    const ComplexVector merged = merged_within_tolerance();
     std::vector<int> apart;   // not found to overlap; meet none of each other
     std::vector<int> barely;  // met another less deep than counts, or of its own face: to be tested pair by pair
     while (!others.empty()) {
-      others = sweep_once(apart, others, barely);
+      others = sweep_once(merged, apart, others, barely);
       if (apart.empty()) break;
       // All others are known to overlap, and those that are not among them any more meet none of these.
       std::vector<char> waits(triangles_.size(), 0);
@@ -286,13 +288,14 @@ class OverlapTest {
 
   /// Moves a line over triangles `apart` and others. Returns those others that meet another; makes `apart` those that
   /// meet none and were not found to overlap, of both.
-  std::vector<int> sweep_once(std::vector<int>& apart, const std::vector<int>& others, std::vector<int>& barely) {
+  std::vector<int> sweep_once(const ComplexVector& merged, std::vector<int>& apart, const std::vector<int>& others,
+                              std::vector<int>& barely) {
     const auto n_apart = static_cast<int>(apart.size());
     std::vector<int> swept = apart;
     swept.insert(swept.end(), others.begin(), others.end());
     std::vector<std::array<Complex, 3>> corners;
     corners.reserve(swept.size());
-    for (const int t : swept) corners.push_back(counter_clockwise(static_cast<std::size_t>(t)));
+    for (const int t : swept) corners.push_back(counter_clockwise(static_cast<std::size_t>(t), merged));
     std::vector<int> next;
     std::vector<char> is_out(swept.size(), 0);
     sweep_triangles(corners, [&](int i, int k) {
@@ -322,15 +325,26 @@ class OverlapTest {
 
   bool are_of_one_face(std::size_t t, std::size_t other) const { return !face_.empty() && face_[other] == face_[t]; }
 
-  std::array<Complex, 3> corners_of(std::size_t t) const {
+  PlaneTriangle place(std::size_t t) const {
     const auto& [a, b, c] = triangles_[t];
-    return {z_[a], z_[b], z_[c]};
+    return PlaneTriangle({z_[a], z_[b], z_[c]});
   }
-  PlaneTriangle place(std::size_t t) const { return PlaneTriangle(corners_of(t)); }
-  std::array<Complex, 3> counter_clockwise(std::size_t t) const {
-    std::array<Complex, 3> corners = corners_of(t);
-    if (orientation(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
-    return corners;
+
+  /// Points less than half a tolerance apart moved together, so that islands that touch up to rounding do so exactly.
+  /// What overlaps deep enough to count still does, and nothing that covers anything turns over.
+  ComplexVector merged_within_tolerance() const {
+    if (resolution_ == 0) return z_;
+    constexpr double below_half = 0.49;
+    std::vector<double> radii;
+    for (const Complex p : z_) {
+      radii.push_back(below_half * resolution_ * std::max(std::abs(p.real()), std::abs(p.imag())));
+    }
+    return merge_points(z_, radii);
+  }
+  std::array<Complex, 3> counter_clockwise(std::size_t t, const ComplexVector& merged) const {
+    const auto& [a, b, c] = triangles_[t];
+    if (orientation(merged[a], merged[b], merged[c]) < 0) return {merged[a], merged[c], merged[b]};
+    return {merged[a], merged[b], merged[c]};
   }
   static double right_end(const std::array<Complex, 3>& corners) {
     return std::max({corners[0].real(), corners[1].real(), corners[2].real()});

@@ -105,6 +105,26 @@ TEST_CASE("a large polygon is clipped") {
   CHECK(area_of(star, clip_ears(star, 0)) == doctest::Approx(0.5 * 20000 * 0.5 * std::sin(2 * pi / 20000)));
 }
 
+TEST_CASE("triangles about one point cover once up to rounding; one that lies over another is found") {
+  constexpr int n = 300;
+  std::mt19937 generator(4);
+  const auto noise = [&] { return 1e-8 * (static_cast<double>(generator()) / 4294967296.0 - 0.5); };
+  std::vector<Complex> points;
+  std::vector<std::array<int, 3>> triangles;
+  for (int k = 0; k < n; ++k) {
+    for (const Complex p : {Complex(0), std::polar(1.0, 2 * pi * k / n), std::polar(1.0, 2 * pi * (k + 1) / n)}) {
+      points.push_back(p + Complex(noise(), noise()));
+    }
+    triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  CHECK(covers_once(points, triangles, 1e-6));
+  CHECK_FALSE(covers_once(points, triangles, 0));
+  const int over = n / 2;
+  points[3 * over] *= 2.0;
+  points[3 * over + 1] = points[3 * over - 2];
+  CHECK_FALSE(covers_once(points, triangles, 1e-6));
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

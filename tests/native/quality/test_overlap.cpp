@@ -105,6 +105,8 @@ TEST_CASE("a collapsed triangle covers nothing") {
   CHECK(overlapping_triangles(two, z) == std::vector<bool>{false, false});
   z[4] = Complex(-3, -5);
   CHECK(overlapping_triangles(two, z) == std::vector<bool>{false, false});
+  // Nor do two points at one place.
+  CHECK(overlapping_triangles(two, ComplexVector::Constant(6, Complex(1, 1))) == std::vector<bool>{false, false});
   z[5] = Complex(1.5, 1);
   CHECK(overlapping_triangles(two, z) == std::vector<bool>{true, true});
 }
@@ -235,6 +237,47 @@ TEST_CASE("of charts in one map, what their borders prove is what all pairs tell
     any.push_back(std::find(found.begin(), found.end(), true) != found.end());
   }
   CHECK(any == std::vector<bool>{false, false, false, true, true, true, true});
+}
+
+TEST_CASE("where boxes of very many pairs meet, a sweep tells what each pair tells") {
+  // Wedges about one point, as wide as their distance, some moved, turned or twice; up to rounding of different sizes.
+  constexpr int n = 300;
+  for (const double rounding : {0.0, 1e-16, 3e-8, 1e-6}) {
+    for (const int every : {n, 7, 2}) {
+      const ComplexVector noise = random_map(6 * n, 3);
+      Triangles triangles;
+      std::vector<Complex> points;
+      std::vector<int> face;
+      const auto add = [&](std::array<Complex, 3> corners) {
+        const auto first = static_cast<int>(points.size());
+        for (const Complex p : corners) points.push_back(p + Complex(1, 1) + rounding * noise[points.size()]);
+        triangles.push_back({first, first + 1, first + 2});
+        face.push_back(static_cast<int>(triangles.size()));
+      };
+      for (int k = 0; k < n; ++k) {
+        const Complex from = std::polar(1.0, 2 * pi * k / n);
+        const Complex to = std::polar(1.0, 2 * pi * (k + 1) / n);
+        add({Complex(0), from, to});
+        if (k % every != every - 1) continue;
+        if (k % 3 == 0) add({Complex(0), from, to});
+        if (k % 3 == 1) add({0.2 * from, 0.6 * to, 0.6 * from});
+        if (k % 5 == 0) face.back() = face[face.size() - 2];
+      }
+      const ComplexVector z = Eigen::Map<ComplexVector>(points.data(), static_cast<Eigen::Index>(points.size()));
+      const double resolution = rounding > 0 ? 2.5e-7 : 0;
+      std::vector<bool> expected(triangles.size(), false);
+      for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (std::size_t other = 0; other < t; ++other) {
+          if (face[t] == face[other]) continue;
+          const std::vector<bool> pair = overlapping_triangles({triangles[t], triangles[other]}, z, {}, resolution);
+          if (pair[0]) expected[t] = expected[other] = true;
+        }
+      }
+      CAPTURE(rounding);
+      CAPTURE(every);
+      CHECK(overlapping_triangles(triangles, z, face, resolution) == expected);
+    }
+  }
 }
 
 TEST_CASE("no triangles") { CHECK(overlapping_triangles({}, {}).empty()); }
