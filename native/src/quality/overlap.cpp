@@ -197,7 +197,7 @@ class OverlapTest {
   bool overlaps(std::size_t t) const { return overlapping_[t].load(std::memory_order_relaxed); }
   void mark(std::size_t t) { overlapping_[t].store(true, std::memory_order_relaxed); }
   std::vector<bool> result() {
-    // What was left out last, may have stood for others.
+    // What was left out last may have stood for others.
     for (auto pair = stacked_.rbegin(); pair != stacked_.rend(); ++pair) {
       if (overlaps(static_cast<std::size_t>(pair->first))) mark(static_cast<std::size_t>(pair->second));
     }

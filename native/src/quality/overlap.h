@@ -8,10 +8,12 @@
 namespace spectral_conformal {
 
 /// For each triangle of a map, whether its interior meets that of another triangle, of another face where `face` names
-/// the face of each. Candidates come from a BoxTree, O(n log n) where boxes meet few others that do not overlap; a pair
-/// overlaps when no side of either separates them. Contacts do not count that are less deep than 1e-9 of the smaller
-/// triangle's size, or than `resolution` times the largest coordinate that the two have. map (V,) must be finite; face
-/// (F,) or empty.
+/// the face of each. A pair overlaps when no side of either separates them. Candidates come from a BoxTree, or where
+/// the boxes of very many pairs meet, from sweep_triangles: O(k n log n), k the most triangles that lie over one place
+/// and are not known to overlap by then, mostly 1 or 2. Contacts do not count that are less deep than 1e-9 of the
+/// smaller triangle's size, or than `resolution` times the largest coordinate that the two have; of triangles in
+/// contact, and of those of one face that meet, all pairs of boxes are looked at, unless `resolution` lets corners be
+/// merged. map (V,) must be finite; face (F,) or empty.
 std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map,
                                         const std::vector<int>& face = {}, double resolution = 0);
 
