@@ -226,6 +226,7 @@ bool covers_once(const std::vector<Complex>& points, const std::vector<std::arra
   });
   if (overlaps || barely.empty()) return !overlaps;
   std::vector<PlaneBox> boxes;
+  boxes.reserve(placed.size());
   for (const auto& [a, b, c] : placed) boxes.push_back(PlaneBox::of({a, b, c}));
   const BoxTree tree(boxes);
   for (const std::size_t t : barely) {

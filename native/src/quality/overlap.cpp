@@ -104,7 +104,7 @@ class OverlapTest {
   }
 
   /// Tests pairs with one of these only, unless that takes too many.
-  std::vector<bool> with(std::vector<int> some) {
+  std::vector<bool> with(const std::vector<int>& some) {
     if (z_.size() == 0) return result();
     if (!test_those_with(one_of_each_stack(some))) sweep(subset(one_of_each_stack(those_left())).triangles);
     return result();
@@ -427,7 +427,7 @@ std::vector<bool> overlapping_in_map(const MapOfCharts& map, double resolution) 
   suspects.insert(suspects.end(), map.loose.begin(), map.loose.end());
   std::sort(suspects.begin(), suspects.end());
   suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
-  return test.with(std::move(suspects));
+  return test.with(suspects);
 }
 
 std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, double resolution) {
@@ -440,9 +440,9 @@ std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, d
   std::vector<bool> overlapping;
   // Without a consistent orientation the edges within the chart do not cancel.
   if (chart.orientable) {
-    std::vector<int> suspects = overlap_suspects(triangles, chart.boundary_loops, z);
+    const std::vector<int> suspects = overlap_suspects(triangles, chart.boundary_loops, z);
     if (suspects.empty()) return {};
-    overlapping = OverlapTest(triangles, z, face, resolution).with(std::move(suspects));
+    overlapping = OverlapTest(triangles, z, face, resolution).with(suspects);
   } else {
     overlapping = OverlapTest(triangles, z, face, resolution).among_all();
   }
