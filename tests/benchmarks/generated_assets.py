@@ -378,8 +378,8 @@ METHODS = {"spectral": (spectral, None), "xatlas": (by_xatlas, "xatlas"), "Smart
 def measured(name: str, faces: int, method: str, **limits: float) -> dict[str, float]:
     """Make one map of one mesh and measure it."""
     import spectral_conformal as sc
+    from spectral_conformal.batch import memory
 
-    from addon.batch import memory
     from tests.benchmarks.map_measures import measure
 
     vertices, triangles = asset(name, faces)

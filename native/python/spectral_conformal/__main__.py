@@ -68,6 +68,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _report(arguments: Sequence[str]) -> int:
     """Print what the maps of files are like; return 1 if one cannot be read or does not meet what is required."""
+    from .batch import files
+    from .batch.settings import BatchSettings
+
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal report", description="Measure the UV maps of files; nothing is changed."
     )
@@ -84,7 +87,7 @@ def _report(arguments: Sequence[str]) -> int:
     code = 0
     for path in given.files:
         try:
-            report = map_report(assets.read(path).meshes)
+            report = map_report(files.read(path, BatchSettings()).meshes)
         except (ValueError, OSError, MemoryError) as error:
             told = str(error) or f"{path}: there is too little memory to read it."
             print(f"error: {told}", file=sys.stderr)

@@ -34,8 +34,10 @@ def read(source: Path, settings: BatchSettings) -> Asset | BlenderAsset:
     """
     suffix = source.suffix.lower()
     if suffix in OF_BLENDER:
-        from .blender.files import BlenderAsset
-
+        try:
+            from .blender.files import BlenderAsset
+        except ImportError as error:
+            raise assets.AssetError(f"{source.name} needs Blender, as bpy in this Python: pip install bpy.") from error
         return BlenderAsset(source, settings.uv_map)
     if source.stat().st_size == 0:
         raise assets.AssetError(f"{source.name} is empty.")
