@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
+#include "bindings/progress_function.h"
 #include "graph/listening.h"
 #include "graph/thread_budget.h"
 #include "spectral_conformal/thread_limit.h"
@@ -9,6 +10,9 @@ namespace spectral_conformal::python {
 
 void bind_threads(pybind11::module_& module) {
   module.def("limit_threads", &ThreadLimit::exchange);
+  module.def("report", [](const pybind11::object& progress, double fraction, const char* phase) {
+    report(progress_of(progress), fraction, phase);
+  });
   // For tests; no part of the Python interface.
   module.def("exchange_listening_interval", &exchange_listening_interval);
   module.def("pretend_cores", &ThreadBudget::exchange_cores);

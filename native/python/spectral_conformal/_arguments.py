@@ -25,10 +25,15 @@ the strength is negative. The strength is a fraction of the boundary's total mas
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 
+Heard = Callable[[], None]
+"""To be called now and then by what takes long before the native module begins."""
+
 # Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
 STRENGTH_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 _SIZE_LIMIT = _native.SIZE_LIMIT
+# Rows that are copied at a time: less memory than the processor's caches hold, so that it is used again.
+_ROWS_AT_ONCE = 1 << 14
 
 
 def checked_polygon_mesh(
@@ -37,9 +42,12 @@ def checked_polygon_mesh(
     corner_vertices: npt.ArrayLike,
     seam_edges: npt.ArrayLike | None,
     selected_faces: npt.ArrayLike | None,
+    heard: Heard = lambda: None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
     vertices = checked_vertices(vertices)
+    heard()
     corners = checked_indices(corner_vertices, "corner_vertices", None, len(vertices))
+    heard()
     offsets = checked_index_vector(face_offsets, "face_offsets")
     if len(offsets) == 1:
         raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
@@ -119,6 +127,17 @@ def checked_progress(progress: Progress | None) -> Progress | None:
     return progress
 
 
+def heard_by(progress: Progress | None, phase: str) -> Heard:
+    """Return what calls a progress function, once now and whenever it is called; it raises Cancelled as that asks."""
+    checked_progress(progress)
+
+    def heard() -> None:
+        _native.report(progress, 0.0, phase)
+
+    heard()
+    return heard
+
+
 def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked values; fill them or leave them out.")
@@ -164,12 +183,15 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
         raise ValueError(f"{name} must hold integers, not {array.dtype}.")
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
-    indices = np.array(array, order="C")
-    if indices.size and (indices.min() < 0 or indices.max() > _INDEX_LIMIT):
-        raise ValueError(
-            f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {indices.min()} to {indices.max()}."
-        )
-    return indices.astype(np.int32, copy=False)
+    indices = np.empty(len(array), np.int32)
+    ranges = []
+    for begin in range(0, len(array), _ROWS_AT_ONCE):
+        rows = np.array(array[begin : begin + _ROWS_AT_ONCE])
+        ranges += [int(rows.min()), int(rows.max())]
+        indices[begin : begin + len(rows)] = rows
+    if ranges and (min(ranges) < 0 or max(ranges) > _INDEX_LIMIT):
+        raise ValueError(f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {min(ranges)} to {max(ranges)}.")
+    return indices
 
 
 def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_vertices: int) -> npt.NDArray[np.int32]:
@@ -224,31 +246,35 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
 
 
 def checked_metric(
-    metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...]
+    metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...], heard: Heard = lambda: None
 ) -> npt.NDArray[np.float64] | None:
     """Check one tensor per face, of one of the sizes; what makes it definite in a face's plane is checked there."""
     if metric is None:
         return None
     array = checked_array(metric, "metric")
     size = array.shape[-1] if array.ndim == 3 and array.shape[-1] in sizes else sizes[0]
-    tensors = checked_tensors(array, size)
+    tensors = checked_tensors(array, size, heard)
     if len(tensors) != n_faces:
         raise ValueError(f"metric has {len(tensors)} tensors, but there are {n_faces} faces.")
     return tensors
 
 
-def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
+def checked_tensors(metric: npt.ArrayLike, size: int, heard: Heard = lambda: None) -> npt.NDArray[np.float64]:
     array = checked_array(metric, "metric")
     if array.dtype.kind not in "fiu" or array.ndim != 3 or array.shape[1:] != (size, size):
         raise ValueError(
             f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
         )
-    tensors = copied_floats(array, "metric")
-    if not np.isfinite(tensors).all():
-        raise ValueError("metric has values that are not finite.")
-    size_of = np.abs(tensors).max(axis=(1, 2), initial=0.0)
-    if (np.abs(tensors - tensors.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0) > 1e-9 * size_of).any():
-        raise ValueError("metric must be symmetric.")
+    tensors = np.empty(array.shape)
+    for begin in range(0, len(array), _ROWS_AT_ONCE):
+        rows = tensors[begin : begin + _ROWS_AT_ONCE]
+        rows[:] = copied_floats(array[begin : begin + _ROWS_AT_ONCE], "metric")
+        if not np.isfinite(rows).all():
+            raise ValueError("metric has values that are not finite.")
+        size_of = np.abs(rows).max(axis=(1, 2), initial=0.0)
+        if (np.abs(rows - rows.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0) > 1e-9 * size_of).any():
+            raise ValueError("metric must be symmetric.")
+        heard()
     if size == 2:
         bad = _native.first_not_positive_definite(tensors)
         if bad >= 0:

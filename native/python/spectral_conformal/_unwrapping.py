@@ -74,6 +74,7 @@ def unwrap(
     """
     used = changed(options, _DEFAULTS, changes)
     arguments, n_vertices = _checked_mesh(
+        _arguments.heard_by(progress, "charts"),
         used,
         vertices,
         face_offsets,
@@ -89,7 +90,7 @@ def unwrap(
         _native.unwrap(
             arguments,
             _arguments.checked_extenders(extenders, used.method, n_vertices),
-            _arguments.checked_progress(progress),
+            progress,
             native_of(kept_maps),
         )
     )
@@ -124,6 +125,7 @@ class Unwrapper:
         """
         self._options = changed(options, _DEFAULTS, changes)
         arguments, self._n_vertices = _checked_mesh(
+            _arguments.heard_by(None, "charts"),
             self._options,
             vertices,
             face_offsets,
@@ -157,6 +159,7 @@ class Unwrapper:
 
 
 def _checked_mesh(
+    heard: _arguments.Heard,
     options: Options,
     vertices: npt.ArrayLike,
     face_offsets: npt.ArrayLike,
@@ -169,11 +172,14 @@ def _checked_mesh(
     metric: npt.ArrayLike | None,
 ) -> tuple[Any, int]:
     """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
-    polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+    polygons = _arguments.checked_polygon_mesh(
+        vertices, face_offsets, corner_vertices, seam_edges, selected_faces, heard
+    )
     vertices, offsets, corners = polygons[:3]
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
+    heard()
     all_triangles = bool((np.diff(offsets) == 3).all())
-    tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
+    tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,), heard)
     pin_list = _arguments.checked_pins(pins, len(vertices))
     return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), len(vertices)
 

@@ -72,10 +72,9 @@ ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
   std::vector<TriangleShape> shapes = energy_shapes();
-  for (std::size_t t = 0; t < metric.size(); ++t) {
+  for_each_heard(metric.size(), triangle_nanoseconds, [&](std::size_t t) {
     if (!shapes_[t].clamped) shapes[t] = stretched(shapes[t], metric[t]);
-  }
-  still_working(triangle_nanoseconds * static_cast<double>(shapes_.size()));
+  });
   stretched_.swap(shapes);
 }
 
@@ -109,9 +108,7 @@ double ConformalEnergy::weight(std::size_t triangle) const {
 template <class Visit>
 void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
   const std::vector<TriangleShape>& shapes = energy_shapes();
-  constexpr std::size_t at_once = 16384;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    if (t % at_once == 0) still_working(4 * triangle_nanoseconds * at_once);
+  for_each_heard(triangles_.size(), 4 * triangle_nanoseconds, [&](std::size_t t) {
     const auto& triangle = triangles_[t];
     const TriangleShape& s = shapes[t];
     const double half_weight = 0.5 * weight(t);
@@ -123,7 +120,7 @@ void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
       const int j = triangle[(k + 2) % 3];
       if (i != j) visit(i, j, half_weight * (scaled_cotangents[k] / double_area), half_weight);
     }
-  }
+  });
 }
 
 double ConformalEnergy::max_diagonal() const {
@@ -136,9 +133,11 @@ double ConformalEnergy::max_diagonal() const {
 }
 
 HermitianMatrix ConformalEnergy::matrix() const {
+  // No Complex, which would begin as 0: unset, new memory is first touched between blocks that are heard.
   struct Entry {
     int row;
-    Complex value;
+    double real;
+    double imaginary;
   };
   std::vector<int> start(static_cast<std::size_t>(n_vertices_) + 1, 0);
   for (const auto& triangle : triangles_) {
@@ -157,11 +156,10 @@ HermitianMatrix ConformalEnergy::matrix() const {
     diagonal[j] += dirichlet;
     // Lower triangle: the entry (row, column) with row > column; L_ij = -dirichlet + i w / 2 (minus A, Eq. 2),
     // L_ji its conjugate.
-    const Complex entry_ij(-dirichlet, half_weight);
     if (i > j) {
-      entries[fill[j]++] = {i, entry_ij};
+      entries[fill[j]++] = {i, -dirichlet, half_weight};
     } else {
-      entries[fill[i]++] = {j, std::conj(entry_ij)};
+      entries[fill[i]++] = {j, -dirichlet, -half_weight};
     }
   });
   // Merge the two halves of every edge. The order of summation is that of the triangles: insertion sort is stable.
@@ -183,7 +181,8 @@ HermitianMatrix ConformalEnergy::matrix() const {
     int merged = 0;
     for (int k = 0; k < size; ++k) {
       if (merged > 0 && first[merged - 1].row == first[k].row) {
-        first[merged - 1].value += first[k].value;
+        first[merged - 1].real += first[k].real;
+        first[merged - 1].imaginary += first[k].imaginary;
       } else {
         first[merged++] = first[k];
       }
@@ -203,7 +202,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
     for (int k = 0; k < column_size[column]; ++k, ++position) {
       const Entry& entry = entries[start[column] + k];
       matrix.innerIndexPtr()[position] = entry.row;
-      matrix.valuePtr()[position] = entry.value;
+      matrix.valuePtr()[position] = Complex(entry.real, entry.imaginary);
     }
   });
   return matrix;

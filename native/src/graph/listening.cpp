@@ -5,25 +5,44 @@
 namespace spectral_conformal {
 namespace {
 
-std::atomic<double> interval_of_work{static_cast<double>(std::chrono::nanoseconds(Listening::interval).count())};
+using Clock = std::chrono::steady_clock;
+
+constexpr double usual_interval = std::chrono::nanoseconds(Listening::interval).count();
+/// Work may take this many times as long as it says before the listener is asked late.
+constexpr double looks_in_interval = 16;
+
+std::atomic<double> test_interval{0};  ///< of work, in nanoseconds; 0 for none
 
 struct Ear {
   Listening* own = nullptr;
   Listening* other = nullptr;  ///< of the thread that this one works for
-  double left = 0;
+  // Since the listener was asked:
+  double worked = 0;
+  double next_look = 0;  ///< at the clock, when so much is done
+  Clock::time_point asked;
+
+  void begin_interval() {
+    worked = 0;
+    const double interval = test_interval;
+    next_look = interval > 0 ? interval : usual_interval / looks_in_interval;
+    if (!(interval > 0)) asked = Clock::now();
+  }
+  bool is_due() const {
+    return test_interval > 0 || worked >= usual_interval || Clock::now() - asked >= Listening::interval;
+  }
 };
 
 thread_local Ear ear;
 
 }  // namespace
 
-double exchange_listening_interval(double nanoseconds) { return interval_of_work.exchange(nanoseconds); }
+double exchange_listening_interval(double nanoseconds) { return test_interval.exchange(nanoseconds); }
 
 Listening::Listening(const Progress& progress, const char* phase) : given_(&progress), phase_(phase) {
   if (!progress) return;
   heard_ = [this](double fraction, const char* phase) { return hear(fraction, phase); };
   before_ = std::exchange(ear.own, this);
-  ear.left = interval_of_work;
+  ear.begin_interval();
 }
 
 Listening::~Listening() {
@@ -31,7 +50,6 @@ Listening::~Listening() {
 }
 
 bool Listening::hear(double fraction, const char* phase) {
-  ear.left = interval_of_work;
   fraction_ = fraction;
   phase_ = phase;
   if (is_cancelled_) return false;
@@ -42,6 +60,7 @@ bool Listening::hear(double fraction, const char* phase) {
     is_cancelled_ = true;
     throw;
   }
+  ear.begin_interval();  // from the end of what the listener does
   return !is_cancelled_;
 }
 
@@ -69,9 +88,13 @@ Listening::Overheard::Overheard(Listening* listening) : before_(std::exchange(ea
 Listening::Overheard::~Overheard() { ear.other = before_; }
 
 void still_working(double nanoseconds) {
-  ear.left -= nanoseconds;
-  if (ear.left > 0) return;
-  ear.left = interval_of_work;
+  ear.worked += nanoseconds;
+  if (ear.worked < ear.next_look) return;
+  if (!ear.is_due()) {
+    ear.next_look = ear.worked + usual_interval / looks_in_interval;
+    return;
+  }
+  ear.begin_interval();
   if (ear.own) {
     Listening::ask();
   } else if (ear.other && ear.other->is_cancelled_) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <exception>
+#include <vector>
 
 #include "spectral_conformal/progress.h"
 
@@ -63,13 +66,37 @@ class Listening {
   std::exception_ptr thrown_;  ///< by the listener
 };
 
-/// For tests: another interval of work, in nanoseconds, for the threads that begin to listen from then on. Returns the
-/// one before.
+/// For tests: another interval of work, in nanoseconds, for the threads that begin to listen from then on, by which the
+/// listener is then asked alone, without a look at the clock. Returns the one before; 0 stands for the usual one.
 double exchange_listening_interval(double nanoseconds);
 
 /// Says that this thread has worked for about so long since it said so last; after each Listening::interval of such
-/// work the listener is asked. Costs little, and throws as Listening::ask does: to be called where nothing is left half
-/// done.
+/// work the listener is asked, and before where the clock says that it is due: new memory, above all, may take many
+/// times as long as work in it. Costs little, and throws as Listening::ask does: to be called where nothing is left
+/// half done.
 void still_working(double nanoseconds);
+
+/// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: about what each takes, which is said
+/// between blocks of them; throws as still_working does.
+template <class Index, class Work>
+void for_each_heard(Index n, double nanoseconds, const Work& work) {
+  constexpr Index at_once = 8192;
+  for (Index begin = 0; begin < n;) {
+    const Index end = begin + std::min<Index>(at_once, n - begin);
+    for (Index i = begin; i < end; ++i) work(i);
+    still_working(nanoseconds * static_cast<double>(end - begin));
+    begin = end;
+  }
+}
+
+/// A copy of large elements, made so.
+template <class T>
+std::vector<T> heard_copy(const std::vector<T>& elements) {
+  constexpr double byte_nanoseconds = 0.25;
+  std::vector<T> result;
+  result.reserve(elements.size());
+  for_each_heard(elements.size(), byte_nanoseconds * sizeof(T), [&](std::size_t i) { result.push_back(elements[i]); });
+  return result;
+}
 
 }  // namespace spectral_conformal

@@ -5,6 +5,8 @@
 #include <functional>
 #include <new>
 
+#include "graph/listening.h"
+
 namespace spectral_conformal {
 
 ShortestPathSearch::ShortestPathSearch(int n_nodes)
@@ -48,6 +50,7 @@ std::vector<int> steps_from(const Adjacency& graph, const std::vector<int>& sour
   for (const int node : sources) steps[node] = 0;
   for (std::size_t head = 0; head < reached.size(); ++head) {
     const int node = reached[head];
+    still_working(50);
     for (const auto& arc : graph.arcs(node)) {
       if (steps[arc.to] >= 0) continue;
       steps[arc.to] = steps[node] + 1;

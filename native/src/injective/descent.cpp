@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "graph/parallel_calls.h"
+#include "graph/listening.h"
 #include "injective/lbfgs.h"
 
 namespace spectral_conformal {
@@ -25,23 +25,23 @@ class QuadraticForm {
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * elements.size() + static_cast<std::size_t>(n));
     for (int v = 0; v < n; ++v) entries.emplace_back(v, v, 0.0);
-    for (const DistortionElement& element : elements) {
+    for_each_heard(elements.size(), element_nanoseconds, [&](std::size_t t) {
+      const DistortionElement& element = elements[t];
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]);
         entries.emplace_back(high, low, 0.0);
       }
-    }
-    still_working(element_nanoseconds * static_cast<double>(elements.size()));
+    });
     matrix_ = lower_triangle(n, entries);
-    for (const DistortionElement& element : elements) {
+    for_each_heard(elements.size(), element_nanoseconds, [&](std::size_t t) {
+      const DistortionElement& element = elements[t];
       std::array<int, 3> entry{};
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]);
         entry[k] = entry_of(high, low);
       }
       edge_entries_.push_back(entry);
-    }
-    still_working(element_nanoseconds * static_cast<double>(elements.size()));
+    });
     factorization_->analyze(matrix_);
   }
 
@@ -52,11 +52,10 @@ class QuadraticForm {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
     double largest = 0;
-    for (const DistortionElement& element : elements_) {
-      weights.push_back(stiffness(element, measure_, jacobian(element, z)));
+    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+      weights.push_back(stiffness(elements_[t], measure_, jacobian(elements_[t], z)));
       largest = std::max(largest, weights.back().antiholomorphic);
-    }
-    still_working(element_nanoseconds * static_cast<double>(elements_.size()));
+    });
     // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the last.
     for (; min_weight_ < 1; min_weight_ *= 100) {
       assemble(weights, curvature, min_weight_ * largest);
@@ -81,7 +80,7 @@ class QuadraticForm {
     Complex* const value = matrix_.valuePtr();
     const int* const diagonal = matrix_.outerIndexPtr();
     std::fill(value, value + matrix_.nonZeros(), Complex(0));
-    for (std::size_t t = 0; t < elements_.size(); ++t) {
+    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
       const auto& [x1, x2, y2, clamped] = elements_[t].shape;
       const double double_area = x1 * y2;
       const double clamping = std::max(weights[t].antiholomorphic, min_weight) / weights[t].antiholomorphic;
@@ -102,8 +101,7 @@ class QuadraticForm {
         if (!is_fixed(i) && !is_fixed(j))
           value[edge_entries_[t][k]] += Complex(-dirichlet, i > j ? area_weight : -area_weight);
       }
-    }
-    still_working(element_nanoseconds * static_cast<double>(elements_.size()));
+    });
     for (int v = 0; v < static_cast<int>(matrix_.cols()); ++v) {
       value[diagonal[v]] += curvature[v];
       // Vertices without a triangle stay, too.
@@ -179,7 +177,9 @@ class Relaxation {
 
   State state() const {
     State state{z_, {}, regularized_, energy_, result_.status};
-    for (const DistortionElement& element : elements_) state.regularization.push_back(element.regularization);
+    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+      state.regularization.push_back(elements_[t].regularization);
+    });
     return state;
   }
 
@@ -278,14 +278,15 @@ class Relaxation {
   void regularize(double fraction) {
     constexpr double min_regularization = 1e-2;  // of collapsed ones, relative to the mean scale, which is about 1
     regularized_ = 0;
-    for (DistortionElement& element : elements_) {
+    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+      DistortionElement& element = elements_[t];
       const MapJacobian j = jacobian(element, z_);
       // Once a barrier stands, it is kept.
       const bool holds = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
-      if (!element.without_area() && (started_ || !element.barrier() || holds)) continue;
+      if (!element.without_area() && (started_ || !element.barrier() || holds)) return;
       element.regularization = fraction * std::max(j.half_square, min_regularization);
       ++regularized_;
-    }
+    });
     started_ = true;
     if (options_.boundary != nullptr) pairs_ = options_.boundary->pairs_near(z_, ComplexVector::Zero(z_.size()));
     energy_ = evaluate(z_, gradient_);
@@ -298,13 +299,14 @@ class Relaxation {
     constexpr double enough = 0.03;
     if (regularized_ == 0) return;
     const int before = regularized_;
-    for (DistortionElement& element : elements_) {
-      if (!element.without_area()) continue;
+    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+      DistortionElement& element = elements_[t];
+      if (!element.without_area()) return;
       const MapJacobian j = jacobian(element, z_);
-      if (!(j.has_area() && j.determinant > enough * j.half_square)) continue;
+      if (!(j.has_area() && j.determinant > enough * j.half_square)) return;
       element.regularization = 0;
       --regularized_;
-    }
+    });
     if (regularized_ == before) return;
     lbfgs_.clear();
     energy_ = evaluate(z_, gradient_);

@@ -191,8 +191,7 @@ std::vector<DistortionElement> distortion_elements(const std::vector<std::array<
   const DistortionElements source(triangles, shapes, triangle_weights, n_virtual);
   std::vector<DistortionElement> elements;
   elements.reserve(source.size());
-  still_working(energy_nanoseconds * static_cast<double>(source.size()));
-  for (std::size_t t = 0; t < source.size(); ++t) elements.push_back(source[t]);
+  for_each_heard(source.size(), energy_nanoseconds, [&](std::size_t t) { elements.push_back(source[t]); });
   return elements;
 }
 

@@ -20,6 +20,9 @@
 namespace spectral_conformal {
 namespace {
 
+/// Of an element in one pass through all.
+constexpr double visit_nanoseconds = 50;
+
 class FoldFree {
  public:
   FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {
@@ -32,14 +35,14 @@ class FoldFree {
                                                energy.triangle_weights().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
     std::size_t next = 0;
-    for (const int t : drawable_triangulation(triangles_, triangle_weights)) {
-      const auto chosen = static_cast<std::size_t>(t);
+    const std::vector<int> drawable = drawable_triangulation(triangles_, triangle_weights);
+    for_each_heard(drawable.size(), visit_nanoseconds, [&](std::size_t i) {
+      const auto chosen = static_cast<std::size_t>(drawable[i]);
       for (; next < chosen; ++next) elements_[next].measured = false;
       single_.push_back(triangles_[chosen]);
       ++next;
-    }
+    });
     for (; next < elements_.size(); ++next) elements_[next].measured = false;
-    still_working(50 * static_cast<double>(elements_.size()));
   }
 
   FoldFreeMap run(ComplexVector given) {
@@ -192,19 +195,20 @@ class FoldFree {
   std::vector<DistortionElement> clamped_elements() const {
     // Relative to the longest side, and to the side of a mean triangle: thin enough not to show, QC of the order 1e3.
     constexpr double min_height = 1e-3;
-    std::vector<DistortionElement> clamped = elements_;
+    std::vector<DistortionElement> clamped = heard_copy(elements_);
     double area = 0;
     for (const DistortionElement& element : elements_) {
       if (element.barrier()) area += element.shape.area();
     }
     const double min_side = min_height * std::sqrt(area / static_cast<double>(elements_.size()));
-    for (DistortionElement& element : clamped) {
+    for_each_heard(clamped.size(), visit_nanoseconds, [&](std::size_t t) {
+      DistortionElement& element = clamped[t];
       TriangleShape& shape = element.shape;
       if (element.barrier()) {
         // A metric may have made it thinner than its image can be in double precision.
         constexpr double min_height_of_image = 1e-9;
         shape = shape.clamped_to(min_height_of_image);
-        continue;
+        return;
       }
       element.regularization = 0;
       element.measured = true;
@@ -218,8 +222,7 @@ class FoldFree {
       shape.x2 *= scale;
       shape.y2 *= scale;
       element.weight = shape.area() / area;
-    }
-    still_working(50 * static_cast<double>(elements_.size()));
+    });
     return clamped;
   }
 
@@ -234,8 +237,9 @@ class FoldFree {
   }
 
   /// Lowers the distortion without a new fold. None where that failed and z stays as it was.
-  std::optional<Descent> relax(std::vector<DistortionElement> elements, DescentOptions options,
+  std::optional<Descent> relax(const std::vector<DistortionElement>& given, DescentOptions options,
                                const Progress& progress, ComplexVector& z, Boundary kept = Boundary::free) const {
+    std::vector<DistortionElement> elements = heard_copy(given);
     const int flipped = count_flipped(elements, z, unplaced);
     const double factor = mean_scale_factor(elements, z);
     if (!(factor > 0) || !std::isfinite(factor)) return std::nullopt;

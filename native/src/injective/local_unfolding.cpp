@@ -10,19 +10,22 @@
 namespace spectral_conformal {
 namespace {
 
+/// Of an element in one pass through all.
+constexpr double pass_nanoseconds = 50;
+
 /// The elements at each vertex.
 class Star {
  public:
   Star(const std::vector<DistortionElement>& elements, Eigen::Index n) : start_(static_cast<std::size_t>(n) + 1, 0) {
-    for (const DistortionElement& element : elements) {
-      for (const int v : element.corners) ++start_[static_cast<std::size_t>(v) + 1];
-    }
+    for_each_heard(elements.size(), pass_nanoseconds, [&](std::size_t t) {
+      for (const int v : elements[t].corners) ++start_[static_cast<std::size_t>(v) + 1];
+    });
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     elements_.resize(static_cast<std::size_t>(start_.back()));
     std::vector<int> next(start_.begin(), start_.end() - 1);
-    for (std::size_t t = 0; t < elements.size(); ++t) {
+    for_each_heard(elements.size(), pass_nanoseconds, [&](std::size_t t) {
       for (const int v : elements[t].corners) elements_[next[v]++] = static_cast<int>(t);
-    }
+    });
   }
   const int* begin(int v) const { return elements_.data() + start_[v]; }
   const int* end(int v) const { return elements_.data() + start_[static_cast<std::size_t>(v) + 1]; }
@@ -70,15 +73,15 @@ class Unfolding {
   std::vector<double> vertex_log_scale() const {
     std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
     std::vector<double> weight(sum.size(), 0);
-    for (const DistortionElement& element : elements_) {
-      if (!element.measured || is_flipped(element, z_, unplaced)) continue;
+    for_each_heard(elements_.size(), pass_nanoseconds, [&](std::size_t t) {
+      const DistortionElement& element = elements_[t];
+      if (!element.measured || is_flipped(element, z_, unplaced)) return;
       const double logarithm = 0.5 * std::log(jacobian(element, z_).determinant);
       for (const int v : element.corners) {
         sum[v] += logarithm;
         weight[v] += 1;
       }
-    }
-    still_working(50 * static_cast<double>(elements_.size()));
+    });
     constexpr int max_passes = 100;  // each reaches one ring further
     for (int pass = 0; pass < max_passes; ++pass) {
       std::vector<int> without;
@@ -114,10 +117,10 @@ class Unfolding {
       near[v] = 1;
       reached.push_back(v);
     };
-    for (const DistortionElement& element : elements_) {
-      if (!is_flipped(element, z_, unplaced)) continue;
-      for (const int v : element.corners) reach(v);
-    }
+    for_each_heard(elements_.size(), pass_nanoseconds, [&](std::size_t t) {
+      if (!is_flipped(elements_[t], z_, unplaced)) return;
+      for (const int v : elements_[t].corners) reach(v);
+    });
     std::size_t ring_begin = 0;
     for (int ring = 1; ring < rings; ++ring) {
       const std::size_t ring_end = reached.size();

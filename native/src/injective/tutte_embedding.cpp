@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "graph/adjacency.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
@@ -21,6 +22,9 @@ namespace {
 
 /// Edges without length count as this fraction of the mean one: their vertices must come apart, too.
 constexpr double min_relative_length = 1e-3;
+
+/// Of an edge in one pass through all.
+constexpr double edge_nanoseconds = 50;
 
 struct WeightedEdge {
   int i;
@@ -36,19 +40,19 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
                                          const Eigen::Ref<const Positions>& positions) {
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(3 * triangles.size());
-  for (const auto& triangle : triangles) {
-    for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangle[k], triangle[(k + 1) % 3]));
-  }
+  for_each_heard(triangles.size(), 30, [&](std::size_t t) {
+    for (int k = 0; k < 3; ++k) pairs.push_back(std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]));
+  });
   call_while_listening(100 * static_cast<double>(pairs.size()), [&] { std::sort(pairs.begin(), pairs.end()); });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size());
   double total = 0;
-  for (const auto& [i, j] : pairs) {
+  for_each_heard(pairs.size(), edge_nanoseconds, [&](std::size_t k) {
+    const auto& [i, j] = pairs[k];
     edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
     total += edges.back().length;
-  }
-  still_working(50 * static_cast<double>(pairs.size()));
+  });
   const double min_length = min_relative_length * total / static_cast<double>(pairs.size());
   for (WeightedEdge& edge : edges) edge.length = std::max(edge.length, min_length);
   int middle = static_cast<int>(positions.rows());
@@ -96,7 +100,8 @@ class TutteSystem {
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * edges_.size());
     ComplexVector right_side = ComplexVector::Zero(n_unknown_);
-    for (const WeightedEdge& edge : edges_) {
+    for_each_heard(edges_.size(), edge_nanoseconds, [&](std::size_t k) {
+      const WeightedEdge& edge = edges_[k];
       const int i = unknown_[edge.i];
       const int j = unknown_[edge.j];
       if (i >= 0) entries.emplace_back(i, i, edge.weight);
@@ -104,7 +109,7 @@ class TutteSystem {
       if (i >= 0 && j >= 0) entries.emplace_back(std::max(i, j), std::min(i, j), -edge.weight);
       if (i >= 0 && j < 0) right_side[i] += edge.weight * z[edge.j];
       if (j >= 0 && i < 0) right_side[j] += edge.weight * z[edge.i];
-    }
+    });
     const HermitianMatrix matrix = lower_triangle(n_unknown_, entries);
     if (!analyzed_) factorization_->analyze(matrix);
     analyzed_ = true;
@@ -131,10 +136,10 @@ std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const Co
   constexpr double min_distance = 1e-15;  // rounding leaves no shorter ones in the unit circle
   std::vector<double> result;
   result.reserve(edges.size());
-  still_working(50 * static_cast<double>(edges.size()));
-  for (const WeightedEdge& edge : edges) {
+  for_each_heard(edges.size(), edge_nanoseconds, [&](std::size_t k) {
+    const WeightedEdge& edge = edges[k];
     result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), min_distance) / edge.length));
-  }
+  });
   return result;
 }
 
@@ -154,10 +159,9 @@ double variance(const std::vector<double>& values) {
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
   constexpr double max_log = 23;  // the changes of one round span 1e10 at most, which double precision solves
   const double centre = mean(log_stretch);
-  still_working(50 * static_cast<double>(edges.size()));
-  for (std::size_t k = 0; k < edges.size(); ++k) {
+  for_each_heard(edges.size(), edge_nanoseconds, [&](std::size_t k) {
     edges[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -max_log, max_log));
-  }
+  });
 }
 
 /// Nearly removes the edges between vertices that are equally far from the circle: what goes round a limb then no

@@ -188,7 +188,6 @@ class CholmodFactorization final : public Factorization {
   using Factorization::analyze;
   void analyze(const HermitianMatrix& matrix, const Positions* positions) override {
     const Adjacency graph = graph_of(matrix);
-    still_working(30 * static_cast<double>(matrix.nonZeros()));
     factor_.analyze(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure);
     all_ = factor_.whole();
     work_.setZero(factor_.n());

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "geometry/triangle_shape.h"
+#include "graph/listening.h"
 #include "mesh/boundary_loops.h"
 #include "spectral_conformal/errors.h"
 
@@ -15,6 +16,7 @@ std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " 
 // too.
 constexpr double least_extent = 1e-100;
 constexpr double largest_extent = 1e100;
+constexpr double area_nanoseconds = 20;
 
 double extent_of(const Eigen::Ref<const Positions>& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
@@ -29,10 +31,11 @@ bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& position
   if (!(extent < largest_extent)) return false;
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   double area = 0;
-  for (const auto& [a, b, c] : chart.triangles) {
+  for_each_heard(chart.triangles.size(), area_nanoseconds, [&](std::size_t t) {
+    const auto& [a, b, c] = chart.triangles[t];
     const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
     area += triangle_area(corner(a), corner(b), corner(c));
-  }
+  });
   // Rounding alone gives collinear points an area of this size relative to the extent.
   constexpr double min_area = 1e-14;
   return !(area > min_area);

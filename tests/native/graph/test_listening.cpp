@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -13,11 +15,24 @@ namespace {
 
 constexpr double interval = std::chrono::nanoseconds(Listening::interval).count();
 
+/// Nothing depends on the clock while it lives.
+class ByWorkAlone {
+ public:
+  ByWorkAlone() : before_(exchange_listening_interval(interval)) {}
+  ~ByWorkAlone() { exchange_listening_interval(before_); }
+  ByWorkAlone(const ByWorkAlone&) = delete;
+  ByWorkAlone& operator=(const ByWorkAlone&) = delete;
+
+ private:
+  double before_;
+};
+
 }  // namespace
 
 TEST_SUITE_BEGIN("listening");
 
 TEST_CASE("work is heard once in an interval, with the last report") {
+  const ByWorkAlone by_work;
   std::vector<std::string> heard;
   const Progress progress = [&](double fraction, const char* phase) {
     heard.push_back(phase + std::to_string(static_cast<int>(100 * fraction)));
@@ -28,6 +43,33 @@ TEST_CASE("work is heard once in an interval, with the last report") {
   report(listening.progress(), 0.5, "second");
   for (int k = 0; k < 15; ++k) still_working(0.1 * interval);
   CHECK(heard == std::vector<std::string>{"first0", "first0", "second50", "second50"});
+}
+
+TEST_CASE("work that takes much longer than it says is heard in an interval of the clock") {
+  int asked = 0;
+  const Progress progress = [&asked](double, const char*) { return ++asked > 0; };
+  const Listening listening(progress, "");
+  for (int k = 1; k <= 3; ++k) {
+    std::this_thread::sleep_for(Listening::interval);
+    still_working(0.1 * interval);
+    CHECK(asked == k);
+  }
+}
+
+TEST_CASE("each number of many is worked through once, and heard between blocks of them") {
+  const ByWorkAlone by_work;
+  int asked = 0;
+  const Progress progress = [&asked](double, const char*) { return ++asked > 0; };
+  const Listening listening(progress, "");
+  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{100000}}) {
+    asked = 0;
+    std::vector<std::size_t> worked;
+    for_each_heard(n, 10 * interval / static_cast<double>(n + 1), [&](std::size_t i) { worked.push_back(i); });
+    CHECK(worked.size() == n);
+    CHECK(std::is_sorted(worked.begin(), worked.end()));
+    CHECK(asked == (n == 0 ? 0 : n == 1 ? 1 : 7));
+    CHECK(heard_copy(worked) == worked);
+  }
 }
 
 TEST_CASE("where nobody listens nothing happens") {
