@@ -3,6 +3,7 @@
 #include "bindings/bind.h"
 #include "bindings/progress_function.h"
 #include "graph/listening.h"
+#include "graph/silence.h"
 #include "graph/thread_budget.h"
 #include "spectral_conformal/thread_limit.h"
 
@@ -15,6 +16,7 @@ void bind_threads(pybind11::module_& module) {
   });
   // For tests; no part of the Python interface.
   module.def("exchange_listening_interval", &exchange_listening_interval);
+  module.def("take_longest_silence", &take_longest_silence);
   module.def("pretend_cores", &ThreadBudget::exchange_cores);
 }
 

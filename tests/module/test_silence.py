@@ -90,6 +90,56 @@ def test_the_charts_of_a_single_patch_are_heard():
     assert [phase for _, phase in calls].count("charts") > 5
 
 
+SILENCE_CASES = [
+    *CASES,
+    "metric",
+    # Maps that are refused, tried again, and embedded.
+    pytest.param("embedding", marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize("case", SILENCE_CASES)
+def test_no_silence_at_a_million_vertices_is_longer_than_a_fifth_of_a_second(case):
+    """By the work that is counted: what is silent grows with the mesh as fast as that, or less."""
+    # Calls of libraries are heard while another thread makes them.
+    sc.limit_threads(2)
+    cores = sc._native.pretend_cores(2)
+    n = 40_000
+    vertices, triangles = meshes.bumpy_disk(n)
+    options = dict(CASES.get(case, {}))
+    if case == "metric":
+        options["metric"] = np.broadcast_to(np.diag([1.0, 2.0, 1.0]), (len(triangles), 3, 3))
+    if case == "embedding":
+        options["weights"] = "inverse_area"
+        near = np.arange(n // 2, n // 2 + 40, 2)
+        vertices[near] = vertices[near + 1] + 1e-9 * (vertices[near] - vertices[near + 1])
+    sc._native.take_longest_silence()
+    try:
+        sc.unwrap(vertices, *meshes.polygons(triangles), progress=lambda fraction, phase: True, **options)
+    finally:
+        sc._native.pretend_cores(cores)
+    assert 0 < sc._native.take_longest_silence() * 1e6 / len(vertices) < 0.2e9
+
+
+def test_checks_of_arrays_are_heard_and_may_be_cancelled():
+    vertices, triangles = meshes.bumpy_disk(40_000)
+    mesh = (vertices, *meshes.polygons(triangles))
+    calls = []
+
+    def listen(fraction, phase):
+        calls.append((fraction, phase))
+        return len(calls) < 6
+
+    metric = np.broadcast_to(np.eye(3), (len(triangles), 3, 3))
+    # Two of three arrays and the pins are checked, then the tensors, whose last one is refused: in the block after the
+    # one where the call ends.
+    wrong = metric.copy()
+    wrong[-1] = np.nan
+    with pytest.raises(sc.Cancelled):
+        sc.unwrap(*mesh, metric=wrong, progress=listen)
+    assert calls == [(0.0, "charts")] * 6
+
+
 def _calls_of_search(n):
     vertices, faces = meshes.spindle(n)
     calls = []

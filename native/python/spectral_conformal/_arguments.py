@@ -190,7 +190,9 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
         ranges += [int(rows.min()), int(rows.max())]
         indices[begin : begin + len(rows)] = rows
     if ranges and (min(ranges) < 0 or max(ranges) > _INDEX_LIMIT):
-        raise ValueError(f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {min(ranges)} to {max(ranges)}.")
+        raise ValueError(
+            f"{name} must lie between 0 and {_INDEX_LIMIT}, but range from {min(ranges)} to {max(ranges)}."
+        )
     return indices
 
 

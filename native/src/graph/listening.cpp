@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "graph/silence.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -10,8 +12,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double usual_interval = std::chrono::nanoseconds(Listening::interval).count();
 /// Work may take this many times as long as it says before the listener is asked late.
 constexpr double looks_in_interval = 16;
-
-std::atomic<double> test_interval{0};  ///< of work, in nanoseconds; 0 for none
 
 struct Ear {
   Listening* own = nullptr;
@@ -22,13 +22,14 @@ struct Ear {
   Clock::time_point asked;
 
   void begin_interval() {
+    longest_silence() = std::max(longest_silence(), worked);
     worked = 0;
-    const double interval = test_interval;
+    const double interval = listening_interval_of_test();
     next_look = interval > 0 ? interval : usual_interval / looks_in_interval;
     if (!(interval > 0)) asked = Clock::now();
   }
   bool is_due() const {
-    return test_interval > 0 || worked >= usual_interval || Clock::now() - asked >= Listening::interval;
+    return listening_interval_of_test() > 0 || worked >= usual_interval || Clock::now() - asked >= Listening::interval;
   }
 };
 
@@ -36,7 +37,7 @@ thread_local Ear ear;
 
 }  // namespace
 
-double exchange_listening_interval(double nanoseconds) { return test_interval.exchange(nanoseconds); }
+double exchange_listening_interval(double nanoseconds) { return listening_interval_of_test().exchange(nanoseconds); }
 
 Listening::Listening(const Progress& progress, const char* phase) : given_(&progress), phase_(phase) {
   if (!progress) return;

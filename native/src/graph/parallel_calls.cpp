@@ -10,6 +10,7 @@
 
 #include "graph/helper_threads.h"
 #include "graph/listening.h"
+#include "graph/silence.h"
 
 namespace spectral_conformal {
 namespace {
@@ -116,7 +117,7 @@ void run_in_parallel(int n, const std::function<void(int, const Progress&)>& wor
 }
 
 void call_while_listening(double nanoseconds, const std::function<void()>& call) {
-  if (!Listening::has_listener() || nanoseconds < std::chrono::nanoseconds(Listening::interval).count()) {
+  if (!Listening::has_listener() || nanoseconds < listening_interval()) {
     call();
     still_working(nanoseconds);
     return;

@@ -177,9 +177,8 @@ class Relaxation {
 
   State state() const {
     State state{z_, {}, regularized_, energy_, result_.status};
-    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
-      state.regularization.push_back(elements_[t].regularization);
-    });
+    for_each_heard(elements_.size(), element_nanoseconds,
+                   [&](std::size_t t) { state.regularization.push_back(elements_[t].regularization); });
     return state;
   }
 

@@ -1,5 +1,7 @@
 #include "parameterization/chart_metric.h"
 
+#include "graph/listening.h"
+
 namespace spectral_conformal {
 
 std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric) {
@@ -7,11 +9,12 @@ std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& c
   if (metric == nullptr) return result;
   const Positions positions = chart.positions(mesh);
   result.reserve(chart.triangles.size());
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+  constexpr double restricting_nanoseconds = 80;
+  for_each_heard(chart.triangles.size(), restricting_nanoseconds, [&](std::size_t t) {
     const auto& [a, b, c] = chart.triangles[t];
     result.push_back(restrict_to_triangle(metric[chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]],
                                           positions.row(a), positions.row(b), positions.row(c)));
-  }
+  });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
 #include "graph/disjoint_sets.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "quality/flips.h"
 
@@ -188,18 +189,18 @@ class DegreeTest {
     // The degree is the same over triangles that share an inner vertex. In between there is no boundary: the vertex
     // would have to lie on it.
     DisjointSets joined(static_cast<int>(on_boundary_.size()));
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for_each_heard(triangles_.size(), joining_nanoseconds, [&](std::size_t t) {
       const int first = is_off_[t] != 0 ? inner_vertex(t) : -1;
-      if (first < 0) continue;
+      if (first < 0) return;
       for (const int v : triangles_[t]) {
         if (on_boundary_[v] == 0) joined.unite(first, v);
       }
-    }
+    });
     std::vector<int> degree(on_boundary_.size(), unknown);
     std::vector<int> result;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for_each_heard(triangles_.size(), joining_nanoseconds, [&](std::size_t t) {
       if (is_off_[t] == 0 || degree_over(t, joined, degree) > 1) result.push_back(static_cast<int>(t));
-    }
+    });
     return result;
   }
 
@@ -207,6 +208,7 @@ class DegreeTest {
   static constexpr int unknown = std::numeric_limits<int>::min();
   static constexpr std::size_t tested_at_once = 4096;
   static constexpr double nanoseconds_per_triangle = 300;
+  static constexpr double joining_nanoseconds = 60;
 
   void find_triangles_off_the_boundary() {
     run_blocks_in_parallel(triangles_.size(), tested_at_once, nanoseconds_per_triangle,

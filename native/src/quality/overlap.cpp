@@ -14,6 +14,7 @@
 #include "geometry/point_merging.h"
 #include "geometry/quad_splits.h"
 #include "geometry/triangle_sweep.h"
+#include "graph/listening.h"
 #include "graph/parallel_calls.h"
 #include "quality/flips.h"
 #include "quality/map_degree.h"
@@ -24,6 +25,10 @@ namespace {
 /// Triangles that a thread tests at a time.
 constexpr std::size_t tested_at_once = 4096;
 constexpr double testing_nanoseconds = 1000;
+/// Of a triangle that is copied, placed or sorted among many.
+constexpr double copying_nanoseconds = 20;
+constexpr double placing_nanoseconds = 80;
+constexpr double stacking_nanoseconds = 300;
 
 /// Pairs of meeting boxes that are looked at for each triangle before a sweep takes over, which costs about as much.
 constexpr std::size_t pairs_of_each = 100;
@@ -82,9 +87,9 @@ class OverlapTest {
     // Products of coordinates must neither overflow nor vanish, whatever the unit. A power of two keeps points on
     // lines.
     double extent = 0;
-    for (const auto& triangle : triangles) {
-      for (const int v : triangle) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
-    }
+    for_each_heard(triangles.size(), copying_nanoseconds, [&](std::size_t t) {
+      for (const int v : triangles[t]) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
+    });
     if (!(extent > 0)) return;
     const int exponent = std::ilogb(extent);
     z_ = map * std::ldexp(1.0, -exponent / 2) * std::ldexp(1.0, exponent / 2 - exponent);
@@ -127,16 +132,17 @@ class OverlapTest {
     covering.reserve(triangles.size());
     placed.reserve(triangles.size());
     boxes.reserve(triangles.size());
-    for (const int t : triangles) {
+    for_each_heard(triangles.size(), placing_nanoseconds, [&](std::size_t i) {
+      const int t = triangles[i];
       const PlaneTriangle triangle = place(t);
       if (covers_nothing(triangle)) {
         leave_out(t);
-        continue;
+        return;
       }
       covering.push_back(t);
       placed.push_back(triangle);
       boxes.push_back(box_of(t));
-    }
+    });
     return {std::move(covering), std::move(placed), BoxTree(boxes)};
   }
 
@@ -168,12 +174,15 @@ class OverlapTest {
     };
     std::vector<std::pair<std::array<double, 6>, int>> placed;
     placed.reserve(some.size());
-    for (const int t : some) placed.emplace_back(place_of(t), t);
-    std::sort(placed.begin(), placed.end());
+    for_each_heard(some.size(), copying_nanoseconds,
+                   [&](std::size_t i) { placed.emplace_back(place_of(some[i]), some[i]); });
+    call_while_listening(stacking_nanoseconds * static_cast<double>(placed.size()),
+                         [&] { std::sort(placed.begin(), placed.end()); });
     const auto face_of = [this](int t) { return face_.empty() ? t : face_[static_cast<std::size_t>(t)]; };
     std::vector<int> result;
     result.reserve(some.size());
     for (std::size_t i = 0; i < placed.size();) {
+      still_working(copying_nanoseconds);
       const int first = placed[i].second;
       result.push_back(first);
       bool has_other_face = false;
@@ -390,12 +399,12 @@ std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& t
 void MapOfCharts::add(const Chart& chart, const ComplexVector& chart_z, bool is_mirrored, const std::vector<int>& which,
                       const std::vector<int>& face_of_each) {
   const int first = static_cast<int>(z.size());
-  for (const int t : which) {
-    const auto& [a, b, c] = chart.triangles[static_cast<std::size_t>(t)];
+  for_each_heard(which.size(), copying_nanoseconds, [&](std::size_t i) {
+    const auto& [a, b, c] = chart.triangles[static_cast<std::size_t>(which[i])];
     if (!chart.orientable) loose.push_back(static_cast<int>(triangles.size()));
     triangles.push_back({first + a, first + b, first + c});
     mirrored.push_back(is_mirrored ? 1 : 0);
-  }
+  });
   face.insert(face.end(), face_of_each.begin(), face_of_each.end());
   z.insert(z.end(), chart_z.begin(), chart_z.end());
   if (!chart.orientable) return;
@@ -433,10 +442,11 @@ std::vector<bool> overlapping_in_map(const MapOfCharts& map, double resolution) 
 std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, double resolution) {
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> face;
-  for (const int t : mapped_triangulation(chart.triangles, chart.triangle_weights, z)) {
-    triangles.push_back(chart.triangles[static_cast<std::size_t>(t)]);
-    face.push_back(chart.triangle_face[static_cast<std::size_t>(t)]);
-  }
+  const std::vector<int> mapped = mapped_triangulation(chart.triangles, chart.triangle_weights, z);
+  for_each_heard(mapped.size(), copying_nanoseconds, [&](std::size_t i) {
+    triangles.push_back(chart.triangles[static_cast<std::size_t>(mapped[i])]);
+    face.push_back(chart.triangle_face[static_cast<std::size_t>(mapped[i])]);
+  });
   std::vector<bool> overlapping;
   // Without a consistent orientation the edges within the chart do not cancel.
   if (chart.orientable) {
