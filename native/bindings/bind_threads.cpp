@@ -1,7 +1,6 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
-#include "bindings/progress_function.h"
 #include "graph/listening.h"
 #include "graph/silence.h"
 #include "graph/thread_budget.h"
@@ -11,9 +10,6 @@ namespace spectral_conformal::python {
 
 void bind_threads(pybind11::module_& module) {
   module.def("limit_threads", &ThreadLimit::exchange);
-  module.def("report", [](const pybind11::object& progress, double fraction, const char* phase) {
-    report(progress_of(progress), fraction, phase);
-  });
   // For tests; no part of the Python interface.
   module.def("exchange_listening_interval", &exchange_listening_interval);
   module.def("take_longest_silence", &take_longest_silence);

@@ -121,25 +121,6 @@ def test_no_silence_at_a_million_vertices_is_longer_than_a_fifth_of_a_second(cas
     assert 0 < sc._native.take_longest_silence() * 1e6 / len(vertices) < 0.2e9
 
 
-def test_checks_of_arrays_are_heard_and_may_be_cancelled():
-    vertices, triangles = meshes.bumpy_disk(40_000)
-    mesh = (vertices, *meshes.polygons(triangles))
-    calls = []
-
-    def listen(fraction, phase):
-        calls.append((fraction, phase))
-        return len(calls) < 6
-
-    metric = np.broadcast_to(np.eye(3), (len(triangles), 3, 3))
-    # Two of three arrays and the pins are checked, then the tensors, whose last one is refused: in the block after the
-    # one where the call ends.
-    wrong = metric.copy()
-    wrong[-1] = np.nan
-    with pytest.raises(sc.Cancelled):
-        sc.unwrap(*mesh, metric=wrong, progress=listen)
-    assert calls == [(0.0, "charts")] * 6
-
-
 def _calls_of_search(n):
     vertices, faces = meshes.spindle(n)
     calls = []

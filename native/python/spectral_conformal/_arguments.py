@@ -25,9 +25,6 @@ the strength is negative. The strength is a fraction of the boundary's total mas
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 
-Heard = Callable[[], None]
-"""To be called now and then by what takes long before the native module begins."""
-
 # Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
 STRENGTH_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
@@ -42,12 +39,9 @@ def checked_polygon_mesh(
     corner_vertices: npt.ArrayLike,
     seam_edges: npt.ArrayLike | None,
     selected_faces: npt.ArrayLike | None,
-    heard: Heard = lambda: None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
     vertices = checked_vertices(vertices)
-    heard()
     corners = checked_indices(corner_vertices, "corner_vertices", None, len(vertices))
-    heard()
     offsets = checked_index_vector(face_offsets, "face_offsets")
     if len(offsets) == 1:
         raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
@@ -125,17 +119,6 @@ def checked_progress(progress: Progress | None) -> Progress | None:
     if progress is not None and not callable(progress):
         raise ValueError(f"progress must be callable or None, not {type(progress).__name__}.")
     return progress
-
-
-def heard_by(progress: Progress | None, phase: str) -> Heard:
-    """Return what calls a progress function, once now and whenever it is called; it raises Cancelled as that asks."""
-    checked_progress(progress)
-
-    def heard() -> None:
-        _native.report(progress, 0.0, phase)
-
-    heard()
-    return heard
 
 
 def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
@@ -248,20 +231,20 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
 
 
 def checked_metric(
-    metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...], heard: Heard = lambda: None
+    metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...]
 ) -> npt.NDArray[np.float64] | None:
     """Check one tensor per face, of one of the sizes; what makes it definite in a face's plane is checked there."""
     if metric is None:
         return None
     array = checked_array(metric, "metric")
     size = array.shape[-1] if array.ndim == 3 and array.shape[-1] in sizes else sizes[0]
-    tensors = checked_tensors(array, size, heard)
+    tensors = checked_tensors(array, size)
     if len(tensors) != n_faces:
         raise ValueError(f"metric has {len(tensors)} tensors, but there are {n_faces} faces.")
     return tensors
 
 
-def checked_tensors(metric: npt.ArrayLike, size: int, heard: Heard = lambda: None) -> npt.NDArray[np.float64]:
+def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
     array = checked_array(metric, "metric")
     if array.dtype.kind not in "fiu" or array.ndim != 3 or array.shape[1:] != (size, size):
         raise ValueError(
@@ -276,7 +259,6 @@ def checked_tensors(metric: npt.ArrayLike, size: int, heard: Heard = lambda: Non
         size_of = np.abs(rows).max(axis=(1, 2), initial=0.0)
         if (np.abs(rows - rows.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0) > 1e-9 * size_of).any():
             raise ValueError("metric must be symmetric.")
-        heard()
     if size == 2:
         bad = _native.first_not_positive_definite(tensors)
         if bad >= 0:

@@ -90,7 +90,7 @@ class Solver:
         Arguments and errors are those of `parameterize`. Options that a solve may vary are what it starts from.
         """
         self._assemble(vertices, triangles, metric, changed(options, Options(), changes), progress)
-        self._native.factorize(progress)
+        self._native.factorize(_arguments.checked_progress(progress))
 
     @takes_options(Options, SolveChanges)
     def solve(
@@ -132,15 +132,12 @@ class Solver:
         options: Options,
         progress: Progress | None,
     ) -> None:
-        heard = _arguments.heard_by(progress, "charts")
         vertices = _arguments.checked_vertices(vertices)
-        heard()
         triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
-        heard()
-        tensors = _arguments.checked_metric(metric, len(triangles), (2,), heard)
+        tensors = _arguments.checked_metric(metric, len(triangles), (2,))
         self._options = options
         self._n_vertices = len(vertices)
-        self._native = _native.Solver(vertices, triangles, tensors, options, progress)
+        self._native = _native.Solver(vertices, triangles, tensors, options, _arguments.checked_progress(progress))
 
     def _solved(
         self, options: Options, pins: Pins | None, extenders: Extenders | None, progress: Progress | None

@@ -104,16 +104,11 @@ def suggest_cuts(
     list's `message`.
     """
     used = changed(options, SeamOptions(), changes)
-    polygons = _arguments.checked_polygon_mesh(
-        vertices,
-        face_offsets,
-        corner_vertices,
-        seam_edges,
-        selected_faces,
-        _arguments.heard_by(progress, "charts"),
-    )
+    polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
-    edges, offsets, message = _native.suggest_seams(*polygons, preference, used.with_energy_limit(), progress)
+    edges, offsets, message = _native.suggest_seams(
+        *polygons, preference, used.with_energy_limit(), _arguments.checked_progress(progress)
+    )
     cuts = Cuts(np.split(edges, offsets[1:-1]) if len(edges) else [])
     cuts.message = message
     return cuts

@@ -74,7 +74,6 @@ def unwrap(
     """
     used = changed(options, _DEFAULTS, changes)
     arguments, n_vertices = _checked_mesh(
-        _arguments.heard_by(progress, "charts"),
         used,
         vertices,
         face_offsets,
@@ -90,7 +89,7 @@ def unwrap(
         _native.unwrap(
             arguments,
             _arguments.checked_extenders(extenders, used.method, n_vertices),
-            progress,
+            _arguments.checked_progress(progress),
             native_of(kept_maps),
         )
     )
@@ -125,7 +124,6 @@ class Unwrapper:
         """
         self._options = changed(options, _DEFAULTS, changes)
         arguments, self._n_vertices = _checked_mesh(
-            _arguments.heard_by(None, "charts"),
             self._options,
             vertices,
             face_offsets,
@@ -159,7 +157,6 @@ class Unwrapper:
 
 
 def _checked_mesh(
-    heard: _arguments.Heard,
     options: Options,
     vertices: npt.ArrayLike,
     face_offsets: npt.ArrayLike,
@@ -172,14 +169,11 @@ def _checked_mesh(
     metric: npt.ArrayLike | None,
 ) -> tuple[Any, int]:
     """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
-    polygons = _arguments.checked_polygon_mesh(
-        vertices, face_offsets, corner_vertices, seam_edges, selected_faces, heard
-    )
+    polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
     vertices, offsets, corners = polygons[:3]
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
-    heard()
     all_triangles = bool((np.diff(offsets) == 3).all())
-    tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,), heard)
+    tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
     pin_list = _arguments.checked_pins(pins, len(vertices))
     return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), len(vertices)
 
