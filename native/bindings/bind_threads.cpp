@@ -2,7 +2,6 @@
 
 #include "bindings/bind.h"
 #include "graph/listening.h"
-#include "graph/silence.h"
 #include "graph/thread_budget.h"
 #include "spectral_conformal/thread_limit.h"
 

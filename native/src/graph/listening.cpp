@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "graph/silence.h"
-
 namespace spectral_conformal {
 namespace {
 
@@ -13,6 +11,8 @@ constexpr double usual_interval = std::chrono::nanoseconds(Listening::interval).
 /// Work may take this many times as long as it says before the listener is asked late.
 constexpr double looks_in_interval = 16;
 
+std::atomic<double> interval_of_test{0};  ///< of work, in nanoseconds; 0 for none
+
 struct Ear {
   Listening* own = nullptr;
   Listening* other = nullptr;  ///< of the thread that this one works for
@@ -20,16 +20,17 @@ struct Ear {
   double worked = 0;
   double next_look = 0;  ///< at the clock, when so much is done
   Clock::time_point asked;
+  double longest_silence = 0;  ///< of work
 
   void begin_interval() {
-    longest_silence() = std::max(longest_silence(), worked);
+    longest_silence = std::max(longest_silence, worked);
     worked = 0;
-    const double interval = listening_interval_of_test();
+    const double interval = interval_of_test;
     next_look = interval > 0 ? interval : usual_interval / looks_in_interval;
     if (!(interval > 0)) asked = Clock::now();
   }
   bool is_due() const {
-    return listening_interval_of_test() > 0 || worked >= usual_interval || Clock::now() - asked >= Listening::interval;
+    return interval_of_test > 0 || worked >= usual_interval || Clock::now() - asked >= Listening::interval;
   }
 };
 
@@ -37,7 +38,14 @@ thread_local Ear ear;
 
 }  // namespace
 
-double exchange_listening_interval(double nanoseconds) { return listening_interval_of_test().exchange(nanoseconds); }
+double exchange_listening_interval(double nanoseconds) { return interval_of_test.exchange(nanoseconds); }
+
+double listening_interval() {
+  const double interval = interval_of_test;
+  return interval > 0 ? interval : usual_interval;
+}
+
+double take_longest_silence() { return std::exchange(ear.longest_silence, 0.0); }
 
 Listening::Listening(const Progress& progress, const char* phase) : given_(&progress), phase_(phase) {
   if (!progress) return;

@@ -69,6 +69,11 @@ class Listening {
 /// For tests: another interval of work, in nanoseconds, for the threads that begin to listen from then on, by which the
 /// listener is then asked alone, without a look at the clock. Returns the one before; 0 stands for the usual one.
 double exchange_listening_interval(double nanoseconds);
+/// The one in use.
+double listening_interval();
+/// For tests: the most work, in nanoseconds, that this thread has said it did between two calls of a listener. Begins
+/// anew.
+double take_longest_silence();
 
 /// Says that this thread has worked for about so long since it said so last; after each Listening::interval of such
 /// work the listener is asked, and before where the clock says that it is due: new memory, above all, may take many

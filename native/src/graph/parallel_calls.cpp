@@ -10,7 +10,6 @@
 
 #include "graph/helper_threads.h"
 #include "graph/listening.h"
-#include "graph/silence.h"
 
 namespace spectral_conformal {
 namespace {
