@@ -83,9 +83,11 @@ class ObjAsset(OneMeshAsset):
         numbers[corner_mapped] = before + 1 + index
         words = np.append(self._corner_words, referring)
         numbers = np.append(numbers, referred + 1)
-        starts, ends = self._word_starts[words], self._word_ends[words]
-        places = zip(starts.tolist(), ends.tolist(), numbers.tolist())
-        texts = [_with_number(self._data[start:end], number) for start, end, number in places]
+        starts, ends, is_last = self._uv_parts(words)
+        texts = [
+            b"/%d" % number if number else b"" if last else b"/"
+            for number, last in zip(numbers.tolist(), is_last.tolist())
+        ]
         texts += [b""] * len(lines_of_uv)
         texts.append(b"".join(b"vt %r %r%s" % (u, v, self._newline) for u, v in different.tolist()))
         starts = np.concatenate([starts, self._starts[lines_of_uv], [self._starts[first_face]]])
@@ -100,6 +102,16 @@ class ObjAsset(OneMeshAsset):
                 yield name
                 folder = PurePosixPath(name).parent
                 yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
+
+    def _uv_parts(self, words: Integers) -> tuple[Integers, Integers, npt.NDArray[np.bool_]]:
+        """Return where the UV of corners, such as 1, 1/2 and 1/2/3, begins with its slash and ends, and if it is last."""
+        starts, ends = self._word_starts[words], self._word_ends[words]
+        slashes = np.flatnonzero(np.frombuffer(self._data, np.uint8) == ord("/"))
+        slashes = np.append(slashes, [len(self._data), len(self._data)])
+        following = np.searchsorted(slashes, starts)
+        first, second = (np.minimum(slashes[following + k], ends) for k in (0, 1))
+        is_last = second + 1 >= ends
+        return first, np.where(is_last, ends, second), is_last
 
     def _uses_of_uv(self) -> tuple[Integers, Integers]:
         """Return the words outside of faces that name a UV, and which each names."""
@@ -284,14 +296,6 @@ class PlainAsset:
             n_vertices += len(mesh.vertices)
             n_uv += len(different)
         return {out: "".join(f"{row}\n" for row in rows).encode("utf-8", "surrogateescape")}
-
-
-def _with_number(corner: bytes, number: int) -> bytes:
-    """Return a corner, such as 1/2/3, with another UV, or without one for 0."""
-    vertex, *others = corner.split(b"/", 2)
-    if len(others) == 2 and others[1]:
-        return b"%b/%b/%b" % (vertex, b"%d" % number if number else b"", others[1])
-    return b"%b/%d" % (vertex, number) if number else vertex
 
 
 def _parsed(text: bytes, kind: type) -> npt.NDArray | None:
