@@ -27,6 +27,8 @@ WITH_FAULTS = ("-m", "tests.module.batch_with_faults")
 MEASURED = ("seconds", "peak_memory", "attempts")
 SECONDS = 500
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def environ():

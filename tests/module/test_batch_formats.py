@@ -15,6 +15,9 @@ from spectral_conformal import assets
 from tests.module import batch_assets, test_gltf
 
 SECONDS = 300
+
+pytestmark = pytest.mark.slow
+
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "real"
 
 
