@@ -104,7 +104,7 @@ class ObjAsset(OneMeshAsset):
                 yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
 
     def _uv_parts(self, words: Integers) -> tuple[Integers, Integers, npt.NDArray[np.bool_]]:
-        """Return where the UV of corners such as 1, 1/2 and 1/2/3 begins, with its slash, and ends, and if it is last."""
+        """Return where UVs in corners such as 1/2/3 begin, slash included, where they end, and if they are last."""
         starts, ends = self._word_starts[words], self._word_ends[words]
         slashes = np.flatnonzero(np.frombuffer(self._data, np.uint8) == ord("/"))
         slashes = np.append(slashes, [len(self._data), len(self._data)])
