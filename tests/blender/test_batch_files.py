@@ -83,11 +83,25 @@ scene.collection.objects.link(b); save("two_scenes")
 a = new("A"); a.shape_key_add(name="Basis"); key = a.shape_key_add(name="K")
 key.data[0].co = (5, 5, 5); key.value = 1.0; a.active_shape_key_index = 1; save("shape_key")
 a = new("A"); bpy.ops.object.mode_set(mode="EDIT"); save("edit_mode")
+a = new("A"); bpy.ops.object.armature_add(); bpy.ops.object.mode_set(mode="POSE")
+bpy.context.object.hide_set(True); save("pose_mode")
 a = new("A"); second = a.data.uv_layers.new(name="second"); a.data.uv_layers[0].active_render = True; save("two_maps")
 a = new("A"); a.scale = (2, 2, 2); b = cube("B"); b.scale = (1, -1, 1); save("scaled")
 a = new("A"); a.scale = (1, 1, 3); save("uneven")
 a = new("A"); a.data.vertices[0].co = a.data.vertices[1].co = a.data.vertices[2].co = (0, 0, 0); save("no_area")
 bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True); save("nothing")
+"""
+
+TWO = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+for add, name in ((bpy.ops.mesh.primitive_plane_add, "Open"), (bpy.ops.mesh.primitive_cube_add, "Closed")):
+    add()
+    mesh = bpy.context.object.data
+    mesh.name = name
+    while mesh.uv_layers:
+        mesh.uv_layers.remove(mesh.uv_layers[0])
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 
 READ = """
@@ -122,8 +136,22 @@ def test_what_cannot_be_selected_is_mapped_all_the_same(blend):
         report = report_of(folder, f"{name}.blend")
         assert (report["status"], report["totals"]["islands"], report["totals"]["faces"]) == ("unwrapped", 12, 12), name
         assert report["totals"]["overlaps"] == 0
-    assert report_of(folder, "hidden_faces.blend")["totals"]["islands"] == 6
+    for name in ("hidden_faces", "pose_mode"):
+        assert report_of(folder, f"{name}.blend")["totals"]["islands"] == 6, name
     assert "no mesh with faces" in report_of(folder, "nothing.blend")["failure"]["message"]
+
+
+def test_meshes_that_cannot_be_unwrapped_are_named_and_the_others_mapped(blend):
+    blender, folder, *_ = blend
+    alone = folder / "keep"
+    (alone / "in").mkdir(parents=True)
+    in_blender(blender, alone, TWO, alone / "in" / "two.blend")
+    code, told = run(blender, alone, "--seams", "keep", "--picture-size", 0)
+    assert code == 2, told
+    report = report_of(alone, "two.blend")
+    assert (report["status"], report["totals"]["failed"]) == ("incomplete", 1)
+    assert any(warning.startswith("1 island of Closed could not be unwrapped: ") for warning in report["warnings"])
+    assert "6 of 7 faces have no UVs." in report["warnings"]
 
 
 def test_written_files_have_the_map_and_their_state(blend):

@@ -73,6 +73,15 @@ def test_without_any_map():
     assert np.isnan([report.qc_mean, report.qc_p99, report.qc_max, report.density_spread, report.fill]).all()
 
 
+def test_quads_that_a_fixed_diagonal_flips_are_counted():
+    """A dart, whose reflex corner makes one diagonal lie outside of it, from each of its corners."""
+    dart = np.array([(0.0, 0.0), (0.5, 0.4), (1.0, 0.0), (0.5, 1.0)])
+    found = [map_report([mesh_of([1], [np.roll(dart, turn, axis=0)])]) for turn in range(4)]
+    assert [report.split_flips for report in found] == [1, 0, 1, 0]
+    assert [report.flips for report in found] == [0] * 4
+    assert map_report([mesh_of([1], [SQUARE])]).split_flips == 0
+
+
 GOOD = MapReport(9, 0, 0, 0, 3, 0, 0, 1.01, 1.2, 1.4, 0.01, 0.6)
 
 

@@ -6,9 +6,11 @@ import html.parser
 import json
 import os
 import sys
+from dataclasses import fields
 
 import pytest
-from spectral_conformal.batch import overview
+from spectral_conformal.assets.report import MapReport
+from spectral_conformal.batch import overview, report_file
 
 NAMES = [
     *("chair{0}.obj", "=1+1.obj", "+1.obj", "-1.obj", "@sum.obj", "\tx.obj", "new\nline.obj", "cr\rx.obj", "a,b.obj"),
@@ -58,6 +60,39 @@ def test_numbers_stay_numbers(tmp_path):
     overview.write(tmp_path, [report])
     with (tmp_path / overview.CSV).open(newline="") as table:
         assert next(csv.DictReader(table))["qc_mean"] == "-1.5"
+
+
+WHOLE = {
+    **{"status": "unwrapped", "settings": {}, "source_digest": "", "output_digest": "", "seconds": {"total": 1.0}},
+    "totals": {"failed": 0, **{field.name: 1 for field in fields(MapReport)}},
+}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"status": "<b>"},
+        {"status": "failed"},
+        {"status": "failed", "failure": {"kind": "error", "message": ["a"]}},
+        {"totals": [1]},
+        {"totals": {**WHOLE["totals"], "faces": "<script>"}},
+        {"totals": {"faces": 1}},
+        {"seconds": None},
+        {"seconds": {"total": "long"}},
+    ],
+)
+def test_a_report_of_somebody_else_is_none(change, tmp_path):
+    (tmp_path / "report.json").write_text(json.dumps({**WHOLE, **change}))
+    assert report_file.read(tmp_path) is None
+    (tmp_path / "report.json").write_text(json.dumps(WHOLE))
+    assert report_file.read(tmp_path) == WHOLE
+
+
+def test_what_is_no_number_is_not_in_a_column_of_numbers(tmp_path):
+    odd = {**report_of("a.obj", "bad"), "peak_memory": "<b>much</b>", "attempts": {"a": 1}, "totals": [1, 2]}
+    overview.write(tmp_path, [odd])
+    (row,) = json.loads((tmp_path / overview.JSON).read_text())["rows"]
+    assert row["peak_memory"] is None and row["attempts"] is None and row["faces"] is None
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="names of files are text there")

@@ -138,6 +138,20 @@ def without_uv(path):
     return text.ExportToString()
 
 
+def complaints(path):
+    """Return what the validators of usdchecker say of a file."""
+    validation = pytest.importorskip("pxr.UsdValidation")
+    validators = validation.ValidationRegistry().GetOrLoadAllValidators()
+    errors = validation.ValidationContext(validators).Validate(Usd.Stage.Open(str(path)))
+    return sorted((error.GetName(), error.GetMessage().replace(str(path), "")) for error in errors)
+
+
+def test_the_validators_see_what_is_wrong(tmp_path):
+    path = tmp_path / "m.usda"
+    path.write_text(SCENE.replace("rel material:binding", "custom rel material:binding").replace('upAxis = "Z"', ""))
+    assert "MissingUpAxisMetadata" in {name for name, _ in complaints(path)}
+
+
 @pytest.mark.parametrize("name", ["m.usda", "m.usdc", "m.usd", "text.usd", "m.usdz"])
 def test_all_else_is_as_it_was(name, tmp_path):
     path = save(tmp_path / name)
@@ -153,6 +167,7 @@ def test_all_else_is_as_it_was(name, tmp_path):
     assert new.read_bytes()[:8] == path.read_bytes()[:8]
     for mesh, uv_map in zip(assets.read(new).meshes, maps):
         assert np.array_equal(mesh.corner_uv, uv_map.uv)
+    assert complaints(new) == complaints(path)
     if suffix == ".usdz":
         with zipfile.ZipFile(new) as package:
             assert package.namelist() == ["inner.usdc", "textures/a.png"]

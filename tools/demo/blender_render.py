@@ -12,10 +12,6 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-# isort: split
-# With the bpy wheel the add-on's folder is on the path only after bpy.
-from spectral_unwrap import compatibility
-
 # Squares along the longest side of the model.
 SQUARES = 40
 RESOLUTION = (1400, 700)
@@ -58,10 +54,17 @@ def main() -> None:
     render(output / "checker.png")
 
 
+def shader_nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
+    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 will know no `use_nodes`."""
+    if data.node_tree is None:
+        data.use_nodes = True
+    return data.node_tree.nodes
+
+
 def checker_material(mesh: bpy.types.Mesh) -> bpy.types.Material:
     """Return a material with squares that are SQUARES to the model's size on average."""
     material = bpy.data.materials.new("Checker")
-    nodes = compatibility.shader_nodes(material)
+    nodes = shader_nodes(material)
     links = material.node_tree.links
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Roughness"].default_value = 0.45
@@ -103,7 +106,7 @@ def add_backdrop(height: float) -> None:
     mesh.from_pydata(vertices, [], faces)
     mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
     material = bpy.data.materials.new("Backdrop")
-    shader = next(node for node in compatibility.shader_nodes(material) if node.type == "BSDF_PRINCIPLED")
+    shader = next(node for node in shader_nodes(material) if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Base Color"].default_value = BACKDROP
     shader.inputs["Roughness"].default_value = 0.9
     mesh.materials.append(material)
@@ -123,7 +126,7 @@ def add_lights() -> None:
         item.matrix_world = looking_at_origin(Vector(place))
         bpy.context.scene.collection.objects.link(item)
     world = bpy.data.worlds.new("World")
-    background = next(node for node in compatibility.shader_nodes(world) if node.type == "BACKGROUND")
+    background = next(node for node in shader_nodes(world) if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (0.75, 0.82, 0.9, 1)
     background.inputs["Strength"].default_value = 0.25
     bpy.context.scene.world = world

@@ -16,6 +16,8 @@ from .mesh import AssetMesh, next_corner
 # Of the mean area of a face: faces below have no shape that could be kept.
 _DEGENERATE = 1e-10
 _UNKNOWN = float("nan")
+# Of a quad's larger triangle, the smaller one: below, single precision decides how it is wound.
+_ROUNDING = 1e-4
 # Of the area: what is shown in the range of colours; and the least width of that, so that a good map looks good.
 _SHOWN = 0.98
 _LEAST_SHOWN = 0.2
@@ -60,6 +62,9 @@ class MapReport:
     by the latter."""
     fill: float
     """Area of the map over the area of all tiles of the texture that it lies in."""
+    split_flips: int = 0
+    """Quads of which one triangle lies the wrong way round where a program splits them at the first corner, as Blender
+    and most exporters do; along the other diagonal they may be right."""
 
     @classmethod
     def from_json(cls, values: Mapping[str, float | None]) -> MapReport:
@@ -147,6 +152,7 @@ class Measurement:
             collapsed=int(self.is_collapsed.sum()),
             islands=int(self.island_of_face.max(initial=-1)) + 1,
             flips=int(self.flipped.sum()),
+            split_flips=int(self._split_flips().sum()),
             overlaps=int(self.overlapping.sum()),
             qc_mean=mean,
             qc_p99=p99,
@@ -195,6 +201,18 @@ class Measurement:
         if not len(qc):
             return _UNKNOWN, _UNKNOWN, _UNKNOWN
         return float(np.average(qc, weights=weight)), percentile(qc, weight, 0.99), float(qc.max())
+
+    def _split_flips(self) -> np.ndarray:
+        """Return which faces, (F,) bool, are quads whose two triangles from the first corner are wound differently."""
+        quads = np.flatnonzero(self.counted & (np.diff(self.face_offsets) == 4))
+        first = self.uv[self.face_offsets[:-1][quads]]
+        one, two, three = (self.uv[self.face_offsets[:-1][quads] + k] - first for k in (1, 2, 3))
+        areas = [a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] for a, b in ((one, two), (two, three))]
+        result = np.zeros(len(self.counted), dtype=bool)
+        # Below the steps of single precision a triangle has no side.
+        result[quads] = np.minimum(*areas) < -_ROUNDING * np.abs(np.maximum(*areas))
+        result[quads] &= np.maximum(*areas) > _ROUNDING * np.abs(np.minimum(*areas))
+        return result
 
     def _densities(self, faces: np.ndarray) -> np.ndarray:
         return np.sqrt(self.image_area[faces] / self.area[faces])

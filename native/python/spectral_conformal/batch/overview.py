@@ -79,15 +79,21 @@ def line(report: dict[str, Any]) -> str:
 
 
 def row(report: dict[str, Any]) -> dict[str, Any]:
-    """Return the columns of a report, None where it has nothing to say."""
-    return {name: _value(report, path) for name, path in COLUMNS}
+    """Return the columns of a report, None where it has nothing to say, or nothing of the column's kind."""
+    found = {name: _value(report, path) for name, path in COLUMNS}
+    return {
+        name: value if _kind(name) == "text" or report_file.is_number(value, or_none=True) else None
+        for name, value in found.items()
+    }
 
 
 def _value(report: dict[str, Any], path: Sequence[str]) -> Any:  # noqa: ANN401 - any of JSON's
     value: Any = report
     for name in path:
         value = value.get(name) if isinstance(value, dict) else None
-    return "; ".join(map(str, value)) if isinstance(value, list) else value
+    if isinstance(value, list):
+        return "; ".join(map(str, value))
+    return str(value) if isinstance(value, dict) else value
 
 
 def write(out: Path, reports: Sequence[dict[str, Any]], is_interrupted: bool = False) -> None:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from ..assets.report import MapReport
 from ..assets.temporary import temporary_beside
 from . import entries
+
+_STATUSES = ("unwrapped", "kept", "incomplete", "failed")
+_NUMBERS = tuple(field.name for field in fields(MapReport))
 
 
 def replace(path: Path, content: bytes) -> None:
@@ -26,9 +31,31 @@ def write(folder: Path, report: dict[str, Any]) -> None:
 
 
 def read(folder: Path) -> dict[str, Any] | None:
-    """Return the report in an asset's folder; None where there is none, or no whole one."""
+    """Return the report in an asset's folder; None where there is none, or nothing that this module has written."""
     try:
         found = json.loads((folder / entries.REPORT).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
-    return found if isinstance(found, dict) and "status" in found else None
+    return found if _is_report(found) else None
+
+
+def _is_report(found: object) -> bool:
+    """Tell whether everything is there, and of the kind, that others use: a file may be from anybody."""
+    if not isinstance(found, dict) or found.get("status") not in _STATUSES:
+        return False
+    if found["status"] == "failed":
+        failure = found.get("failure")
+        return isinstance(failure, dict) and all(isinstance(failure.get(name), str) for name in ("kind", "message"))
+    totals, seconds = found.get("totals"), found.get("seconds")
+    return (
+        isinstance(totals, dict)
+        and all(name in totals and is_number(totals[name], or_none=True) for name in (*_NUMBERS, "failed"))
+        and isinstance(seconds, dict)
+        and is_number(seconds.get("total"))
+        and all(name in found for name in ("settings", "source_digest", "output_digest"))
+    )
+
+
+def is_number(value: object, or_none: bool = False) -> bool:
+    """Tell whether a value of JSON is a number."""
+    return (value is None and or_none) or (isinstance(value, (int, float)) and not isinstance(value, bool))

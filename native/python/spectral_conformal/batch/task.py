@@ -162,8 +162,15 @@ def _unwrap(
     with phases("seams"):
         cut_meshes = _cut(asset.meshes, settings, report["warnings"])
     failures: Counter[str] = Counter()
+    meshes_of: dict[str, list[str]] = {}
     with phases("solve"):
-        results = [_unwrapped(each, settings, failures) for each in cut_meshes]
+        results = []
+        for each in cut_meshes:
+            result, reasons = _unwrapped(each, settings)
+            results.append(result)
+            failures += reasons
+            for reason in reasons:
+                meshes_of.setdefault(reason, []).append(each.mesh.name)
     _note(results, failures, report)
     if not any(result is not None and result.solved_corners.any() for result in results):
         raise AssetError(f"No island could be unwrapped: {'; '.join(failures)}")
@@ -171,7 +178,8 @@ def _unwrap(
         maps = laid_out(asset.meshes, results, settings.layout)
     for reason, number in failures.items():
         islands = "1 island" if number == 1 else f"{number} islands"
-        report["warnings"].append(f"{islands} could not be unwrapped: {reason}")
+        where = ", ".join(filter(None, meshes_of[reason]))
+        report["warnings"].append(f"{islands}{where and f' of {where}'} could not be unwrapped: {reason}")
     report["counts"] = {
         "vertices": sum(len(mesh.vertices) for mesh in asset.meshes),
         "welded": sum(int((each.vertex_of != np.arange(len(each.vertex_of))).sum()) for each in cut_meshes),
@@ -201,18 +209,14 @@ def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[st
     return found
 
 
-def _unwrapped(cut_mesh: CutMesh, settings: BatchSettings, failures: Counter[str]) -> Unwrap | None:
-    """Return the maps of a mesh, None for one that is refused as a whole; count what failed by its reason."""
+def _unwrapped(cut_mesh: CutMesh, settings: BatchSettings) -> tuple[Unwrap | None, Counter[str]]:
+    """Return the maps of a mesh, None for one that is refused as a whole, and how often what reason made one fail."""
     try:
         result = unwrapped(cut_mesh, settings.options)
     except (ValueError, MemoryError) as error:
-        reason = str(error) or "there is too little memory for it."
-        failures[_named(cut_mesh.mesh, reason)] += 1
-        return None
-    charts = result.charts
-    failed = charts.column("status") != "solved"
-    failures.update(charts.column("message")[failed].tolist())
-    return result
+        return None, Counter([str(error) or "There is too little memory for it."])
+    failed = result.charts.column("status") != "solved"
+    return result, Counter(result.charts.column("message")[failed].tolist())
 
 
 def _named(mesh: AssetMesh, sentence: str) -> str:

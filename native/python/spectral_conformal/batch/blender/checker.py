@@ -12,6 +12,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from ...assets import AssetMesh
+from ...assets.temporary import temporary_beside
 from . import meshes
 
 _CHECKS = 40.0
@@ -52,12 +53,17 @@ def render(path: Path, size: int, shown: Sequence[AssetMesh], y_is_up: bool) -> 
     with tempfile.TemporaryDirectory() as folder:
         _set_up(scene, world, Path(folder) / "checker.png", size)
         bpy.ops.render.render(write_still=True)
-        shutil.move(scene.render.filepath, path)
+        partial = temporary_beside(path)
+        try:
+            shutil.copyfile(scene.render.filepath, partial)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
 
 
 def _material(towards_camera: Vector) -> bpy.types.Material:
     material = bpy.data.materials.new("checker")
-    nodes = _nodes(material)
+    nodes = shader_nodes(material)
     links = material.node_tree.links
     nodes.clear()
     output, light = nodes.new("ShaderNodeOutputMaterial"), nodes.new("ShaderNodeEmission")
@@ -81,7 +87,7 @@ def _material(towards_camera: Vector) -> bpy.types.Material:
 
 
 def _set_up(scene: bpy.types.Scene, world: bpy.types.World, path: Path, size: int) -> None:
-    for node in _nodes(world):
+    for node in shader_nodes(world):
         if node.type == "BACKGROUND":
             node.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     scene.render.engine = "CYCLES"
@@ -94,7 +100,7 @@ def _set_up(scene: bpy.types.Scene, world: bpy.types.World, path: Path, size: in
     scene.render.filepath = str(path)
 
 
-def _nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
+def shader_nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
     """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 will know no `use_nodes`."""
     if data.node_tree is None:
         data.use_nodes = True

@@ -68,23 +68,23 @@ class BlenderAsset:
         if not self.meshes:
             raise AssetError(f"{path.name}: there is no mesh with faces in it that is its own.")
 
-    def _open(self) -> str:
-        """Let Blender read the file; return the mode that its active object was in, which is left."""
+    def _open(self) -> bool:
+        """Let Blender read the file; return whether it was in edit mode, which is left."""
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         if self.suffix == BLEND:
             # Scripts in files of others do not run.
             _call("wm.open_mainfile", {"filepath": str(self.path), "load_ui": False, "use_scripts": False}, self.path)
             bpy.context.view_layer.update()
-            # The mesh of edit mode would take the place of what is written.
-            mode = bpy.context.object.mode if bpy.context.object else "OBJECT"
-            if mode != "OBJECT":
+            # The mesh of edit mode would take the place of what is written; other modes have none of their own.
+            is_edited = bpy.context.mode == "EDIT_MESH"
+            if is_edited:
                 bpy.ops.object.mode_set(mode="OBJECT")
-            return mode
+            return is_edited
         importer = next(filter(_is_known, _IMPORTERS), None)
         if importer is None:
             raise AssetError(f"{self.path.name}: Blender {bpy.app.version_string} has no importer of FBX switched on.")
         _call(importer, {"filepath": str(self.path), **_IMPORT}, self.path)
-        return "OBJECT"
+        return False
 
     def save(self, path: Path, maps: Sequence[UvMap]) -> None:
         """Write the file with other UVs to a path of the same suffix, from which relative paths in it hold.
@@ -92,11 +92,11 @@ class BlenderAsset:
         Raises:
             AssetError: Blender cannot write it.
         """
-        mode = self._open()
+        was_edited = self._open()
         for name, uv_map in zip(self._names, maps):
             meshes.write_uv(bpy.data.meshes[name], self.uv_map, uv_map)
-        if mode != "OBJECT":
-            bpy.ops.object.mode_set(mode=mode)
+        if was_edited:
+            bpy.ops.object.mode_set(mode="EDIT")
         if self.suffix == BLEND:
             options = {"copy": True, "check_existing": False, "compress": self._is_compressed}
             _call("wm.save_as_mainfile", {"filepath": str(path), **options}, path)
@@ -117,6 +117,8 @@ class BlenderAsset:
         for name, mesh, uv_map in zip(self._names, self.meshes, maps):
             again = found.get(name)
             corners = np.repeat(uv_map.mapped, np.diff(mesh.face_offsets))
+            if not uv_map.mapped.any() and again is not None:
+                continue
             if (
                 again is None
                 or not np.array_equal(again.face_offsets, mesh.face_offsets)

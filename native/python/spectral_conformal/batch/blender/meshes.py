@@ -57,10 +57,14 @@ def has_extenders(mesh: bpy.types.Mesh) -> bool:
 def write_uv(mesh: bpy.types.Mesh, uv_map: str, found: UvMap) -> None:
     """Write a map into the layer of this name, made where it is missing; without a name, the active one.
 
+    A mesh of which no face is mapped, and that has no such layer, gets none.
+
     Raises:
         AssetError: there is no room for another layer.
     """
     layer = _layer(mesh, uv_map)
+    if layer is None and not found.mapped.any():
+        return
     old = np.zeros((len(mesh.loops), 2)) if layer is None else _uv(layer, len(mesh.loops))
     if layer is None:
         layer = mesh.uv_layers.new(name=uv_map or "UVMap", do_init=False)
