@@ -5,7 +5,9 @@ import base64
 import copy
 import itertools
 import json
+import re
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -464,3 +466,14 @@ def test_what_draco_has_compressed_is_mapped(tmp_path):
     assert buffers[0][view["byteOffset"] :][: view["byteLength"]] == PICTURE
     # The compressed bytes are gone.
     assert data[:20] not in buffers[0]
+
+
+def test_the_documents_script_for_files_runs(tmp_path, monkeypatch):
+    text = (Path(__file__).resolve().parents[2] / "docs" / "scripting.md").read_text(encoding="utf-8")
+    (code,) = [code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "assets" in code]
+    monkeypatch.chdir(tmp_path)
+    save(tmp_path / "chair.glb", everything())
+    exec(compile(code, "scripting.md", "exec"), {})
+    meshes = assets.read(tmp_path / "chair_uv.glb").meshes
+    assert all(np.isfinite(mesh.corner_uv).all() for mesh in meshes)
+    assert meaning(tmp_path / "chair_uv.glb") == meaning(tmp_path / "chair.glb")

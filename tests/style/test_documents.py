@@ -74,9 +74,16 @@ def test_python_in_documents_compiles(document):
 
 
 def module_code():
-    """Return the blocks of docs/scripting.md for the module alone; tests/blender/test_scripting.py runs the others."""
+    """Return the blocks of docs/scripting.md for the module's functions.
+
+    tests/blender/test_scripting.py and tests/module/test_gltf.py run the others.
+    """
     text = (ROOT / "docs" / "scripting.md").read_text(encoding="utf-8")
-    return [code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "bpy" not in code]
+    return [
+        code
+        for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        if not re.search(r"\bbpy\b|\bassets\b", code)
+    ]
 
 
 @pytest.mark.parametrize("code", module_code(), ids=lambda code: code.split()[1])

@@ -117,6 +117,8 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
         asset = files.read(source, settings)
     if asset.suffix != source.suffix.lower() and not settings.usd_over:
         report["warnings"].append(f"{source.suffix} holds no UVs: written as {target.suffix}.")
+    elif asset.suffix != target.suffix.lower():
+        report["warnings"].append(f"Written as {target.suffix}, which of {source.suffix} has the meshes alone.")
     maps = _unwrap(asset, settings, phases, report) if settings.unwrap else _keep(asset, settings.layout, phases)
     with phases("write"):
         written, warnings = files.write(target, asset, maps)
@@ -195,9 +197,9 @@ def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[st
     for mesh in meshes:
         try:
             each = cut(mesh, settings.cutting)
-        except ValueError as error:
+        except (ValueError, MemoryError) as error:
             each = cut(mesh, replace(settings.cutting, seams="keep"))
-            warnings.append(_named(mesh, f"no seams were found: {error}"))
+            warnings.append(_named(mesh, f"no seams were found: {_reason(error)}"))
         if each.message:
             warnings.append(_named(mesh, each.message))
         found.append(each)
@@ -214,9 +216,13 @@ def _unwrapped(cut_mesh: CutMesh, settings: BatchSettings) -> tuple[Unwrap | Non
     try:
         result = unwrapped(cut_mesh, settings.options)
     except (ValueError, MemoryError) as error:
-        return None, Counter([str(error) or "There is too little memory for it."])
+        return None, Counter([_reason(error)])
     failed = result.charts.column("status") != "solved"
     return result, Counter(result.charts.column("message")[failed].tolist())
+
+
+def _reason(error: Exception) -> str:
+    return str(error) or "there is too little memory for it."
 
 
 def _named(mesh: AssetMesh, sentence: str) -> str:
