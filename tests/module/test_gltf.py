@@ -477,3 +477,51 @@ def test_the_documents_script_for_files_runs(tmp_path, monkeypatch):
     meshes = assets.read(tmp_path / "chair_uv.glb").meshes
     assert all(np.isfinite(mesh.corner_uv).all() for mesh in meshes)
     assert meaning(tmp_path / "chair_uv.glb") == meaning(tmp_path / "chair.glb")
+
+
+def two_buffers():
+    """Positions in one buffer, indices in another."""
+    build = Builder()
+    places, triangles = grid(3)
+    attributes = {"POSITION": build.accessor(places)}
+    first = build.buffer
+    build.buffer = b""
+    indices = build.accessor(triangles.reshape(-1, 1), "u2")
+    build.json["bufferViews"][1]["buffer"] = 1
+    build.json["buffers"] = [
+        {"byteLength": len(data), "uri": uri} for data, uri in ((build.buffer, "x.bin"), (first, "deep/own%20y.bin"))
+    ]
+    for view in build.json["bufferViews"]:
+        view["buffer"] = 1 - view["buffer"]
+    build.json["meshes"] = [{"primitives": [{"attributes": attributes, "indices": indices}]}]
+    return build, {"x.bin": build.buffer, "deep/own y.bin": first}
+
+
+def test_buffers_that_stay_go_along(tmp_path):
+    build, buffers = two_buffers()
+    (tmp_path / "deep").mkdir()
+    for name, data in buffers.items():
+        (tmp_path / name).write_bytes(data)
+    (tmp_path / "m.gltf").write_text(json.dumps(build.json))
+    asset = assets.read(tmp_path / "m.gltf")
+    (tmp_path / "out").mkdir()
+    # Without a seam no vertex has a copy.
+    flat = [assets.UvMap(m.vertices[m.corner_vertices][:, :2] / 16, np.ones(18, bool)) for m in asset.meshes]
+    assets.write(tmp_path / "out" / "m.gltf", asset, flat)
+    assert (tmp_path / "out" / "deep" / "own y.bin").read_bytes() == buffers["deep/own y.bin"]
+    assert assets.read(tmp_path / "out" / "m.gltf").meshes[0].corner_uv is not None
+    assert not (tmp_path / "out" / "x.bin").exists()
+
+
+def test_a_buffer_that_another_file_uses_is_left_alone(tmp_path):
+    """Two levels of detail in one buffer, named after the first."""
+    path = save(tmp_path / "a.gltf", everything(), "beside")
+    (tmp_path / "my data.bin").rename(tmp_path / "a.bin")
+    for name in ("a.gltf", "b.gltf"):
+        (tmp_path / name).write_text(path.read_text(encoding="utf-8").replace("my%20data.bin", "a.bin"))
+    shared, other = (tmp_path / "a.bin").read_bytes(), meaning(tmp_path / "b.gltf")
+    for _ in range(2):
+        asset = assets.read(path)
+        assets.write(path, asset, seams_and_uv(asset))
+        assert (tmp_path / "a.bin").read_bytes() == shared and meaning(tmp_path / "b.gltf") == other
+    assert sorted(each.name for each in tmp_path.glob("*.bin")) == ["a.bin", "a_1.bin"]

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from urllib.parse import unquote
+from urllib.parse import quote, unquote
 
 import numpy as np
 import numpy.typing as npt
@@ -58,6 +58,7 @@ class GltfAsset:
         """
         self.path = path
         self.chunks: list[tuple[bytes, bytes]] = []
+        self.unchanged_buffers: list[_Json] = []
         self._read(path.read_bytes())
         self.suffix = ".glb" if self.chunks else ".gltf"
         self._notes: list[str] = []
@@ -75,9 +76,9 @@ class GltfAsset:
         self.warnings = list(self._notes)
 
     def references(self) -> Iterator[str]:
-        """Yield the images that are files of their own."""
-        for image in self.json.get("images", []):
-            uri = image.get("uri", "")
+        """Yield the images, and the buffers that `files` has left as they are, that are files of their own."""
+        for part in (*self.json.get("images", []), *self.unchanged_buffers):
+            uri = part.get("uri", "")
             if uri and not uri.startswith("data:"):
                 yield unquote(uri)
 
@@ -514,6 +515,7 @@ class _Edit:
 
     def _stored(self, out: Path, buffers: list[bytes]) -> dict[Path, bytes]:
         files: dict[Path, bytes] = {}
+        self._asset.unchanged_buffers = []
         binary = b""
         for number, (description, content) in enumerate(zip(self._json["buffers"], buffers)):
             uri = description.get("uri")
@@ -521,10 +523,12 @@ class _Edit:
                 binary = content
             elif uri.startswith("data:"):
                 description["uri"] = f"{uri.partition(',')[0]},{base64.b64encode(content).decode()}"
-            elif content != self._asset.buffers[number]:
-                name = f"{out.stem}.bin" if number == 0 else f"{out.stem}_{number}.bin"
-                description["uri"] = name
-                files[out.parent / name] = content
+            elif content == self._asset.buffers[number]:
+                self._asset.unchanged_buffers.append(description)
+            else:
+                path = _free_path(out, f"{out.stem}.bin" if number == 0 else f"{out.stem}_{number}.bin")
+                description["uri"] = quote(path.name)
+                files[path] = content
         if not self._asset.chunks:
             files[out] = json.dumps(self._json, ensure_ascii=False, indent=_indent(self._asset.text)).encode()
             return files
@@ -536,6 +540,18 @@ class _Edit:
         body = b"".join(struct.pack("<I4s", len(content), kind) + content for kind, content in chunks)
         files[out] = _GLB + struct.pack("<II", 2, 12 + len(body)) + body
         return files
+
+
+def _free_path(out: Path, name: str) -> Path:
+    """Return where a buffer of the file `out` goes: beside it, and not where another glTF of the folder has its own."""
+    others = [path.read_bytes() for path in out.parent.glob("*.gltf") if path.name != out.name]
+
+    def is_of_others(path: Path) -> bool:
+        spellings = [json.dumps(each)[1:-1].encode() for each in (path.name, quote(path.name))]
+        return path.exists() and any(spelling in other for spelling in spellings for other in others)
+
+    numbered = (out.with_name(f"{Path(name).stem}_{number}.bin") for number in itertools.count(1))
+    return next(path for path in itertools.chain([out.with_name(name)], numbered) if not is_of_others(path))
 
 
 def tangents_of(

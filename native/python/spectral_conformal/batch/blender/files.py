@@ -63,6 +63,9 @@ class BlenderAsset:
             self._names.append(mesh.name)
             if meshes.has_extenders(mesh):
                 self.warnings.append(f"The extenders of {mesh.name} were not used: they act in Blender's window.")
+        if self.suffix == BLEND and bpy.data.version[:2] != bpy.app.version[:2]:
+            before, now = (".".join(map(str, version[:2])) for version in (bpy.data.version, bpy.app.version))
+            self.warnings.append(f"The file was of Blender {before}, and is of {now} now.")
         if linked:
             self.warnings.append(f"Left alone, since other files hold them: {', '.join(sorted(linked))}.")
         if not self.meshes:
