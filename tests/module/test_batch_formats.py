@@ -171,7 +171,9 @@ def test_textures_and_materials_go_along_and_are_never_replaced(tmp_path):
     folder = tmp_path / "in"
     (folder / "tex").mkdir(parents=True)
     batch_assets.write_obj(folder / "a.obj", *batch_assets.grid(4, 0.3, 1))
-    (folder / "a.obj").write_text("mtllib mats/one.mtl\nusemtl red\n" + (folder / "a.obj").read_text())
+    (folder / "a.obj").write_text(
+        "mtllib mats/one.mtl\nusemtl red\nmtllib  ../up.mtl\n" + (folder / "a.obj").read_text()
+    )
     (folder / "mats").mkdir()
     (folder / "mats" / "one.mtl").write_text("newmtl red\nmap_Kd ../tex/my red.png\nbump -bm 2 ../tex/bump.png\n")
     for name in ("my red.png", "bump.png"):
@@ -180,7 +182,8 @@ def test_textures_and_materials_go_along_and_are_never_replaced(tmp_path):
     document = json.loads((folder / "b.gltf").read_text())
     document["images"] = [{"uri": "tex/my%20red.png"}, {"uri": "../up.png"}, {"uri": "missing.png"}]
     (folder / "b.gltf").write_text(json.dumps(document))
-    (tmp_path / "up.png").write_text("up")
+    for name in ("up.png", "up.mtl"):
+        (tmp_path / name).write_text("up")
     out = tmp_path / "out"
     (out / "b.gltf" / "tex").mkdir(parents=True)
     (out / "b.gltf" / "tex" / "my red.png").write_text("mine")
@@ -190,7 +193,12 @@ def test_textures_and_materials_go_along_and_are_never_replaced(tmp_path):
     assert (out / "a.obj" / "tex" / "my red.png").read_text() == "my red.png"
     assert (out / "a.obj" / "tex" / "bump.png").read_text() == "bump.png"
     assert (out / "b.gltf" / "tex" / "my red.png").read_text() == "mine"
-    assert any("../up.png stays where it is" in warning for warning in report_of(out, "b.gltf")["warnings"])
+    lines = (out / "a.obj" / "a.obj").read_text().splitlines()
+    assert [line for line in lines if "mtllib" in line] == ["mtllib mats/one.mtl", "mtllib  ../../up.mtl"]
+    # What lies above the folder stays, and is found from where the result lies.
+    images = json.loads((out / "b.gltf" / "b.gltf").read_text())["images"]
+    assert [image["uri"] for image in images] == ["tex/my%20red.png", "../../up.png", "missing.png"]
+    assert report_of(out, "b.gltf")["warnings"] == []
     assert not (out / "up.png").exists()
 
 

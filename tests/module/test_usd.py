@@ -233,3 +233,28 @@ def test_a_broken_file_is_named(content, said, tmp_path):
     (tmp_path / "m.usda").write_text(content)
     with pytest.raises(assets.AssetError, match=f"m.usda.*{said}"):
         assets.read(tmp_path / "m.usda")
+
+
+def test_what_a_scene_is_composed_of_is_found_from_where_it_is_written(tmp_path):
+    """A prototype above the scene's folder, with a map of its own, and a sublayer and a texture below it."""
+    for name in ("library", "shots/parts", "shots/tex", "out/deep"):
+        (tmp_path / name).mkdir(parents=True)
+    (tmp_path / "library" / "bolt.usda").write_text(
+        f'#usda 1.0\n(\n defaultPrim = "Bolt"\n)\ndef Mesh "Bolt"\n{{{SHEET}}}\n'
+    )
+    (tmp_path / "shots" / "parts" / "more.usda").write_text('#usda 1.0\ndef Xform "More"\n{\n}\n')
+    (tmp_path / "shots" / "tex" / "a.png").write_bytes(b"no picture")
+    shot = tmp_path / "shots" / "shot.usda"
+    shot.write_text(
+        "#usda 1.0\n(\n subLayers = [@./parts/more.usda@]\n)\n"
+        f'def Mesh "Own"\n{{{SHEET} asset picture = @./tex/a.png@\n}}\n'
+        'def Xform "There" (\n references = @../library/bolt.usda@\n)\n{\n}\n'
+    )
+    asset = assets.read(shot)
+    warnings = assets.write(tmp_path / "out" / "deep" / "new.usda", asset, maps_of(asset))
+    assert warnings == []
+    stage = Usd.Stage.Open(str(tmp_path / "out" / "deep" / "new.usda"))
+    assert UsdGeom.Mesh(stage.GetPrimAtPath("/There")).GetPointsAttr().Get() is not None
+    assert stage.GetPrimAtPath("/More").IsValid()
+    assert stage.GetPrimAtPath("/Own").GetAttribute("picture").Get().resolvedPath
+    assert (tmp_path / "out" / "deep" / "tex" / "a.png").is_file()

@@ -20,6 +20,7 @@ from urllib.parse import quote, unquote
 import numpy as np
 import numpy.typing as npt
 
+from . import references
 from .edits import Integers, in_order_of_use, numbered, places_of_copies
 from .mesh import AssetError, AssetMesh, UvMap, checked
 
@@ -58,7 +59,7 @@ class GltfAsset:
         """
         self.path = path
         self.chunks: list[tuple[bytes, bytes]] = []
-        self.unchanged_buffers: list[_Json] = []
+        self.beside: list[str] = []
         self._read(path.read_bytes())
         self.suffix = ".glb" if self.chunks else ".gltf"
         self._notes: list[str] = []
@@ -75,12 +76,9 @@ class GltfAsset:
         self.meshes = [checked(path, mesh) for mesh in polygons]
         self.warnings = list(self._notes)
 
-    def references(self) -> Iterator[str]:
-        """Yield the images, and the buffers that `files` has left as they are, that are files of their own."""
-        for part in (*self.json.get("images", []), *self.unchanged_buffers):
-            uri = part.get("uri", "")
-            if uri and not uri.startswith("data:"):
-                yield unquote(uri)
+    def references(self) -> Sequence[str]:
+        """Return the images, and the buffers that `files` has left as they are, that are files beside this one."""
+        return self.beside
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
@@ -515,7 +513,7 @@ class _Edit:
 
     def _stored(self, out: Path, buffers: list[bytes]) -> dict[Path, bytes]:
         files: dict[Path, bytes] = {}
-        self._asset.unchanged_buffers = []
+        others = list(self._json.get("images", []))
         binary = b""
         for number, (description, content) in enumerate(zip(self._json["buffers"], buffers)):
             uri = description.get("uri")
@@ -524,11 +522,12 @@ class _Edit:
             elif uri.startswith("data:"):
                 description["uri"] = f"{uri.partition(',')[0]},{base64.b64encode(content).decode()}"
             elif content == self._asset.buffers[number]:
-                self._asset.unchanged_buffers.append(description)
+                others.append(description)
             else:
                 path = _free_path(out, f"{out.stem}.bin" if number == 0 else f"{out.stem}_{number}.bin")
                 description["uri"] = quote(path.name)
                 files[path] = content
+        self._asset.beside = list(self._named(others, out))
         if not self._asset.chunks:
             files[out] = json.dumps(self._json, ensure_ascii=False, indent=_indent(self._asset.text)).encode()
             return files
@@ -540,6 +539,19 @@ class _Edit:
         body = b"".join(struct.pack("<I4s", len(content), kind) + content for kind, content in chunks)
         files[out] = _GLB + struct.pack("<II", 2, 12 + len(body)) + body
         return files
+
+    def _named(self, parts: Sequence[_Json], out: Path) -> Iterator[str]:
+        """Name images and buffers, files of their own, from where the file `out` lies; yield those that go along."""
+        for part in parts:
+            uri = part.get("uri", "")
+            if not uri or uri.startswith("data:"):
+                continue
+            name = unquote(uri)
+            new = references.elsewhere(name, self._asset.path, out)
+            if new == name:
+                yield name
+            else:
+                part["uri"] = quote(new)
 
 
 def _free_path(out: Path, name: str) -> Path:

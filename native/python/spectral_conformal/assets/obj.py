@@ -5,6 +5,7 @@ The format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visua
 
 from __future__ import annotations
 
+import functools
 import os
 import re
 import warnings
@@ -19,7 +20,7 @@ from .edits import Integers, edited, numbered
 from .mesh import AssetError, AssetMesh, OneMeshAsset, UvMap, checked, offsets_of
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-_LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE)
+_LIBRARY = re.compile(rb"^([ \t]*mtllib[ \t]+)([^\r\n]+)", re.MULTILINE)
 _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
 _BLANK = np.zeros(256, dtype=bool)
 _BLANK[list(b" \t\r\n\v\f")] = True
@@ -44,6 +45,7 @@ class ObjAsset(OneMeshAsset):
         """
         self.path = path
         self._data = path.read_bytes()
+        self._beside: list[str] = []
         self._newline = b"\r\n" if b"\r\n" in self._data else b"\n" if b"\n" in self._data else b"\r"
         self._find_statements()
         self._find_words()
@@ -94,14 +96,26 @@ class ObjAsset(OneMeshAsset):
         ends = np.concatenate([ends, np.append(self._starts, len(self._data))[lines_of_uv + 1], starts[-1:]])
         return edited(self._data, starts, ends, texts)
 
+    def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
+        """Return the file with another UV map; materials above its folder are named from where it will lie."""
+        self._beside = []
+        named = functools.partial(self._named, out=out)
+        return {path: _LIBRARY.sub(named, content) for path, content in super().files(out, maps).items()}
+
+    def _named(self, found: re.Match[bytes], out: Path) -> bytes:
+        rest = os.fsdecode(found[2].strip())
+        new = references.elsewhere(rest, self.path, out)
+        if new != rest:
+            return found[1] + os.fsencode(new)
+        self._beside += [rest] if (self.path.parent / rest).is_file() else rest.split()
+        return found[0]
+
     def references(self) -> Iterator[str]:
         """Yield the files of materials, and the textures that these name."""
-        for line in _LIBRARY.findall(self._data):
-            rest = os.fsdecode(line.strip())
-            for name in [rest] if (self.path.parent / rest).is_file() else rest.split():
-                yield name
-                folder = PurePosixPath(name).parent
-                yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
+        for name in self._beside:
+            yield name
+            folder = PurePosixPath(name).parent
+            yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
 
     def _uv_parts(self, words: Integers) -> tuple[Integers, Integers, npt.NDArray[np.bool_]]:
         """Return where UVs in corners such as 1/2/3 begin, slash included, where they end, and if they are last."""

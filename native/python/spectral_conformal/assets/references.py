@@ -14,6 +14,23 @@ from .temporary import temporary_beside
 _TEXTURE = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
 
 
+def elsewhere(name: str, source: Path, target: Path) -> str:
+    """Return by what path an asset that is written elsewhere names a file that does not go along.
+
+    Of one that does, since it lies in or below the asset's folder, or is not there, this is the path that it has.
+
+    Args:
+        name: path from the folder of the source.
+        source: the asset.
+        target: where it is written.
+    """
+    origin, goal = source.resolve().parent, target.resolve().parent
+    found = Path(os.path.normpath(origin / name))
+    if origin == goal or PurePosixPath(name).is_absolute() or not found.is_file() or origin in found.parents:
+        return name
+    return Path(os.path.relpath(found, goal)).as_posix()
+
+
 def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
     """Copy files to where an asset that is written elsewhere names them; return what could not be, in sentences.
 
@@ -29,10 +46,7 @@ def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
     for name in dict.fromkeys(names):
         if not (origin / name).is_file():
             continue
-        if (
-            PurePosixPath(name).is_absolute()
-            or Path(os.path.normpath(goal / name)).parts[: len(goal.parts)] != goal.parts
-        ):
+        if elsewhere(name, source, target) != name or PurePosixPath(name).is_absolute():
             warnings.append(f"{name} stays where it is, above the folder of {source.name}, which names it.")
             continue
         there = goal / name

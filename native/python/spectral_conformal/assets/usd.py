@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from . import references
 from .edits import numbered
 from .mesh import AssetError, AssetMesh, UvMap, checked, offsets_of
 
@@ -49,6 +50,7 @@ class UsdAsset:
         self.suffix = ".usda" if over else path.suffix.lower()
         self.warnings: list[str] = []
         self._over = over
+        self._named_anew: set[str] = set()
         self.uv_map = uv_map or _NAME
         try:
             self._stage = Usd.Stage.Open(str(path))
@@ -90,15 +92,19 @@ class UsdAsset:
             self.warnings.append(warning)
 
     def references(self) -> Iterator[str]:
-        """Yield layers and assets that the file is composed of; a package and a layer over a file need none."""
+        """Yield layers and assets that the file is composed of, but for those that `files` has named anew.
+
+        A package and a layer over a file need none.
+        """
         from pxr import UsdUtils
 
         if self._over or self.suffix == ".usdz":
             return
         layers, others, _ = UsdUtils.ComputeAllDependencies(str(self.path))
         for found in [layer.realPath for layer in layers] + list(others):
-            if found and Path(found) != self.path.resolve():
-                yield Path(os.path.relpath(found, self.path.resolve().parent)).as_posix()
+            name = Path(os.path.relpath(found, self.path.resolve().parent)).as_posix() if found else ""
+            if name not in ("", self.path.name, *self._named_anew):
+                yield name
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
         """Return the file with other UVs, or the layer over it, by its path."""
@@ -110,7 +116,9 @@ class UsdAsset:
             elif self.suffix == ".usdz":
                 self._write_package(target, maps)
             else:
-                _export(self._layer(maps), target, self.path.read_bytes())
+                layer = self._layer(maps)
+                self._name_from(layer, out)
+                _export(layer, target, self.path.read_bytes())
             if not target.is_file():
                 raise OSError(f"{out}: USD's library could not write it; is the disk full?")
             return {out: target.read_bytes()}
@@ -123,6 +131,18 @@ class UsdAsset:
         layer = Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(root)
         return self._with_maps(layer, maps)
+
+    def _name_from(self, layer: Sdf.Layer, out: Path) -> None:
+        """Let a layer that will lie elsewhere name by paths from there what lies above the file's folder."""
+        from pxr import UsdUtils
+
+        def named(path: str) -> str:
+            new = references.elsewhere(path, self.path, out) if path else path
+            if new != path:
+                self._named_anew.add(Path(os.path.normpath(path)).as_posix())
+            return new
+
+        UsdUtils.ModifyAssetPaths(layer, named)
 
     def _layer_over(self, out: Path, maps: Sequence[UvMap]) -> Sdf.Layer:
         """Return a layer with UVs alone, over the file."""
