@@ -301,10 +301,10 @@ def _reports(
                 yield from ((entry, dict(failed)) for entry, (_, needs) in zip(todo, requests) if needs)
                 continue
             launchers[in_blender] = Launcher(worker_words or words, logs, arguments.threads)
-        served = [(i, line, launchers[needs]) for i, (line, needs) in enumerate(requests) if needs in launchers]
-        places = [i for i, *_ in served]
-        for k, report in pool.run([request for _, *request in served], limits, arguments.jobs):
-            yield todo[places[k]], report
+        served = [entry for entry, (_, needs) in zip(todo, requests) if needs in launchers]
+        lines = [(line, launchers[needs]) for line, needs in requests if needs in launchers]
+        for k, report in pool.run(lines, limits, arguments.jobs):
+            yield served[k], report
     finally:
         for launcher in launchers.values():
             launcher.close()
