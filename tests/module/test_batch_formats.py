@@ -213,11 +213,13 @@ def test_islands_that_fail_keep_the_uvs_of_the_file(tmp_path):
         " ".join(f"{word}/1" if word != "f" else word for word in line.split()) if line.startswith("f ") else line
         for line in path.read_text().splitlines()
     ]
-    path.write_text("\n".join(["vt 0.25 0.75", *lines]) + "\n")
+    lines.insert(len(lines) - len(quads), "o  Box #2 ")
+    path.write_text("\n".join(["o Sheet", "vt 0.25 0.75", *lines]) + "\n")
     # All corners at one place are one island of the map: nothing cuts the box.
     code, told = batch(path, "--out", tmp_path / "out", "--jobs", 1, "--seams", "keep", "--picture-size", 0)
     report = report_of(tmp_path / "out", "a.obj")
     assert (code, report["status"], report["totals"]["failed"]) == (2, "incomplete", 1), told
+    assert any(warning.startswith("1 island of Box #2 could not be") for warning in report["warnings"])
     assert "closed" in " ".join(report["warnings"])
     (mesh,) = assets.read(tmp_path / "out" / "a.obj" / "a.obj").meshes
     sheet = mesh.face_of_corner() < len(faces)

@@ -36,6 +36,17 @@ class AssetMesh:
     pinned_corners: npt.NDArray[np.bool_] | None = None
     """(C,) those whose UV the file says to keep; None for none."""
 
+    parts: tuple[str, ...] = ()
+    """Names of the objects that a file without meshes of their own tells apart; empty where it names none."""
+    part_of_face: npt.NDArray[np.int64] | None = None
+    """(faces,) index into `parts`, -1 for faces in none; None without these."""
+
+    def names_of(self, faces: npt.NDArray[np.integer]) -> list[str]:
+        """Return the objects that faces are of, by the names that the file has for them; empty where it has none."""
+        if self.part_of_face is None:
+            return [self.name] if self.name else []
+        return [self.parts[part] for part in np.unique(self.part_of_face[faces]).tolist() if part >= 0]
+
     @property
     def scale(self) -> float:
         """Lengths in the scene to those of `vertices`, the geometric mean over the axes; 1 where that is no length."""

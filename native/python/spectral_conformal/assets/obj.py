@@ -11,6 +11,7 @@ import re
 import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,8 +26,8 @@ _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
 _BLANK = np.zeros(256, dtype=bool)
 _BLANK[list(b" \t\r\n\v\f")] = True
 _SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
-_OTHER, _POSITION, _UV, _FACE, _REFERRER = range(5)
-_KINDS = {b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER}
+_OTHER, _POSITION, _UV, _FACE, _REFERRER, _OBJECT = range(6)
+_KINDS = {b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER, b"o": _OBJECT}
 # The numbers of a corner, 0 its vertex and 1 its UV, by its slashes: 1, 1/2, 1//3, 1/2/3.
 _FORMS = {(0, False): (0,), (1, False): (0, 1), (2, True): (0, 2), (2, False): (0, 1, 2)}
 
@@ -61,7 +62,17 @@ class ObjAsset(OneMeshAsset):
         corners, corner_uv = self._corners(np.repeat(self._faces, sizes), len(positions))
         has_map = corner_uv.max(initial=-1) >= 0
         found = np.vstack([self._uv, [[np.nan, np.nan]]])[corner_uv] if has_map else None
-        self.mesh = checked(path, AssetMesh(positions, offsets_of(sizes), corners, found))
+        self.mesh = checked(path, AssetMesh(positions, offsets_of(sizes), corners, found, **self._objects()))
+
+    def _objects(self) -> dict[str, Any]:
+        """Return the objects of the mesh, as `AssetMesh` has parts; nothing of a file with one or none."""
+        lines = self._lines_of(_OBJECT)
+        if len(lines) < 2:
+            return {}
+        spans = zip(self._starts[lines].tolist(), self._ends[lines].tolist())
+        names = [self._data[start:end].strip()[1:].strip() for start, end in spans]
+        parts = tuple(name.decode("utf-8", errors="replace") for name in names)
+        return {"parts": parts, "part_of_face": np.searchsorted(lines, self._faces, side="right") - 1}
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
         """Return the file with another UV map.

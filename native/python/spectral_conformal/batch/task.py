@@ -164,15 +164,9 @@ def _unwrap(
     with phases("seams"):
         cut_meshes = _cut(asset.meshes, settings, report["warnings"])
     failures: Counter[str] = Counter()
-    meshes_of: dict[str, list[str]] = {}
+    objects: dict[str, list[str]] = {}
     with phases("solve"):
-        results = []
-        for each in cut_meshes:
-            result, reasons = _unwrapped(each, settings)
-            results.append(result)
-            failures += reasons
-            for reason in reasons:
-                meshes_of.setdefault(reason, []).append(each.mesh.name)
+        results = [_unwrapped(each, settings, failures, objects) for each in cut_meshes]
     _note(results, failures, report)
     if not any(result is not None and result.solved_corners.any() for result in results):
         raise AssetError(f"No island could be unwrapped: {'; '.join(failures)}")
@@ -180,7 +174,7 @@ def _unwrap(
         maps = laid_out(asset.meshes, results, settings.layout)
     for reason, number in failures.items():
         islands = "1 island" if number == 1 else f"{number} islands"
-        where = ", ".join(filter(None, meshes_of[reason]))
+        where = ", ".join(dict.fromkeys(objects[reason]))
         report["warnings"].append(f"{islands}{where and f' of {where}'} could not be unwrapped: {reason}")
     report["counts"] = {
         "vertices": sum(len(mesh.vertices) for mesh in asset.meshes),
@@ -211,14 +205,22 @@ def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[st
     return found
 
 
-def _unwrapped(cut_mesh: CutMesh, settings: BatchSettings) -> tuple[Unwrap | None, Counter[str]]:
-    """Return the maps of a mesh, None for one that is refused as a whole, and how often what reason made one fail."""
+def _unwrapped(
+    cut_mesh: CutMesh, settings: BatchSettings, failures: Counter[str], objects: dict[str, list[str]]
+) -> Unwrap | None:
+    """Return the maps of a mesh, None for one that is refused as a whole; note what failed, and of what objects."""
+    mesh = cut_mesh.mesh
     try:
         result = unwrapped(cut_mesh, settings.options)
     except (ValueError, MemoryError) as error:
-        return None, Counter([_reason(error)])
-    failed = result.charts.column("status") != "solved"
-    return result, Counter(result.charts.column("message")[failed].tolist())
+        failures[_reason(error)] += 1
+        objects.setdefault(_reason(error), []).extend(mesh.names_of(np.arange(len(mesh.face_offsets) - 1)))
+        return None
+    for number in np.flatnonzero(result.charts.column("status") != "solved").tolist():
+        chart = result.charts[number]
+        failures[chart.message] += 1
+        objects.setdefault(chart.message, []).extend(mesh.names_of(chart.faces))
+    return result
 
 
 def _reason(error: Exception) -> str:
