@@ -25,21 +25,19 @@ _started: list[tuple[WorkerProcess, Launcher]] = []
 def unwrap(
     line: str, in_blender: bool, limits: Limits, blender: str | None, threads: int, log_folder: str
 ) -> dict[str, Any]:
-    """Return the report of a request. Called in a thread of a Dask worker, which keeps its process for the next one."""
+    """Return the report of a request. Called in threads of a Dask worker, which keep their processes."""
     limit = _memory_limit()
     if limit is not None:
         limits = dataclasses.replace(limits, memory=min(limit, limits.memory or limit))
     wanted = (in_blender, limits, blender, threads, log_folder)
-    kept = getattr(_own, "kept", None)
-    if kept is None or kept[1] != wanted:
-        if kept is not None:
-            kept[0].close()
+    kept = _own.__dict__.setdefault("kept", {})
+    if wanted not in kept:
         words = blender_command(blender, threads) if in_blender else python_command()
         launcher = Launcher(words, Path(log_folder), threads)
-        name = f"{platform.node()}-{os.getpid()}-{threading.get_ident()}"
-        kept = _own.kept = (WorkerProcess(launcher, name, limits), wanted)
-        _started.append((kept[0], launcher))
-    return kept[0].run(line)
+        name = f"{platform.node()}-{os.getpid()}-{threading.get_ident()}{'-blender' if in_blender else ''}"
+        kept[wanted] = WorkerProcess(launcher, name, limits)
+        _started.append((kept[wanted], launcher))
+    return kept[wanted].run(line)
 
 
 def _memory_limit() -> int | None:

@@ -13,8 +13,8 @@ from .worker_process import Launcher, Limits, StartError, WorkerProcess
 def run(requests: Sequence[tuple[str, Launcher]], limits: Limits, jobs: int) -> Iterator[tuple[int, dict[str, Any]]]:
     """Yield the index of every request and its report, as they come; `jobs` are made at once.
 
-    Requests are lines, each with what starts a worker for it; a thread keeps the worker that it had last. When the
-    caller stops taking reports, the workers are ended.
+    Requests are lines, each with what starts a worker for it; a thread keeps a worker of each kind that it has had.
+    When the caller stops taking reports, the workers are ended.
 
     Raises:
         StartError: no worker gets ready.
@@ -25,15 +25,15 @@ def run(requests: Sequence[tuple[str, Launcher]], limits: Limits, jobs: int) -> 
     done: queue.SimpleQueue[tuple[int, dict[str, Any]] | StartError] = queue.SimpleQueue()
     stopping = threading.Event()
     numbers = range(min(jobs, len(requests)))
-    workers: list[WorkerProcess | None] = [None for _ in numbers]
+    launchers = list(dict.fromkeys(launcher for _, launcher in requests))
+    workers: dict[tuple[int, int], WorkerProcess] = {}
 
     def worker_for(number: int, launcher: Launcher) -> WorkerProcess:
-        held = workers[number]
-        if held is None or held.launcher is not launcher:
-            if held is not None:
-                held.close()
-            held = workers[number] = WorkerProcess(launcher, number, limits)
-        return held
+        kind = launchers.index(launcher)
+        if (number, kind) not in workers:
+            name = f"{number}-{kind}" if kind else str(number)
+            workers[number, kind] = WorkerProcess(launcher, name, limits)
+        return workers[number, kind]
 
     def serve(number: int) -> None:
         while not stopping.is_set():
@@ -62,5 +62,5 @@ def run(requests: Sequence[tuple[str, Launcher]], limits: Limits, jobs: int) -> 
             yield found
     finally:
         stopping.set()
-        for worker in filter(None, workers):
+        for worker in list(workers.values()):
             worker.close()

@@ -125,7 +125,7 @@ class WorkerProcess:
 
     def __init__(self, launcher: Launcher, name: object, limits: Limits) -> None:
         """Start nothing yet; `name` tells the log files apart."""
-        self.launcher = launcher
+        self._launcher = launcher
         self._limits = limits
         self._log = launcher.log_folder / f"worker-{name}.log"
         self._process: subprocess.Popen[str] | None = None
@@ -182,8 +182,8 @@ class WorkerProcess:
         self._reports = queue.Queue()
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
-                self.launcher.words,
-                env=self.launcher.environ,
+                self._launcher.words,
+                env=self._launcher.environ,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=log,
