@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One asset of a batch: whatever happens is in its report."""
+
+import pytest
+from spectral_conformal.batch import settings, task
+
+from tests.module import batch_assets
+
+
+def request_for(folder):
+    batch_assets.write_obj(folder / "a.obj", *batch_assets.grid(4, 0.2, 1))
+    values = settings.from_values({}).as_json()
+    return task.Request("a.obj", str(folder / "a.obj"), str(folder), str(folder / "b.obj"), values)
+
+
+@pytest.mark.parametrize("error", [ValueError("no {0} of it"), KeyError("mesh"), AssertionError(), RecursionError()])
+def test_an_error_that_nobody_expected_is_in_the_report(error, tmp_path, monkeypatch):
+    def fail(*_):
+        raise error
+
+    monkeypatch.setattr(task, "_run", fail)
+    report = task.run(request_for(tmp_path))
+    assert report["status"] == "failed"
+    assert report["failure"] == {"kind": "error", "message": f"{type(error).__name__}: {error}"}
+    assert (tmp_path / "report.json").is_file()
+
+
+def test_too_little_memory_is_a_kind_of_its_own(tmp_path, monkeypatch):
+    def fail(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(task.files, "read", fail)
+    report = task.run(request_for(tmp_path))
+    assert report["failure"] == {"kind": "memory", "message": "there is too little memory"}
+
+
+def test_a_mesh_whose_seams_cannot_be_found_for_want_of_memory_fails_alone(tmp_path, monkeypatch):
+    """Cut where the file is cut, and said; here one mesh of an open sheet, which needs no seams."""
+    real = task.cut
+
+    def fail(mesh, cutting):
+        if cutting.seams == "suggest":
+            raise MemoryError
+        return real(mesh, cutting)
+
+    monkeypatch.setattr(task, "cut", fail)
+    report = task.run(request_for(tmp_path))
+    assert report["status"] == "unwrapped"
+    assert report["warnings"] == ["no seams were found: there is too little memory for it."]
