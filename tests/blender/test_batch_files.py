@@ -253,21 +253,11 @@ def test_fbx_keeps_what_it_has_or_says_what_is_lost(blender, tmp_path):
     assert not any(kind in line for line in told for kind in ("Mesh", "Shape", "Light", "Camera", "LimbNode")), told
 
 
-def cube(folder):
-    """Write a cube of quads."""
-    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    path = folder / "in" / "cube.obj"
-    path.parent.mkdir(exist_ok=True)
-    batch_assets.write_obj(path, corners, np.array(quads))
-    return path
-
-
 @pytest.mark.parametrize("blender", EVERYWHERE, ids=lambda blender: blender.name)
 def test_smart_islands_and_a_checker_are_for_any_format(blender, tmp_path):
     from matplotlib.image import imread
 
-    cube(tmp_path)
+    batch_assets.write_cube(tmp_path)
     code, told = run(blender, tmp_path, "--seams", "smart", "--checker", "--picture-size", 96)
     assert code == 0, told
     report = report_of(tmp_path, "cube.obj")
@@ -285,7 +275,7 @@ def test_smart_islands_and_a_checker_are_for_any_format(blender, tmp_path):
 def test_a_checker_is_as_clear_inside_a_box_as_outside(tmp_path):
     from matplotlib.image import imread
 
-    path = cube(tmp_path)
+    path = batch_assets.write_cube(tmp_path)
     # Without the face at the end it is open towards the camera.
     lines = path.read_text().strip().split("\n")
     path.write_text("\n".join(lines[:-1]) + "\n")
@@ -301,7 +291,7 @@ def test_a_checker_is_as_clear_inside_a_box_as_outside(tmp_path):
 
 @pytest.mark.parametrize("name", ["chair{0}.obj", "a{.obj", "ch###.obj", "50%.obj", "[1].obj"])
 def test_a_checker_is_rendered_whatever_the_asset_is_called(name, tmp_path):
-    path = cube(tmp_path)
+    path = batch_assets.write_cube(tmp_path)
     path.rename(path.with_name(name))
     code, told = run(BPY[0], tmp_path, "--seams", "sharp", "--checker", "--picture-size", 64)
     assert code == 0, told
@@ -311,7 +301,7 @@ def test_a_checker_is_rendered_whatever_the_asset_is_called(name, tmp_path):
 
 
 def test_assets_that_need_a_blender_fail_alone_where_there_is_none(tmp_path):
-    cube(tmp_path)
+    batch_assets.write_cube(tmp_path)
     (tmp_path / "in" / "a.blend").write_bytes(b"BLENDER")
     code = (
         "import importlib.util as u, shutil, sys; find = u.find_spec\n"

@@ -78,6 +78,16 @@ def write_usd(path, points, faces):
     )
 
 
+def write_cube(folder):
+    """Write a cube of quads, and return its path."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    path = folder / "in" / "cube.obj"
+    path.parent.mkdir(exist_ok=True)
+    write_obj(path, corners, np.array(quads))
+    return path
+
+
 def write_good(folder, count):
     """Write `count` assets of three formats in two folders; return their names."""
     writers = ((".obj", write_obj), (".ply", write_ply), (".stl", write_stl))

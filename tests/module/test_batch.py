@@ -408,16 +408,6 @@ def test_example_of_the_readme(tmp_path, monkeypatch):
     assert (tmp_path / "unwrapped" / "index.html").is_file()
 
 
-def cube(folder):
-    """Write a cube of quads, and return its path."""
-    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    path = folder / "in" / "cube.obj"
-    path.parent.mkdir(exist_ok=True)
-    batch_assets.write_obj(path, corners, np.array(quads))
-    return path
-
-
 def gaps(uv):
     """Return the gaps between the bounding boxes of quads, (n, 4, 2), larger of both axes, for every pair."""
     low, high = uv.min(axis=1), uv.max(axis=1)
@@ -427,7 +417,7 @@ def gaps(uv):
 
 @pytest.mark.parametrize(("texture", "sides"), [("256", (256, 256)), ("1024x128", (1024, 128))])
 def test_margin_is_that_many_pixels_and_texels_are_square(environ, tmp_path, texture, sides):
-    arguments = (cube(tmp_path), "--jobs", 1, "--seams", "sharp", "--texture-size", texture)
+    arguments = (batch_assets.write_cube(tmp_path), "--jobs", 1, "--seams", "sharp", "--texture-size", texture)
     for pixels in (2, 12):
         out = tmp_path / str(pixels)
         code, _, errors = run(environ, *arguments, "--out", out, "--margin-pixels", pixels)
@@ -442,7 +432,7 @@ def test_margin_is_that_many_pixels_and_texels_are_square(environ, tmp_path, tex
 
 def test_an_old_textures_aspect_does_not_squeeze_a_new_atlas(environ, tmp_path):
     """As a palette of 256 x 1 texels has, on which every face lies in one of them."""
-    path = cube(tmp_path)
+    path = batch_assets.write_cube(tmp_path)
     lines = path.read_text().splitlines()
     texels = [f"vt {(k + 0.5) / 256} 0.5" for k in range(6)]
     faces = iter(range(1, 7))
@@ -459,7 +449,7 @@ def test_an_old_textures_aspect_does_not_squeeze_a_new_atlas(environ, tmp_path):
     [("keep", 0, "failed"), ("suggest", 1, "unwrapped"), ("sharp", 6, "unwrapped")],
 )
 def test_seams_are_what_was_asked_for(environ, tmp_path, seams, islands, status):
-    cube(tmp_path)
+    batch_assets.write_cube(tmp_path)
     code, *_ = run(environ, tmp_path / "in", "--out", tmp_path / "out", "--jobs", 1, "--seams", seams)
     report = report_of(tmp_path / "out", "cube.obj")
     assert report["status"] == status
@@ -489,7 +479,7 @@ def vertex_per_corner(points, faces):
 def test_faces_with_vertices_of_their_own_make_islands_together_and_keep_them(
     environ, tmp_path, options, islands, seam_length
 ):
-    cube(tmp_path)
+    batch_assets.write_cube(tmp_path)
     whole, faces = obj_points(tmp_path / "in" / "cube.obj")
     soup = vertex_per_corner(whole, faces)
     batch_assets.write_obj(tmp_path / "in" / "soup.obj", *soup)
@@ -515,7 +505,7 @@ def test_faces_with_vertices_of_their_own_make_islands_together_and_keep_them(
 
 
 def test_islands_or_places_are_kept_where_asked(environ, tmp_path):
-    cube(tmp_path)
+    batch_assets.write_cube(tmp_path)
     assert run(environ, tmp_path / "in", "--out", tmp_path / "one", "--jobs", 1, "--seams", "sharp")[0] == 0
     first = tmp_path / "one" / "cube.obj" / "cube.obj"
     text = re.sub(

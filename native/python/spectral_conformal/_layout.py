@@ -14,6 +14,13 @@ _ROUNDS = 64
 _LARGEST_SPACE = 1e3
 
 
+def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
+    """Return the corner that follows every corner in its face, (C,)."""
+    following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
+    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    return following
+
+
 def map_seams(
     face_offsets: npt.NDArray[np.int64], corner_vertices: npt.NDArray[np.int64], corner_uv: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.int64]:
@@ -24,8 +31,7 @@ def map_seams(
         corner_vertices: as in `unwrap`.
         corner_uv: (C, 2); corners without UVs, not numbers, agree with none.
     """
-    following = np.arange(1, len(corner_vertices) + 1)
-    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    following = next_corner(face_offsets)
     ends = np.c_[np.arange(len(following)), following]
     ends = np.where((corner_vertices[ends[:, 0]] > corner_vertices[ends[:, 1]])[:, None], ends[:, ::-1], ends)
     edges = corner_vertices[ends]
@@ -57,12 +63,10 @@ def packed(
         ValueError: the margin leaves no room for so many charts.
     """
     result = np.array(uv, dtype=np.float64)
-    corners = np.flatnonzero(chart >= 0)
-    corners = corners[np.argsort(chart[corners], kind="stable")]
+    corners, starts, counts = _by_chart(chart)
     if not len(corners):
         return result
-    starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
-    rank = np.repeat(np.arange(len(starts)), np.diff(np.append(starts, len(corners))))
+    rank = np.repeat(np.arange(len(starts)), counts)
     points = result[corners] * [aspect**-0.5, aspect**0.5]
     low = np.minimum.reduceat(points, starts)
     size = np.maximum.reduceat(points, starts) - low
@@ -71,6 +75,16 @@ def packed(
     position, side = _into_square(size / unit, np.array(margin))
     result[corners] = ((points - low[rank]) / unit + position[rank]) / side
     return result
+
+
+def _by_chart(
+    chart: npt.NDArray[np.int64],
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Return the corners that are in charts, chart after chart, and where each chart begins and how many it has."""
+    corners = np.flatnonzero(chart >= 0)
+    corners = corners[np.argsort(chart[corners], kind="stable")]
+    starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
+    return corners, starts, np.diff(np.append(starts, len(corners)))
 
 
 def _into_square(
@@ -111,12 +125,9 @@ def onto_former(
     """
     result = np.array(uv, dtype=np.float64)
     placed = np.zeros(len(uv), dtype=bool)
-    corners = np.flatnonzero(chart >= 0)
-    corners = corners[np.argsort(chart[corners], kind="stable")]
+    corners, starts, counts = _by_chart(chart)
     if not len(corners):
         return result, placed
-    starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
-    counts = np.diff(np.append(starts, len(corners)))
 
     def centred(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.complex128], npt.NDArray[np.complex128]]:
         values = points[corners, 0] + 1j * points[corners, 1]

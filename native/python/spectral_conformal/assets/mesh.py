@@ -154,13 +154,6 @@ def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))]).astype(np.int64)
 
 
-def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
-    """Return the corner that follows every corner in its face, (C,)."""
-    following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
-    following[face_offsets[1:] - 1] = face_offsets[:-1]
-    return following
-
-
 def numbers(where: str, words: list[str], count: int) -> list[float]:
     """Return the first `count` words as numbers.
 

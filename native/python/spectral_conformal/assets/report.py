@@ -9,9 +9,10 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
+from .._layout import next_corner
 from .._quality import face_distortion, face_triangles, map_defects
 from . import welding
-from .mesh import AssetMesh, next_corner
+from .mesh import AssetMesh
 
 # Of the mean area of a face: faces below have no shape that could be kept.
 _DEGENERATE = 1e-10

@@ -11,7 +11,8 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from .mesh import AssetMesh, next_corner
+from .._layout import next_corner
+from .mesh import AssetMesh
 
 Integers = npt.NDArray[np.int64]
 
