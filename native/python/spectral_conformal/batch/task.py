@@ -280,8 +280,3 @@ def _draw(
 def request_of(text: str) -> Request:
     """Return the request that a line of JSON says."""
     return Request(**json.loads(text))
-
-
-def line_of(request: Request) -> str:
-    """Return a request as a line of JSON."""
-    return json.dumps(asdict(request))
