@@ -232,7 +232,9 @@ def cases(mesh: Mesh, sc, quick: bool) -> Iterator[tuple[str, Callable[[], objec
             if mesh.triangles is not None:
                 yield (
                     f"parameterize/{name}",
-                    lambda options=options: sc.parameterize(mesh.vertices, mesh.triangles, **options),
+                    lambda options=options: sc.parameterize(
+                        mesh.vertices, mesh.triangles, **{"fallbacks": True, **options}
+                    ),
                 )
     only_unwrap = {
         "seams": {"seam_edges": mesh.seams},
@@ -284,7 +286,7 @@ def cases(mesh: Mesh, sc, quick: bool) -> Iterator[tuple[str, Callable[[], objec
 
 
 def measured(mesh: Mesh, sc) -> tuple[object, ...]:
-    uv = sc.parameterize(mesh.vertices, mesh.triangles).uv
+    uv = sc.parameterize(mesh.vertices, mesh.triangles, fallbacks=True).uv
     return tuple(sc.distortion(mesh.vertices, mesh.triangles, image) for image in (uv, mesh.noisy(uv)))
 
 
@@ -299,7 +301,7 @@ def defects(mesh: Mesh, sc, uv: np.ndarray | None = None) -> tuple[object, ...]:
 
 
 def second_solves(mesh: Mesh, sc) -> tuple[object, ...]:
-    solver = sc.Solver(mesh.vertices, mesh.triangles)
+    solver = sc.Solver(mesh.vertices, mesh.triangles, fallbacks=True)
     pairs = mesh.extenders
     return (
         solver.solve(),
@@ -325,7 +327,7 @@ def second_unwraps(mesh: Mesh, sc) -> tuple[object, ...]:
 def quasi_conformal(mesh: Mesh, sc) -> tuple[object, ...]:
     metric = sc.metric_from_direction(mesh.vertices, mesh.triangles, [1.0, 2.0, 3.0], 1.5)
     half = sc.blend_metric(metric, 0.5)
-    solution = sc.parameterize(mesh.vertices, mesh.triangles, metric=half)
+    solution = sc.parameterize(mesh.vertices, mesh.triangles, metric=half, fallbacks=True)
     return metric, half, solution, sc.metric_from_uv(mesh.vertices, mesh.triangles, solution.uv)
 
 

@@ -35,14 +35,14 @@ def test_more_rows_than_can_be_numbered(name, n):
 
 @pytest.mark.parametrize("n", FAR_TOO_MANY)
 @pytest.mark.parametrize(
-    "name", ["vertices", "face_offsets", "corner_vertices", "seam_edges", "selected_faces", "pinned_corners", "metric"]
+    "name", ["vertices", "faces", "corner_vertices", "seam_edges", "selected_faces", "pinned_corners", "metric"]
 )
 def test_more_rows_of_a_polygon_mesh_than_can_be_numbered(name, n):
     vertices, triangles = disk()
     offsets, corners = meshes.polygons(triangles)
     arguments = {
         "vertices": vertices,
-        "face_offsets": offsets,
+        "faces": offsets,
         "corner_vertices": corners,
         "seam_edges": triangles[:, :2],
         "selected_faces": np.ones(len(triangles), bool),
@@ -60,9 +60,20 @@ def test_triangles_whose_corners_are_more_than_can_be_numbered():
         sc.parameterize(vertices, longer(triangles, 2**27))
 
 
-@pytest.mark.parametrize("extenders", [5, 0.5, np.array(0.5), object(), [(0, 1, 10**400)], [(0, 1)], [3]])
-def test_extenders_that_are_no_triples(extenders):
-    with pytest.raises(ValueError, match="triples"):
+@pytest.mark.parametrize(
+    ("extenders", "kind"),
+    [
+        (5, TypeError),
+        (0.5, TypeError),
+        (np.array(0.5), TypeError),
+        (object(), TypeError),
+        ([3], TypeError),
+        ([(0, 1, 10**400)], ValueError),
+        ([(0, 1)], ValueError),
+    ],
+)
+def test_extenders_that_are_no_triples(extenders, kind):
+    with pytest.raises(kind, match="triples"):
         sc.parameterize(*disk(), extenders=extenders)
 
 
@@ -163,52 +174,52 @@ def test_equal_pins_that_rounding_sets_apart():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "kind", "said"),
     [
-        ({"vertices": np.zeros((4, 2))}, "vertices must have the shape"),
-        ({"vertices": np.zeros((4, 3), complex)}, "real numbers"),
-        ({"vertices": [["a"] * 3] * 4}, "real numbers"),
-        ({"vertices": [[0, 0, 0], [1, 0]]}, "vertices is no regular array"),
-        ({"triangles": [[0, 1, 4]]}, "has the vertex 4"),
-        ({"triangles": [[0, 1, -1]]}, "between 0"),
-        ({"triangles": [[0, 1, 2**40]]}, "between 0"),
-        ({"triangles": [[0.0, 1.0, 2.0]]}, "integers"),
-        ({"triangles": [0, 1, 2]}, "shape"),
-        ({"progress": 3}, "progress must be callable"),
-        ({"pins": [(0, (0, 0))]}, "pins must map"),
-        ({"pins": {0.5: (0, 0), 1: (1, 0)}}, "pins must map"),
-        ({"pins": {0: (0, 0, 0), 1: (1, 0)}}, "pins must map"),
-        ({"pins": {0: (0, 0), 9: (1, 0)}}, "Vertex 9 is pinned"),
-        ({"pins": {0: (0, 0), 1: (np.nan, 0)}}, "not finite"),
-        ({"pins": {0: (1, 1), 1: (1, 1)}}, "same position"),
+        ({"vertices": np.zeros((4, 2))}, ValueError, "vertices must have the shape"),
+        ({"vertices": np.zeros((4, 3), complex)}, TypeError, "real numbers"),
+        ({"vertices": [["a"] * 3] * 4}, TypeError, "real numbers"),
+        ({"vertices": [[0, 0, 0], [1, 0]]}, ValueError, "vertices is no regular array"),
+        ({"triangles": [[0, 1, 4]]}, ValueError, "has the vertex 4"),
+        ({"triangles": [[0, 1, -1]]}, ValueError, "between 0"),
+        ({"triangles": [[0, 1, 2**40]]}, ValueError, "between 0"),
+        ({"triangles": [[0.0, 1.0, 2.0]]}, TypeError, "integers"),
+        ({"triangles": [0, 1, 2]}, ValueError, "shape"),
+        ({"progress": 3}, TypeError, "progress must be callable"),
+        ({"pins": [(0, (0, 0))]}, TypeError, "pins must map"),
+        ({"pins": {0.5: (0, 0), 1: (1, 0)}}, TypeError, "pins must map"),
+        ({"pins": {0: (0, 0, 0), 1: (1, 0)}}, ValueError, "pins must map"),
+        ({"pins": {0: (0, 0), 9: (1, 0)}}, ValueError, "Vertex 9 is pinned"),
+        ({"pins": {0: (0, 0), 1: (np.nan, 0)}}, ValueError, "not finite"),
+        ({"pins": {0: (1, 1), 1: (1, 1)}}, ValueError, "same position"),
     ],
 )
-def test_bad_arguments_of_a_patch_are_named(arguments, said):
+def test_bad_arguments_of_a_patch_are_named(arguments, kind, said):
     arguments = {"vertices": SQUARE, "triangles": [[0, 1, 2], [0, 2, 3]], **arguments}
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(kind, match=said):
         sc.parameterize(**arguments)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "kind", "said"),
     [
-        ({"face_offsets": []}, "face_offsets is empty"),
-        ({"face_offsets": [0]}, "no faces"),
-        ({"face_offsets": [0, 3]}, "face_offsets must rise"),
-        ({"face_offsets": [1, 4]}, "face_offsets must rise"),
-        ({"face_offsets": [0, 5, 4]}, "face_offsets must rise|between"),
-        ({"corner_vertices": [0, 1, 2, 9]}, "has the vertex 9"),
-        ({"seam_edges": [[0, 9]]}, "seam_edges has the vertex 9"),
-        ({"seam_edges": [0, 1]}, "seam_edges must have the shape"),
-        ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
-        ({"selected_faces": [1]}, "booleans"),
-        ({"pinned_corners": [True]}, "pinned_corners must be"),
-        ({"pinned_corners": np.ones(0, bool)}, "pinned_corners must be"),
+        ({"faces": []}, ValueError, "faces is empty"),
+        ({"faces": [0], "corner_vertices": []}, ValueError, "no faces"),
+        ({"faces": [0, 3]}, ValueError, "faces, as offsets, must rise"),
+        ({"faces": [1, 4]}, ValueError, "faces, as offsets, must rise"),
+        ({"faces": [0, 5, 4]}, ValueError, "faces, as offsets, must rise|between"),
+        ({"corner_vertices": [0, 1, 2, 9]}, ValueError, "has the vertex 9"),
+        ({"seam_edges": [[0, 9]]}, ValueError, "seam_edges has the vertex 9"),
+        ({"seam_edges": [0, 1]}, ValueError, "seam_edges must have the shape"),
+        ({"selected_faces": [True, False]}, ValueError, "selected_faces must be 1 booleans"),
+        ({"selected_faces": [1]}, TypeError, "booleans"),
+        ({"pinned_corners": [True]}, ValueError, "pinned_corners must be"),
+        ({"pinned_corners": np.ones(0, bool)}, ValueError, "pinned_corners must be"),
     ],
 )
-def test_bad_arguments_of_a_polygon_mesh_are_named(arguments, said):
-    arguments = {"face_offsets": [0, 4], "corner_vertices": [0, 1, 2, 3], **arguments}
-    with pytest.raises(ValueError, match=said):
+def test_bad_arguments_of_a_polygon_mesh_are_named(arguments, kind, said):
+    arguments = {"faces": [0, 4], "corner_vertices": [0, 1, 2, 3], **arguments}
+    with pytest.raises(kind, match=said):
         sc.unwrap(SQUARE, **arguments)
 
 

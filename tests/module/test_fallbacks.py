@@ -32,7 +32,7 @@ def mean_qc(vertices, triangles, solution):
 
 def test_the_fields_say_what_stands_in(case):
     vertices, triangles, weights, fallback = case
-    solution = sc.parameterize(vertices, triangles, weights=weights)
+    solution = sc.parameterize(vertices, triangles, weights=weights, fallbacks=True)
     assert solution.fallback == fallback
     assert solution.method == "spectral"
     assert solution.weights == weights
@@ -66,7 +66,7 @@ def test_of_a_quad_one_split_counts(seed):
 @pytest.mark.parametrize("weights", OTHER)
 def test_no_other_map_without_flips_has_a_lower_mean_qc(weights, seed):
     mesh = meshes.rough_grid(10, 4.0, seed)
-    solution = sc.parameterize(*mesh, weights=weights)
+    solution = sc.parameterize(*mesh, weights=weights, fallbacks=True)
     best = mean_qc(*mesh, solution)
     assert abs(solution.turning_number) == 1
     if solution.fallback is None:
@@ -82,7 +82,7 @@ def test_no_other_map_without_flips_has_a_lower_mean_qc(weights, seed):
 
 def test_the_eigenvalue_is_that_of_the_map(case):
     vertices, triangles, weights, _ = case
-    solution = sc.parameterize(vertices, triangles, weights=weights)
+    solution = sc.parameterize(vertices, triangles, weights=weights, fallbacks=True)
     matrix = reference.conformal_energy_matrix(vertices, triangles, solution.weights)
     mass = reference.boundary_masses(vertices, triangles, solution.boundary)
     z = solution.uv @ [1, 1j]
@@ -98,7 +98,7 @@ def test_the_eigenvalue_is_that_of_the_map(case):
 )
 def test_no_disk_fails(options, weights, seed):
     mesh = meshes.rough_grid(8, 1.0 + seed % 4, seed)
-    solution = sc.parameterize(*mesh, weights=weights, **options)
+    solution = sc.parameterize(*mesh, weights=weights, fallbacks=True, **options)
     assert abs(solution.turning_number) == 1
     if solution.fallback in ("unfolded", "tutte_embedding"):
         assert np.isfinite(mean_qc(*mesh, solution))
@@ -107,9 +107,10 @@ def test_no_disk_fails(options, weights, seed):
 def test_without_fallbacks_the_failure_is_the_answer(case):
     vertices, triangles, weights, _ = case
     for solve in (
+        lambda: sc.parameterize(vertices, triangles, weights=weights),
         lambda: sc.parameterize(vertices, triangles, weights=weights, fallbacks=False),
-        lambda: sc.Solver(vertices, triangles, weights=weights, fallbacks=False).solve(),
-        lambda: sc.Solver(vertices, triangles, weights=weights).solve(fallbacks=False),
+        lambda: sc.Solver(vertices, triangles, weights=weights).solve(),
+        lambda: sc.Solver(vertices, triangles, weights=weights, fallbacks=True).solve(fallbacks=False),
     ):
         with pytest.raises(sc.SolveError, match="winds round . times instead of once"):
             solve()
@@ -132,7 +133,7 @@ def test_a_solve_that_passes_is_what_was_asked_for(method, weights, boundary):
     vertices, triangles = meshes.bumpy_disk(300, 1)
     options = {"method": method, "weights": weights, "boundary": boundary}
     (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles), **options).charts
-    for record in (sc.parameterize(vertices, triangles, **options), chart):
+    for record in (sc.parameterize(vertices, triangles, fallbacks=True, **options), chart):
         assert (record.method, record.weights, record.boundary) == (method, weights, boundary)
         assert (record.fallback, record.clamped_triangles, record.attempts) == (None, 0, 1)
         assert record.eigenvalue_of == "eigenvector"
@@ -150,7 +151,7 @@ def test_the_embedding_of_fold_free_is_named_and_made_either_way(fallbacks):
 def test_maps_that_are_no_eigenvectors_say_so():
     vertices, triangles = meshes.rough_grid(14, 2.0, 3)
     for options in ({"fold_free": True}, {"method": "lscm"}, {"method": "lscm", "pins": {0: (0, 0), 9: (1, 0)}}):
-        solution = sc.parameterize(vertices, triangles, **options)
+        solution = sc.parameterize(vertices, triangles, fallbacks=True, **options)
         assert solution.eigenvalue_of == "map"
 
 

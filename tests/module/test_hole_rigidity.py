@@ -25,8 +25,8 @@ def test_what_the_patch_bears_is_taken_and_said():
 @pytest.mark.parametrize("mesh", ROUGH)
 @pytest.mark.parametrize("rigidity", [1.0, 10.0, 1e4])
 def test_more_is_lowered_until_there_are_no_more_flips_than_without(mesh, rigidity):
-    free = sc.parameterize(*mesh)
-    rigid = sc.parameterize(*mesh, hole_rigidity=rigidity)
+    free = sc.parameterize(*mesh, fallbacks=True)
+    rigid = sc.parameterize(*mesh, fallbacks=True, hole_rigidity=rigidity)
     assert measured(mesh, rigid).flipped.sum() <= measured(mesh, free).flipped.sum()
     lowered = rigid.hole_rigidity < rigidity
     assert lowered == ("Hole rigidity lowered from" in rigid.message)
@@ -34,14 +34,14 @@ def test_more_is_lowered_until_there_are_no_more_flips_than_without(mesh, rigidi
 
 
 def test_some_rough_surfaces_bear_less():
-    assert any(sc.parameterize(*mesh, hole_rigidity=1e4).hole_rigidity < 1e4 for mesh in ROUGH)
+    assert any(sc.parameterize(*mesh, fallbacks=True, hole_rigidity=1e4).hole_rigidity < 1e4 for mesh in ROUGH)
 
 
 @pytest.mark.parametrize("polish", [False, True])
 @pytest.mark.parametrize("mesh", [HAT, *ROUGH, meshes.bumpy_disk(400, holes=3, seed=1)])
 def test_automatic_is_never_worse_than_free_holes(mesh, polish):
-    free = sc.parameterize(*mesh, polish=polish)
-    chosen = sc.parameterize(*mesh, hole_rigidity="automatic", polish=polish)
+    free = sc.parameterize(*mesh, fallbacks=True, polish=polish)
+    chosen = sc.parameterize(*mesh, fallbacks=True, hole_rigidity="automatic", polish=polish)
     before, after = measured(mesh, free), measured(mesh, chosen)
     assert after.flipped.sum() <= before.flipped.sum()
     assert after.mean_qc <= before.mean_qc * (1 + 1e-7) or after.flipped.sum() < before.flipped.sum()
@@ -79,9 +79,9 @@ def test_automatic_leaves_free_what_something_else_shapes(acting):
 
 def test_a_patch_without_holes_is_not_concerned():
     mesh = meshes.bumpy_disk(200, 0, 1)
-    plain = sc.parameterize(*mesh, polish=True)
+    plain = sc.parameterize(*mesh, fallbacks=True, polish=True)
     for rigidity in (1.0, "automatic"):
-        solution = sc.parameterize(*mesh, hole_rigidity=rigidity, polish=True)
+        solution = sc.parameterize(*mesh, fallbacks=True, hole_rigidity=rigidity, polish=True)
         assert (solution.hole_rigidity, solution.polish_steps) == (0, plain.polish_steps)
         assert np.array_equal(solution.uv, plain.uv)
 

@@ -207,7 +207,7 @@ def test_calls_from_within_and_from_other_threads_do_without():
 
 def test_bad_arguments_are_named():
     mesh, _ = grid()
-    with pytest.raises(ValueError, match="kept_maps must be a KeptMaps or None, not dict"):
+    with pytest.raises(TypeError, match="kept_maps must be a KeptMaps or None, not dict"):
         sc.unwrap(*mesh, kept_maps={})
     with pytest.raises(ValueError, match="max_megabytes must be a whole number"):
         sc.KeptMaps(max_megabytes=-1)

@@ -39,8 +39,8 @@ def test_parts_come_apart_at_some_cost(mesh):
     [(meshes.rough_grid(8, 2.0, 8, 0.1), "unfolded"), (meshes.rough_grid(10, 2.0, 6, 0.2), "tutte_embedding")],
 )
 def test_what_stands_in_for_a_refused_map_says_so_still(mesh, fallback):
-    refused = sc.parameterize(*mesh)
-    apart = sc.parameterize(*mesh, fold_free=True)
+    refused = sc.parameterize(*mesh, fallbacks=True)
+    apart = sc.parameterize(*mesh, fallbacks=True, fold_free=True)
     assert "moved apart" in apart.message
     assert not sc.distortion(*mesh, apart.uv).overlapping.any()
     assert refused.fallback == apart.fallback == fallback

@@ -119,7 +119,7 @@ def test_a_second_attempt_has_the_order_and_the_memory_of_the_first():
 
 def test_a_factor_that_fallbacks_do_not_need_is_given_back():
     mesh, _ = MESHES["fallback"]
-    solver = sc.Solver(*mesh)
+    solver = sc.Solver(*mesh, fallbacks=True)
     first, second = (sc._native.counted_work(solver.solve) for _ in range(2))
     assert solver.solve().fallback is not None
     assert second["analyses"] == first["analyses"] + 1

@@ -308,25 +308,25 @@ def test_progress_and_cancelling():
 
 
 @pytest.mark.parametrize(
-    ("options", "message"),
+    ("options", "kind", "message"),
     [
-        ({"max_length": -1.0}, "max_length must be a number of at least 0"),
-        ({"max_length": float("nan")}, "max_length"),
-        ({"scale_limit": 0.5}, "scale_limit must be a number of at least 1"),
-        ({"qc_limit": "low"}, "qc_limit"),
-        ({"qc_gain": -0.1}, "qc_gain must be a number of at least 0"),
-        ({"energy_limit": 3.9}, "energy_limit must be a number of at least 4"),
-        ({"front": (0, 1)}, "front must be three finite numbers"),
-        ({"vertex_preference": [2.0]}, "vertex_preference must be"),
-        ({"weights": "heavy"}, "weights must be one of"),
-        ({"factorization": "lu"}, "factorization must be one of"),
-        ({"progress": 3}, "progress must be callable"),
-        ({"seam_edges": [[0, 10**6]]}, "seam_edges has the vertex"),
-        ({"selected_faces": [True]}, "selected_faces must be"),
+        ({"max_length": -1.0}, ValueError, "max_length must be a number of at least 0"),
+        ({"max_length": float("nan")}, ValueError, "max_length"),
+        ({"scale_limit": 0.5}, ValueError, "scale_limit must be a number of at least 1"),
+        ({"qc_limit": "low"}, TypeError, "qc_limit"),
+        ({"qc_gain": -0.1}, ValueError, "qc_gain must be a number of at least 0"),
+        ({"energy_limit": 3.9}, ValueError, "energy_limit must be a number of at least 4"),
+        ({"front": (0, 1)}, ValueError, "front must be three finite numbers"),
+        ({"vertex_preference": [2.0]}, ValueError, "vertex_preference must be"),
+        ({"weights": "heavy"}, ValueError, "weights must be one of"),
+        ({"factorization": "lu"}, ValueError, "factorization must be one of"),
+        ({"progress": 3}, TypeError, "progress must be callable"),
+        ({"seam_edges": [[0, 10**6]]}, ValueError, "seam_edges has the vertex"),
+        ({"selected_faces": [True]}, ValueError, "selected_faces must be"),
     ],
 )
-def test_options_are_checked(options, message):
-    with pytest.raises(ValueError, match=message):
+def test_options_are_checked(options, kind, message):
+    with pytest.raises(kind, match=message):
         sc.suggest_seams(*closed_creature(), **options)
 
 

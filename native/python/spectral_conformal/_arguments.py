@@ -1,4 +1,4 @@
-"""Checks and conversions of arrays and numbers: what is wrong is named in a ValueError.
+"""Checks and conversions of arrays and numbers: a wrong type is a TypeError, any other unusable value a ValueError.
 
 Arrays are copied, once, and the copies are checked. The native module counts, and later fills, without the GIL, and
 reads some arrays again in later solves: what other threads and progress functions do to the caller's arrays meanwhile
@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numbers
 import operator
-from collections.abc import Callable, Iterable, Mapping
-from typing import Optional
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,8 @@ Pins = Mapping[int, "tuple[float, float]"]
 Extenders = Iterable["tuple[int, int, float]"]
 """(vertex, vertex, strength): a soft constraint of section 4.2 that pushes the two apart, or pulls them together where
 the strength is negative. The strength is a fraction of the boundary's total mass."""
+Faces = Union[npt.ArrayLike, Sequence[Sequence[int]]]
+"""The faces of a polygon mesh: their vertices, (F, n) or a list of polygons, or, with `corner_vertices`, offsets."""
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 
@@ -35,32 +37,62 @@ _ROWS_AT_ONCE = 1 << 14
 
 def checked_polygon_mesh(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None,
     seam_edges: npt.ArrayLike | None,
     selected_faces: npt.ArrayLike | None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
     vertices = checked_vertices(vertices)
-    corners = checked_indices(corner_vertices, "corner_vertices", None, len(vertices))
-    offsets = checked_index_vector(face_offsets, "face_offsets")
+    offsets, corners = checked_faces(faces, corner_vertices, len(vertices))
     if len(offsets) == 1:
         raise InvalidMeshError("The mesh has no faces; there is nothing to unwrap.")
-    _check_rising(offsets, len(corners))
     seams = None if seam_edges is None else checked_indices(seam_edges, "seam_edges", 2, len(vertices))
     return vertices, offsets, corners, seams, checked_face_selection(selected_faces, len(offsets) - 1)
 
 
-def checked_face_offsets(face_offsets: npt.ArrayLike, n_corners: int) -> npt.NDArray[np.int32]:
-    offsets = checked_index_vector(face_offsets, "face_offsets")
-    _check_rising(offsets, n_corners)
-    return offsets
+def checked_faces(
+    faces: Faces, corner_vertices: npt.ArrayLike | None, n_vertices: int = _INDEX_LIMIT + 1
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    """Return where the corners of each face begin, (F + 1,), and the vertex of each corner, (C,)."""
+    if corner_vertices is None:
+        offsets, corner_vertices = _corners_of(faces)
+        name = "faces"
+    else:
+        offsets, name = checked_index_vector(faces, "faces"), "corner_vertices"
+    corners = checked_indices(corner_vertices, name, None, n_vertices)
+    _check_rising(offsets, len(corners))
+    return offsets, corners
+
+
+def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
+    """Return the offsets and the vertices of faces that are given as vertices, (F, n) or polygon by polygon."""
+    if not isinstance(faces, np.ndarray) and not hasattr(faces, "__array__"):
+        try:
+            counts = [len(face) for face in faces]
+        except TypeError as error:
+            raise TypeError(
+                "faces must be vertices, (F, n) or a list of polygons, or come with corner_vertices as offsets."
+            ) from error
+        if len(set(counts)) > 1:
+            offsets = np.concatenate([[0], np.cumsum(counts)])
+            return checked_index_vector(offsets, "faces"), np.concatenate([np.asarray(f) for f in faces if len(f)])
+    array = checked_array(faces, "faces")
+    if array.shape[:1] == (0,):
+        return np.zeros(1, np.int32), np.zeros(0, np.int32)
+    if array.ndim != 2:
+        raise ValueError(
+            f"faces must have the shape (F, n), not {array.shape}, or come with corner_vertices as offsets."
+        )
+    if array.size > _SIZE_LIMIT:
+        raise ValueError(f"faces has {array.size} entries; at most {_SIZE_LIMIT} can be numbered. Split the mesh.")
+    return np.arange(len(array) + 1, dtype=np.int32) * np.int32(array.shape[1]), array.ravel()
 
 
 def _check_rising(offsets: npt.NDArray[np.int32], n_corners: int) -> None:
     if len(offsets) == 0:
-        raise ValueError("face_offsets is empty; it needs one entry more than there are faces.")
+        raise ValueError("faces is empty; as offsets it needs one entry more than there are faces.")
     if offsets[0] != 0 or offsets[-1] != n_corners or (np.diff(offsets) < 0).any():
-        raise ValueError(f"face_offsets must rise from 0 to the number of corners, {n_corners}, without decreasing.")
+        raise ValueError(f"faces, as offsets, must rise from 0 to the number of corners, {n_corners}.")
 
 
 def checked_face_selection(selected_faces: npt.ArrayLike | None, n_faces: int) -> npt.NDArray[np.bool_] | None:
@@ -69,20 +101,26 @@ def checked_face_selection(selected_faces: npt.ArrayLike | None, n_faces: int) -
 
 def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.NDArray[np.bool_]:
     array = checked_array(values, name)
-    if array.dtype != np.bool_ or array.shape != (n,):
+    if array.dtype != np.bool_:
+        raise TypeError(f"{name} must be {n} booleans, one per {item}, not {array.dtype}.")
+    if array.shape != (n,):
         raise ValueError(f"{name} must be {n} booleans, one per {item}, not {array.dtype} of shape {array.shape}.")
     # A flag is any byte but 0 to NumPy, and 0 or 1 to a compiler.
     return array.view(np.uint8) != 0
 
 
 def checked_between(value: float, low: float, high: float, name: str) -> float:
-    if not (isinstance(value, numbers.Real) and low <= value <= high):
+    if not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number between {low:g} and {high:g}, not {value!r}.")
+    if not low <= value <= high:
         raise ValueError(f"{name} must lie between {low:g} and {high:g}, not {value!r}.")
     return float(value)
 
 
 def checked_at_least(value: float, least: float, name: str) -> float:
-    if not (isinstance(value, numbers.Real) and value >= least):
+    if not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number of at least {least:g}, not {value!r}.")
+    if not value >= least:
         raise ValueError(f"{name} must be a number of at least {least:g}, not {value!r}.")
     try:
         return float(value)
@@ -91,14 +129,18 @@ def checked_at_least(value: float, least: float, name: str) -> float:
 
 
 def checked_count(value: int, name: str) -> int:
-    if isinstance(value, (bool, np.bool_)) or not (isinstance(value, numbers.Integral) and 0 <= value < 2**31):
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name} must be a whole number from 0 to 2147483647, not {value!r}.")
+    if not 0 <= value < 2**31:
         raise ValueError(f"{name} must be a whole number from 0 to 2147483647, not {value!r}.")
     return int(value)
 
 
 def checked_direction(value: npt.ArrayLike, name: str) -> tuple[float, float, float]:
     array = np.array(checked_array(value, name))
-    if array.shape != (3,) or array.dtype.kind not in "iuf" or not np.isfinite(array).all():
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must be three finite numbers, not {value!r}.")
+    if array.shape != (3,) or not np.isfinite(array).all():
         raise ValueError(f"{name} must be three finite numbers, not {value!r}.")
     x, y, z = array.tolist()
     return float(x), float(y), float(z)
@@ -108,8 +150,9 @@ def checked_preference(values: npt.ArrayLike | None, n_vertices: int) -> npt.NDA
     if values is None:
         return None
     array = checked_array(values, "vertex_preference")
-    is_usable = array.shape == (n_vertices,) and array.dtype.kind in "iuf"
-    preference = np.array(array, dtype=np.float64) if is_usable else None
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"vertex_preference must hold real numbers, not {array.dtype}.")
+    preference = np.array(array, dtype=np.float64) if array.shape == (n_vertices,) else None
     if preference is None or not (np.abs(preference) <= 1).all():
         raise ValueError(f"vertex_preference must be {n_vertices} numbers from -1 to 1, one per vertex.")
     return preference
@@ -117,7 +160,7 @@ def checked_preference(values: npt.ArrayLike | None, n_vertices: int) -> npt.NDA
 
 def checked_progress(progress: Progress | None) -> Progress | None:
     if progress is not None and not callable(progress):
-        raise ValueError(f"progress must be callable or None, not {type(progress).__name__}.")
+        raise TypeError(f"progress must be callable or None, not {type(progress).__name__}.")
     return progress
 
 
@@ -127,7 +170,8 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"{name} is no regular array: {error}.") from error
+        kind = TypeError if isinstance(error, TypeError) else ValueError
+        raise kind(f"{name} is no regular array: {error}.") from error
     if array.ndim and len(array) > _SIZE_LIMIT + 1:  # of offsets there is one more
         raise ValueError(
             f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."
@@ -138,7 +182,7 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
 def copied_floats(array: np.ndarray, name: str, keep_single: bool = False) -> npt.NDArray[np.floating]:
     """Return a copy of the array as float64, or as float32 where it is that already and `keep_single` is set."""
     if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} must hold real numbers, not {array.dtype}.")
+        raise TypeError(f"{name} must hold real numbers, not {array.dtype}.")
     # Wider floats that a double does not hold become infinite, and are named as such.
     with np.errstate(over="ignore"):
         kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
@@ -163,7 +207,7 @@ def checked_index_vector(values: npt.ArrayLike, name: str) -> npt.NDArray[np.int
     if array.size == 0:
         array = np.zeros(array.shape, np.int32)
     if array.dtype.kind not in "iu":
-        raise ValueError(f"{name} must hold integers, not {array.dtype}.")
+        raise TypeError(f"{name} must hold integers, not {array.dtype}.")
     if array.ndim != 1:
         raise ValueError(f"{name} must have one dimension, not the shape {array.shape}.")
     indices = np.empty(len(array), np.int32)
@@ -197,7 +241,7 @@ def checked_indices(values: npt.ArrayLike, name: str, columns: int | None, n_ver
 
 def checked_flag(value: object, name: str) -> bool:
     if not isinstance(value, (bool, np.bool_)):
-        raise ValueError(f"{name} must be True or False, not {value!r}.")
+        raise TypeError(f"{name} must be True or False, not {value!r}.")
     return bool(value)
 
 
@@ -206,7 +250,7 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
     try:
         triples = iter(() if extenders is None else extenders)
     except TypeError as error:
-        raise ValueError(
+        raise TypeError(
             f"extenders must be (vertex, vertex, strength) triples, not a {type(extenders).__name__}."
         ) from error
     for k, extender in enumerate(tuple(triples)):
@@ -214,7 +258,8 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
             first, second, strength = extender
             i, j, strength = operator.index(first), operator.index(second), float(strength)
         except (TypeError, ValueError, OverflowError) as error:
-            raise ValueError(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
+            kind = TypeError if isinstance(error, TypeError) else ValueError
+            raise kind(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
         if not (0 <= i < n_vertices and 0 <= j < n_vertices):
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
         if i == j:
@@ -246,7 +291,9 @@ def checked_metric(
 
 def checked_tensors(metric: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
     array = checked_array(metric, "metric")
-    if array.dtype.kind not in "fiu" or array.ndim != 3 or array.shape[1:] != (size, size):
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"metric must hold real numbers, not {array.dtype}.")
+    if array.ndim != 3 or array.shape[1:] != (size, size):
         raise ValueError(
             f"metric must be real numbers of the shape (n, {size}, {size}), not {array.dtype} {array.shape}."
         )
@@ -299,14 +346,15 @@ def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, f
     if pins is None:
         return []
     if not isinstance(pins, Mapping):
-        raise ValueError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
+        raise TypeError(f"pins must map vertices to (u, v), not be a {type(pins).__name__}.")
     result = []
     for vertex, position in dict(pins).items():
         try:
             index = operator.index(vertex)
             u, v = (float(x) for x in position)
         except (TypeError, ValueError, OverflowError) as error:
-            raise ValueError(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
+            kind = TypeError if isinstance(error, TypeError) else ValueError
+            raise kind(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
         if not 0 <= index < n_vertices:
             raise ValueError(f"Vertex {index} is pinned, but there are {n_vertices} vertices.")
         if not (np.isfinite(u) and np.isfinite(v)):

@@ -6,12 +6,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
+from ._arguments import Faces
 
 
 def chart_of_face(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None = None,
     *,
     seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
@@ -23,7 +24,7 @@ def chart_of_face(
 
     Args:
         vertices: this and the others as in `unwrap`.
-        face_offsets: see `unwrap`.
+        faces: see `unwrap`.
         corner_vertices: see `unwrap`.
         seam_edges: see `unwrap`.
         selected_faces: see `unwrap`.
@@ -32,5 +33,5 @@ def chart_of_face(
         ValueError: the arrays do not describe a mesh.
     """
     return _native.chart_of_face(
-        *_arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+        *_arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
     )

@@ -37,5 +37,5 @@ class KeptMaps:
 def native_of(kept: KeptMaps | None) -> _native.KeptMaps | None:
     """Return what the native module knows a `KeptMaps` by."""
     if kept is not None and not isinstance(kept, KeptMaps):
-        raise ValueError(f"kept_maps must be a KeptMaps or None, not {type(kept).__name__}.")
+        raise TypeError(f"kept_maps must be a KeptMaps or None, not {type(kept).__name__}.")
     return None if kept is None else kept._native  # noqa: SLF001 - the facade's own

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import difflib
-import functools
 import inspect
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal, TypedDict, TypeVar, get_args
 
 from . import _arguments
@@ -33,7 +32,7 @@ class Options:
     """How a map is made. Every field is a keyword of `parameterize`, `unwrap`, `Solver` and `Unwrapper`, too.
 
     Immutable and comparable; `dataclasses.replace` makes a changed copy. A value of the wrong kind, out of its range or
-    at odds with another raises ValueError.
+    at odds with another raises ValueError, one of the wrong type TypeError.
 
     Attributes:
         method: "spectral" (Eq. 5), "lscm" (pinned LSCM / DCP, section 2.2), "fiedler" (Eq. 4) or "area" (B = A, section
@@ -69,8 +68,9 @@ class Options:
         fallbacks: bool, whether "spectral" may take another map where its own fails the checks: the one of least mean
             QC without flipped triangles among the failed map unfolded (or an embedding, where that leaves no room) and
             the maps with thin triangles clamped, with the other boundary and with the other weights. The result's
-            `fallback` names which. False: such a failure is an error. The embedding of `fold_free` is asked for by that
-            option, and made either way.
+            `fallback` names which. False: such a failure is an error. None: True for `unwrap` and `Unwrapper`, which
+            report chart by chart, False for `parameterize` and `Solver`. The embedding of `fold_free` is asked for by
+            that option, and made either way.
         tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops.
         factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen; or "cholmod", "eigen".
     """
@@ -84,7 +84,7 @@ class Options:
     area_blend: float = 0.0
     fold_free: bool = False
     polish: bool = False
-    fallbacks: bool = True
+    fallbacks: bool | None = None
     tolerance: float = 1e-8
     factorization: Factorization = "auto"
 
@@ -92,11 +92,14 @@ class Options:
         """Check every value, and make numbers of any kind float and bool.
 
         Raises:
-            ValueError: a value is of the wrong kind, out of its range or at odds with another.
+            TypeError: a value is of the wrong type.
+            ValueError: a value is out of its range or at odds with another.
         """
         _check_choices(self)
-        for name in ("fill_holes", "fold_free", "polish", "fallbacks"):
+        for name in ("fill_holes", "fold_free", "polish"):
             _set(self, name, _arguments.checked_flag(getattr(self, name), name))
+        if self.fallbacks is not None:
+            _set(self, "fallbacks", _arguments.checked_flag(self.fallbacks, "fallbacks"))
         for name, low, high in (
             ("soft_pins", 0.0, _arguments.STRENGTH_LIMIT),
             ("hole_rigidity", 0.0, _arguments.STRENGTH_LIMIT),
@@ -154,7 +157,8 @@ class SeamOptions:
         """Check every value, and make numbers of any kind float.
 
         Raises:
-            ValueError: a value is of the wrong kind or out of its range.
+            TypeError: a value is of the wrong type.
+            ValueError: a value is out of its range.
         """
         _check_choices(self)
         if self.max_length is not None:
@@ -178,7 +182,9 @@ class SeamOptions:
 def _check_choices(options: Options | SeamOptions) -> None:
     for name, choices in _CHOICES.items():
         value = getattr(options, name, choices[0])
-        if not isinstance(value, str) or value not in choices:
+        if not isinstance(value, str):
+            raise TypeError(f"{name} must be one of {', '.join(map(repr, choices))}, not {value!r}.")
+        if value not in choices:
             raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, not {value!r}.")
 
 
@@ -202,7 +208,7 @@ class SolveChanges(ResolveChanges, total=False):
 
     method: Method
     soft_pins: float
-    fallbacks: bool
+    fallbacks: bool | None
 
 
 class OptionChanges(SolveChanges, total=False):
@@ -232,57 +238,44 @@ class SeamOptionChanges(TypedDict, total=False):
 
 
 AnyOptions = TypeVar("AnyOptions", Options, SeamOptions)
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def changed(options: AnyOptions | None, default: AnyOptions, changes: dict[str, Any]) -> AnyOptions:
+def changed(
+    options: AnyOptions | None,
+    default: AnyOptions,
+    changes: dict[str, Any],
+    allowed: type,
+    function: Callable[..., Any],
+) -> AnyOptions:
     """Return `options`, or `default` where they are None, with changes.
 
+    Args:
+        options: as a caller of `function` gives them.
+        default: taken where there are none.
+        changes: fields by name.
+        allowed: the TypedDict of the fields that `function` takes.
+        function: named in the message about a field that it does not take.
+
     Raises:
-        ValueError: they are no such options, or a value cannot be used.
+        TypeError: they are no such options, or a name is none of `allowed`; the message names the closest one.
+        ValueError: a value cannot be used.
     """
     base = default if options is None else options
     if not isinstance(base, type(default)):
-        raise ValueError(f"options must be {type(default).__name__}, not {type(options).__name__}.")
+        raise TypeError(f"options must be {type(default).__name__}, not {type(options).__name__}.")
+    for name in changes:
+        if name not in allowed.__optional_keys__:
+            own = inspect.signature(function).parameters.keys() - {"self", "changes"}
+            known = sorted({*own, *allowed.__optional_keys__})
+            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            called = function.__qualname__.replace(".__init__", "")
+            raise TypeError(f"{called}() has no option '{name}'; did you mean '{near}'?")
     return replace(base, **changes) if changes else base
 
 
-def takes_options(options: type, changes: type) -> Callable[[Function], Function]:
-    """Make the names of `changes` keywords of a function that is written with **changes.
-
-    Its signature and its help list them, with the defaults and the documentation of the fields of `options`; a name
-    that is not among them raises TypeError and is answered with the closest one.
-    """
-
-    def decorate(function: Function) -> Function:
-        signature = inspect.signature(function)
-        own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
-        chosen = [field for field in fields(options) if field.name in changes.__optional_keys__]
-        keyword_only = inspect.Parameter.KEYWORD_ONLY
-        listed = [inspect.Parameter(f.name, keyword_only, default=f.default, annotation=f.type) for f in chosen]
-        known = {parameter.name for parameter in (*own, *listed)} - {"self"}
-
-        @functools.wraps(function)
-        def checked(*arguments: Any, **keywords: Any) -> Any:  # noqa: ANN401 - of any function
-            for name in keywords:
-                if name not in known:
-                    near = difflib.get_close_matches(name, sorted(known), n=1, cutoff=0.0)[0]
-                    raise TypeError(f"{function.__qualname__}() has no option '{name}'; did you mean '{near}'?")
-            return function(*arguments, **keywords)
-
-        checked.__signature__ = signature.replace(parameters=[*own, *listed])
-        checked.__doc__ = _with_options(function.__doc__, options, [field.name for field in chosen])
-        return checked
-
-    return decorate
-
-
-def _with_options(doc: str | None, options: type, names: list[str]) -> str | None:
-    if doc is None:  # python -OO
-        return doc
-    entries = documented(options)
-    listed = "\n".join(entries[name] for name in names)
-    return f"{inspect.cleandoc(doc)}\n\nOptions, each a keyword (see `{options.__name__}`):\n{listed}\n"
+def with_fallbacks(options: Options, default: bool) -> Options:
+    """Return options whose `fallbacks` are as asked for, or else the default."""
+    return replace(options, fallbacks=default) if options.fallbacks is None else options
 
 
 def documented(options: type) -> dict[str, str]:

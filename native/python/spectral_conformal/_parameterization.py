@@ -8,14 +8,13 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Pins, Progress
-from ._options import OptionChanges, Options, SolveChanges, changed, takes_options
+from ._options import OptionChanges, Options, SolveChanges, changed, with_fallbacks
 from ._results import Parameterization
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
-@takes_options(Options, OptionChanges)
 def parameterize(
     vertices: npt.ArrayLike,
     triangles: npt.ArrayLike,
@@ -55,14 +54,15 @@ def parameterize(
     Raises:
         InvalidMeshError: (a ValueError) the mesh is not one disk-like patch, or its pins cannot be held; the message
             names the condition and what to do.
-        ValueError: an array or option is not of the kind described here.
-        TypeError: a keyword is no option; the message names the closest one.
+        ValueError: an array has the wrong shape, or a value is out of its range.
+        TypeError: an argument is of the wrong type, or a keyword is no option; the message names the closest one.
         SolveError: no attempt passed the numerical checks, or the map winds round more than once: under extenders and
             hole rigidity, weaken them.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
     """
-    solver = Solver._of(vertices, triangles, metric, changed(options, Options(), changes), progress)
+    used = with_fallbacks(changed(options, Options(), changes, OptionChanges, parameterize), False)
+    solver = Solver._of(vertices, triangles, metric, used, progress)
     return solver._solved(solver._options, pins, extenders, progress)
 
 
@@ -74,7 +74,6 @@ class Solver:
     ended. Its progress function must not call it again.
     """
 
-    @takes_options(Options, OptionChanges)
     def __init__(
         self,
         vertices: npt.ArrayLike,
@@ -89,10 +88,10 @@ class Solver:
 
         Arguments and errors are those of `parameterize`. Options that a solve may vary are what it starts from.
         """
-        self._assemble(vertices, triangles, metric, changed(options, Options(), changes), progress)
+        used = with_fallbacks(changed(options, Options(), changes, OptionChanges, Solver.__init__), False)
+        self._assemble(vertices, triangles, metric, used, progress)
         self._native.factorize(_arguments.checked_progress(progress))
 
-    @takes_options(Options, SolveChanges)
     def solve(
         self,
         *,
@@ -108,7 +107,8 @@ class Solver:
         that with a tolerance above 1e-7 a solve with them starts from the earlier maps. A small change of strength then
         costs a few solves, and the map agrees with a fresh one to the tolerance.
         """
-        return self._solved(changed(self._options, self._options, changes), pins, extenders, progress)
+        used = with_fallbacks(changed(self._options, self._options, changes, SolveChanges, Solver.solve), False)
+        return self._solved(used, pins, extenders, progress)
 
     @classmethod
     def _of(

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
+from ._arguments import Faces
 from ._results import Distortion, FaceDistortion, MapDefects
 
 
@@ -33,8 +34,8 @@ def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayL
 
 
 def map_defects(
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None,
     corner_uv: npt.ArrayLike,
     *,
     selected_faces: npt.ArrayLike | None = None,
@@ -51,7 +52,7 @@ def map_defects(
     different corners are not looked at.
 
     Args:
-        face_offsets: as in `unwrap`.
+        faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         corner_uv: (C, 2) the map, finite at the corners of selected faces.
         selected_faces: (faces,) bool, all faces when left out; others are not looked at.
@@ -60,8 +61,7 @@ def map_defects(
     Raises:
         ValueError: the arrays do not describe a mesh, or a UV is not finite; the message names its corner.
     """
-    corners = _arguments.checked_index_vector(corner_vertices, "corner_vertices")
-    offsets = _arguments.checked_face_offsets(face_offsets, len(corners))
+    offsets, corners = _arguments.checked_faces(faces, corner_vertices)
     selected = _arguments.checked_face_selection(selected_faces, len(offsets) - 1)
     uv = _arguments.checked_corner_uv(corner_uv, len(corners))
     between = _arguments.checked_flag(between_islands, "between_islands")
@@ -70,8 +70,8 @@ def map_defects(
 
 def face_distortion(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None,
     corner_uv: npt.ArrayLike,
     *,
     selected_faces: npt.ArrayLike | None = None,
@@ -80,7 +80,7 @@ def face_distortion(
 
     Args:
         vertices: as in `unwrap`, but may have values that are not finite.
-        face_offsets: as in `unwrap`.
+        faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         corner_uv: (C, 2) the map; may have values that are not finite. Single precision is read as it is.
         selected_faces: (faces,) bool, all faces when left out; others are not looked at.
@@ -89,7 +89,7 @@ def face_distortion(
         ValueError: the arrays do not describe a mesh, or are not of the kinds described.
     """
     vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
-        vertices, face_offsets, corner_vertices, None, selected_faces
+        vertices, faces, corner_vertices, None, selected_faces
     )
     uv = _arguments.checked_corner_uv(corner_uv, len(corners), keep_single=True)
     return FaceDistortion(**_native.face_distortion(vertices, offsets, corners, uv, selected))
@@ -97,8 +97,8 @@ def face_distortion(
 
 def face_triangles(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None = None,
     *,
     selected_faces: npt.ArrayLike | None = None,
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
@@ -106,7 +106,7 @@ def face_triangles(
 
     Args:
         vertices: as in `unwrap`, but may have values that are not finite.
-        face_offsets: as in `unwrap`.
+        faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         selected_faces: (faces,) bool, all faces when left out; others have no triangles.
 
@@ -117,6 +117,6 @@ def face_triangles(
         ValueError: the arrays do not describe a mesh, or are not of the kinds described.
     """
     vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
-        vertices, face_offsets, corner_vertices, None, selected_faces
+        vertices, faces, corner_vertices, None, selected_faces
     )
     return _native.face_triangles(vertices, offsets, corners, selected)

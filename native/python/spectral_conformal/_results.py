@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal, Optional, SupportsIndex, overload
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple, Optional, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._layout import packed
 from ._options import Boundary, Method, Weights
 
 Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
@@ -292,3 +293,55 @@ class Unwrap:
     """(number of extenders,) those without effect: no solved chart has both vertices, or its pins hold it."""
     timings: dict[str, float]
     """Seconds per phase, by name, summed up over the charts, of which several may be solved at once."""
+    face_offsets: npt.NDArray[np.int32]
+    """(faces + 1,) where the corners of each face begin."""
+    corner_vertices: npt.NDArray[np.int32]
+    """(C,) the vertex of each corner."""
+
+    def packed(self, margin: float = 0.004) -> Unwrap:
+        """Return the same with all charts side by side in the unit square, at one scale.
+
+        Args:
+            margin: between charts, and between them and the border, as a fraction of the square's side.
+
+        Raises:
+            ValueError: the margin leaves no room for so many charts.
+        """
+        chart = np.repeat(self.chart_of_face.astype(np.int64), np.diff(self.face_offsets))
+        chart[~self.solved_corners] = -1
+        return replace(self, uv=packed(self.uv, chart, (margin, margin)))
+
+    def split_vertices(self) -> SplitMesh:
+        """Return the mesh with one vertex for each place of the map, as renderers, xatlas and igl have it."""
+        return split_vertices(self.face_offsets, self.corner_vertices, self.uv)
+
+
+class SplitMesh(NamedTuple):
+    """A mesh whose vertices have one place each in the map: those on seams are there several times."""
+
+    vmapping: npt.NDArray[np.int32]
+    """(N,) the vertex of the mesh that each is a copy of, ascending."""
+    faces: npt.NDArray[np.int32] | list[npt.NDArray[np.int32]]
+    """The faces by these vertices, in order: (F, n) where all have n corners, otherwise a list of polygons."""
+    uvs: npt.NDArray[np.float64]
+    """(N, 2) the place of each in the map."""
+
+
+def split_vertices(
+    face_offsets: npt.NDArray[np.integer],
+    corner_vertices: npt.NDArray[np.integer],
+    corner_uv: npt.NDArray[np.float64],
+) -> SplitMesh:
+    """Give each vertex as many copies as its corners have different UVs: (F + 1,), (C,) and (C, 2)."""
+    u, v = corner_uv.T
+    order = np.lexsort((v, u, corner_vertices))
+    rows = np.column_stack([corner_vertices, u, v])[order]
+    is_new = np.ones(len(order), bool)
+    is_new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+    copies = np.empty(len(order), np.int32)
+    copies[order] = np.cumsum(is_new, dtype=np.int32) - 1
+    firsts = order[is_new]
+    counts = np.diff(face_offsets)
+    is_uniform = len(counts) > 0 and (counts == counts[0]).all()
+    faces = copies.reshape(len(counts), -1) if is_uniform else np.split(copies, face_offsets[1:-1])
+    return SplitMesh(corner_vertices[firsts].astype(np.int32), faces, corner_uv[firsts])

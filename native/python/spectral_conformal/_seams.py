@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
-from ._arguments import Progress
-from ._options import SeamOptionChanges, SeamOptions, changed, takes_options
+from ._arguments import Faces, Progress
+from ._options import SeamOptionChanges, SeamOptions, changed
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -22,11 +22,10 @@ class Cuts(list):
     """For people: parts that there is too little memory for, which got no seams; empty where there are none."""
 
 
-@takes_options(SeamOptions, SeamOptionChanges)
 def suggest_seams(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None = None,
     *,
     options: SeamOptions | None = None,
     seam_edges: npt.ArrayLike | None = None,
@@ -48,7 +47,7 @@ def suggest_seams(
 
     Args:
         vertices: (V, 3) positions, any unit.
-        face_offsets: as in `unwrap`.
+        faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         options: when to stop, and how maps are made; its fields may be given one by one as keywords, which go first.
         seam_edges: (S, 2) seams that stay; the proposed ones complete them.
@@ -63,7 +62,7 @@ def suggest_seams(
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
-        TypeError: a keyword is no option; the message names the closest one.
+        TypeError: an argument is of the wrong type, or a keyword is no option; the message names the closest one.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory for the mesh, or for any part of it.
 
@@ -72,9 +71,9 @@ def suggest_seams(
     """
     cuts = suggest_cuts(
         vertices,
-        face_offsets,
+        faces,
         corner_vertices,
-        options=changed(options, SeamOptions(), changes),
+        options=changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_seams),
         seam_edges=seam_edges,
         selected_faces=selected_faces,
         vertex_preference=vertex_preference,
@@ -85,11 +84,10 @@ def suggest_seams(
     return np.concatenate([np.zeros((0, 2), np.int32), *cuts])
 
 
-@takes_options(SeamOptions, SeamOptionChanges)
 def suggest_cuts(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None = None,
     *,
     options: SeamOptions | None = None,
     seam_edges: npt.ArrayLike | None = None,
@@ -103,8 +101,8 @@ def suggest_cuts(
     A cut and its mirror image are one. Arguments and errors are those of `suggest_seams`; what that warns of is the
     list's `message`.
     """
-    used = changed(options, SeamOptions(), changes)
-    polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+    used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
+    polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
     edges, offsets, message = _native.suggest_seams(
         *polygons, preference, used.with_energy_limit(), _arguments.checked_progress(progress)

@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _native
-from ._arguments import Extenders, Pins, Progress
+from ._arguments import Extenders, Faces, Pins, Progress
 from ._kept_maps import KeptMaps, native_of
-from ._options import OptionChanges, Options, ResolveChanges, changed, takes_options
+from ._options import OptionChanges, Options, ResolveChanges, SeamOptions, changed, with_fallbacks
 from ._results import Charts, Unwrap
+from ._seams import suggest_seams
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-_DEFAULTS = Options()
+_SUGGESTED = "suggested"
 
 
-@takes_options(Options, OptionChanges)
 def unwrap(
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None = None,
     *,
     options: Options | None = None,
-    seam_edges: npt.ArrayLike | None = None,
+    seam_edges: npt.ArrayLike | Literal["suggested"] | None = None,
     selected_faces: npt.ArrayLike | None = None,
     pins: Pins | None = None,
     pinned_corners: npt.ArrayLike | None = None,
@@ -44,10 +44,13 @@ def unwrap(
 
     Args:
         vertices: (V, 3) positions, any unit.
-        face_offsets: (faces + 1,) the corners of face f are face_offsets[f] to face_offsets[f + 1], as in Blender.
-        corner_vertices: (C,) vertex of each corner.
+        faces: (F, n) vertices of each face, a list of polygons as lists of vertices, or, with `corner_vertices`,
+            (F + 1,) offsets: the corners of face f are faces[f] to faces[f + 1], as in Blender. F counts faces and C
+            their corners, face after face.
+        corner_vertices: (C,) vertex of each corner, for `faces` that are offsets.
         options: how the maps are made; its fields may be given one by one as keywords, which go first.
-        seam_edges: (S, 2) vertex pairs in any order; pairs that are no edge are without effect.
+        seam_edges: (S, 2) vertex pairs in any order; pairs that are no edge are without effect. "suggested" takes those
+            that `suggest_seams` proposes with its defaults.
         selected_faces: (faces,) bool, all faces when left out.
         pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`; pins outside the selection
             have no effect.
@@ -66,17 +69,29 @@ def unwrap(
         kept_maps: maps to take where charts are the same as in earlier calls, and to keep those of this call in.
 
     Raises:
-        ValueError: the arrays do not describe a mesh, or an option is not of the kind described here.
-        TypeError: a keyword is no option; the message names the closest one.
+        ValueError: the arrays do not describe a mesh, or an option is out of its range.
+        TypeError: an argument is of the wrong type, or a keyword is no option; the message names the closest one.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory for the mesh, or for any of its charts; a chart that is too large while
             others are not fails alone.
     """
-    used = changed(options, _DEFAULTS, changes)
-    arguments, n_vertices = _checked_mesh(
+    used = with_fallbacks(changed(options, Options(), changes, OptionChanges, unwrap), True)
+    if isinstance(seam_edges, str):
+        if seam_edges != _SUGGESTED:
+            raise ValueError(f"seam_edges must be vertex pairs or {_SUGGESTED!r}, not {seam_edges!r}.")
+        seam_edges = suggest_seams(
+            vertices,
+            faces,
+            corner_vertices,
+            options=SeamOptions(weights=used.weights, boundary=used.boundary, factorization=used.factorization),
+            selected_faces=selected_faces,
+            progress=_part(progress, 0.0, 0.5),
+        )
+        progress = _part(progress, 0.5, 1.0)
+    arguments, mesh = _checked_mesh(
         used,
         vertices,
-        face_offsets,
+        faces,
         corner_vertices,
         seam_edges,
         selected_faces,
@@ -88,11 +103,20 @@ def unwrap(
     return _result(
         _native.unwrap(
             arguments,
-            _arguments.checked_extenders(extenders, used.method, n_vertices),
+            _arguments.checked_extenders(extenders, used.method, len(mesh[0])),
             _arguments.checked_progress(progress),
             native_of(kept_maps),
-        )
+        ),
+        mesh,
     )
+
+
+def _part(progress: Progress | None, begin: float, end: float) -> Progress | None:
+    """Return a progress function of a part of the work, from `begin` to `end`."""
+    if progress is None:
+        return None
+    _arguments.checked_progress(progress)
+    return lambda fraction, phase: progress(begin + (end - begin) * fraction, phase)
 
 
 class Unwrapper:
@@ -102,12 +126,11 @@ class Unwrapper:
     as they may that.
     """
 
-    @takes_options(Options, OptionChanges)
     def __init__(
         self,
         vertices: npt.ArrayLike,
-        face_offsets: npt.ArrayLike,
-        corner_vertices: npt.ArrayLike,
+        faces: Faces,
+        corner_vertices: npt.ArrayLike | None = None,
         *,
         options: Options | None = None,
         seam_edges: npt.ArrayLike | None = None,
@@ -122,11 +145,11 @@ class Unwrapper:
 
         Arguments and errors are those of `unwrap`. Options that a solve may vary are what it starts from.
         """
-        self._options = changed(options, _DEFAULTS, changes)
-        arguments, self._n_vertices = _checked_mesh(
+        self._options = with_fallbacks(changed(options, Options(), changes, OptionChanges, Unwrapper.__init__), True)
+        arguments, self._mesh = _checked_mesh(
             self._options,
             vertices,
-            face_offsets,
+            faces,
             corner_vertices,
             seam_edges,
             selected_faces,
@@ -137,7 +160,6 @@ class Unwrapper:
         )
         self._native = _native.Unwrapper(arguments)
 
-    @takes_options(Options, ResolveChanges)
     def solve(
         self,
         *,
@@ -146,37 +168,39 @@ class Unwrapper:
         **changes: Unpack[ResolveChanges],
     ) -> Unwrap:
         """Solve all charts, with the options of the unwrapper and the changes given here. See `unwrap`."""
-        options = changed(self._options, self._options, changes)
+        options = changed(self._options, self._options, changes, ResolveChanges, Unwrapper.solve)
         return _result(
             self._native.solve(
                 options,
-                _arguments.checked_extenders(extenders, options.method, self._n_vertices),
+                _arguments.checked_extenders(extenders, options.method, len(self._mesh[0])),
                 _arguments.checked_progress(progress),
-            )
+            ),
+            self._mesh,
         )
 
 
 def _checked_mesh(
     options: Options,
     vertices: npt.ArrayLike,
-    face_offsets: npt.ArrayLike,
-    corner_vertices: npt.ArrayLike,
+    faces: Faces,
+    corner_vertices: npt.ArrayLike | None,
     seam_edges: npt.ArrayLike | None,
     selected_faces: npt.ArrayLike | None,
     pins: Pins | None,
     pinned_corners: npt.ArrayLike | None,
     corner_uv: npt.ArrayLike | None,
     metric: npt.ArrayLike | None,
-) -> tuple[Any, int]:
-    """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the number of vertices."""
-    polygons = _arguments.checked_polygon_mesh(vertices, face_offsets, corner_vertices, seam_edges, selected_faces)
+) -> tuple[Any, tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the mesh."""
+    polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
     vertices, offsets, corners = polygons[:3]
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
     all_triangles = bool((np.diff(offsets) == 3).all())
     tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
     pin_list = _arguments.checked_pins(pins, len(vertices))
-    return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), len(vertices)
+    return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), polygons[:3]
 
 
-def _result(result: dict[str, Any]) -> Unwrap:
-    return Unwrap(**{**result, "charts": Charts(*result["charts"])})
+def _result(result: dict[str, Any], mesh: tuple[np.ndarray, np.ndarray, np.ndarray]) -> Unwrap:
+    _, offsets, corners = mesh
+    return Unwrap(**{**result, "charts": Charts(*result["charts"])}, face_offsets=offsets, corner_vertices=corners)
