@@ -15,8 +15,6 @@ SELECT_DISTORTED_OPERATOR = "uv.spectral_select_distorted"
 
 INSPECT_OPERATOR = "uv.spectral_inspect"
 
-COMPARE_OPERATOR = "uv.spectral_compare"
-
 STORE_OPERATOR = "mesh.spectral_store_distortion"
 
 # What is stored of a map, by the kind that the overlay shows; colours have a name of their own.

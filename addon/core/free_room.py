@@ -21,11 +21,6 @@ def free_boxes(size: tuple[float, float], covers: tuple[Box, ...]) -> Sequence[B
     return boxes
 
 
-def largest(size: tuple[float, float], covers: tuple[Box, ...]) -> Box | None:
-    """Return the free box of the largest area; None for none."""
-    return max(free_boxes(size, covers), key=lambda box: (box[2] - box[0]) * (box[3] - box[1]), default=None)
-
-
 def lower_right(size: tuple[float, float], covers: tuple[Box, ...], width: float, height: float) -> Box | None:
     """Return where something of this size goes: as large as it fits, then as low, then as far right as it can.
 

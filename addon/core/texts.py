@@ -77,13 +77,6 @@ STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = (
     "Write what the UV map does to every face into an attribute of the mesh, for rendering, geometry nodes and scripts"
 )
-COMPARE_LABEL = "Compare Methods"
-COMPARE_DESCRIPTION = (
-    "Unwrap the selected faces by this and by Blender's own methods, and show the maps side by side; the UVs stay as "
-    "they are"
-)
-COMPARISON_LABEL = "Compare"
-COMPARISON_KEYS = "Esc, Enter or click: Close"
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Extenders"
 ADD_TO_ACTIVE_LABEL = "Add to Active"
@@ -533,43 +526,6 @@ def stored(name: str) -> str:
     return translate("Stored as {name}").format(name=name)
 
 
-# The methods that are compared, ours first, by their identifiers in Blender's Unwrap.
-OURS = "SPECTRAL"
-COMPARED_METHODS = {
-    OURS: UNWRAP_LABEL,
-    "CONFORMAL": "Conformal",
-    "ANGLE_BASED": "Angle Based",
-    "MINIMUM_STRETCH": "Minimum Stretch",
-}
-COMPARISON_HEADER = ("", "Angles", "Worst", "Sizes", "Flips", "Overlaps", "Seconds")
-# What of it fits into the sidebar.
-COMPARISON_IN_PANEL = ("Angles", "Worst", "Seconds")
-
-
-def comparison_header() -> tuple[str, ...]:
-    """Return the cells of `COMPARISON_HEADER` for who draws them without Blender's layouts."""
-    return tuple(translate(cell) for cell in COMPARISON_HEADER)
-
-
-def comparison_row(label: str, numbers: IslandNumbers | None, seconds: float) -> tuple[str, ...]:
-    """Return the cells of the method with this label in the table, as `COMPARISON_HEADER` names them."""
-    name, took = translate(label), format(seconds, ".2f")
-    if numbers is None or not numbers.mapped:
-        return (name, translate("failed"), *[""] * 4, took)
-    if numbers.mapped < numbers.faces:
-        name = translate("{name} ({n} left out)").format(name=name, n=numbers.faces - numbers.mapped)
-    spread = translate("{percent} %").format(percent=_spread(numbers))
-    cells = (format(numbers.mean_qc, ".3f"), _qc(numbers.max_qc), spread, str(numbers.flipped))
-    return (name, *cells, str(numbers.overlapping), took)
-
-
-def compared(best: str, methods: int) -> str:
-    """Return what Compare Methods says, given the label of the best one."""
-    sentence = translate("Compared {methods} methods; least angle distortion: {best}")
-    return sentence.format(methods=methods, best=translate(best))
-
-
-NOT_COMPARED = "No method could unwrap these faces; Spectral Unwrap says why"
 LEGEND_MESH = "Shown"
 LEGEND_ISLAND = "Active island"
 LEGEND_FACE = "Below the mouse"

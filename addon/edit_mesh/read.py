@@ -147,13 +147,6 @@ def _read_arrays(
     )
 
 
-def read_uv(edit_mesh: EditMesh) -> np.ndarray:
-    """Return the active UV map as it is now, (C, 2) float64."""
-    with temporary_mesh() as copy:
-        bmesh.from_edit_mesh(edit_mesh.mesh).to_mesh(copy)
-        return compatibility.corner_uv(copy).astype(np.float64)
-
-
 def active_uv_layer(mesh: bpy.types.Mesh) -> tuple[BMesh, BMLayerItem]:
     """Return the edit mesh of a mesh in edit mode with a UV map, and the active UV layer in it."""
     bm = bmesh.from_edit_mesh(mesh)

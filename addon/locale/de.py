@@ -73,14 +73,6 @@ TEXTS = {
         "Was die UV-Map mit jeder Fläche macht, in ein Attribut des Meshs schreiben, für Rendering, Geometry Nodes "
         "und Skripte"
     ),
-    "Compare Methods": "Methoden vergleichen",
-    "Unwrap the selected faces by this and by Blender's own methods, and show the maps side by side; the UVs stay as "
-    "they are": (
-        "Die ausgewählten Flächen hiermit und mit Blenders eigenen Methoden abwickeln und die Ergebnisse "
-        "nebeneinander zeigen; die UVs bleiben, wie sie sind"
-    ),
-    "Compare": "Vergleichen",
-    "Esc, Enter or click: Close": "Esc, Eingabe oder Klick: Schließen",
     "Extenders": "Extender",
     "Add to Active": "Mit dem aktiven verbinden",
     "Vertex gone": "Punkt fehlt",
@@ -193,7 +185,7 @@ TEXTS = {
     "Unwrap the faces afterwards, with the settings with which Spectral Unwrap was used last": (
         "Die Flächen danach abwickeln, mit den zuletzt für „Spektral abwickeln“ benutzten Einstellungen"
     ),
-    # Settings of the operators that select, store and compare.
+    # Settings of the operators that select and store.
     "Flipped": "Umgedreht",
     "Select faces that lie the other way round than most of their island": (
         "Flächen auswählen, die andersherum liegen als der größte Teil ihrer Insel"
@@ -499,7 +491,7 @@ TEXTS = {
     "{n} overlapping face": "{n} überlappende Fläche",
     "{n} overlapping faces": "{n} überlappende Flächen",
     "{faces} (see {operator})": "{faces} (siehe „{operator}“)",
-    # The legend, the list of islands and the comparison.
+    # The legend and the list of islands.
     "{factor} x": "{factor} x",
     "sound": "in Ordnung",
     "overlapping": "überlappend",
@@ -521,24 +513,7 @@ TEXTS = {
     "Size {size}, {density} px per unit": "Größe {size}, {density} px je Einheit",
     "Flipped and overlapping": "Umgedreht und überlappend",
     "Stored as {name}": "Als {name} gespeichert",
-    "Conformal": "Konform",
-    "Angle Based": "Winkelbasiert",
-    "Minimum Stretch": "Geringste Streckung",
-    "Angles": "Winkel",
-    "Worst": "Höchstens",
-    "Sizes": "Größen",
-    "Flips": "Umgedreht",
-    "Overlaps": "Überlappt",
-    "Seconds": "Sekunden",
-    "failed": "fehlgeschlagen",
-    "{name} ({n} left out)": "{name} ({n} ausgelassen)",
     "{percent} %": "{percent} %",
-    "Compared {methods} methods; least angle distortion: {best}": (
-        "{methods} Methoden verglichen; geringste Winkelverzerrung: {best}"
-    ),
-    "No method could unwrap these faces; Spectral Unwrap says why": (
-        "Keine Methode konnte diese Flächen abwickeln; „Spektral abwickeln“ sagt, warum"
-    ),
     "Shown": "Angezeigt",
     "Active island": "Aktive Insel",
     "Below the mouse": "Unter der Maus",

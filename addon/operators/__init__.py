@@ -3,9 +3,8 @@
 
 import bpy
 
-from ..unwrapping import comparison, island_list, last_result
+from ..unwrapping import island_list, last_result
 from . import extender_adjust, inspect_map, job_operator
-from .compare import UV_OT_spectral_compare
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
     MESH_OT_spectral_extender_add,
@@ -28,7 +27,6 @@ _CLASSES = (
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,
     UV_OT_spectral_inspect,
-    UV_OT_spectral_compare,
     UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_store_distortion,
     MESH_OT_spectral_extender_add,
@@ -45,7 +43,6 @@ def before_load() -> None:
     inspect_map.end_running(bpy.context)
     last_result.forget()
     island_list.forget()
-    comparison.forget()
 
 
 def register() -> None:

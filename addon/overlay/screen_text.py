@@ -35,8 +35,3 @@ def draw_line(text: str, x: float, top: float, scale: float, color: tuple[float,
     blf.position(0, x, top - 0.75 * LINE * scale, 0.0)
     blf.draw(0, text)
     return top - LINE * scale
-
-
-def fitting_scale(text: str, width: float, scale: float) -> float:
-    """Return the scale, `scale` at most, at which a line is no wider than so many pixels."""
-    return scale * min(1.0, width / max(text_width(text, scale), 1e-6))

@@ -22,7 +22,6 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.prop(overlay, "show", text=texts.MAP_OVERLAY_LABEL)
         layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(layout, names.INSPECT_OPERATOR)
-        draw_operator(layout, names.COMPARE_OPERATOR)
         draw_operator(layout, names.STORE_OPERATOR)
         layout.separator()
         layout.operator_context = "EXEC_REGION_WIN"

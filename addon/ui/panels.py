@@ -9,7 +9,7 @@ import bpy
 from .. import names, user_preferences
 from ..core import texts
 from ..extenders import storage, tracking
-from ..unwrapping import comparison, island_list
+from ..unwrapping import island_list
 from . import unwrap_settings
 from .icons import draw_operator
 
@@ -178,35 +178,6 @@ class _ResultPanel(_Panel):
         )
 
 
-class _ComparisonPanel(_Panel):
-    """What this and Blender's own methods make of the same faces."""
-
-    bl_label = texts.COMPARISON_LABEL
-    bl_options = {"DEFAULT_CLOSED"}
-    part, parent = "comparison", "map_overlay"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the operator, and of every method its distortion, worst face and seconds."""
-        layout = self.layout
-        layout.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(layout, names.COMPARE_OPERATOR)
-        candidates = comparison.last()
-        if not candidates:
-            return
-        best = comparison.best(candidates)
-        shown = [texts.COMPARISON_HEADER.index(name) for name in texts.COMPARISON_IN_PANEL]
-        table = layout.split(factor=0.42, align=True)
-        names_column, numbers = table.column(align=True), table.grid_flow(columns=3, row_major=True, align=True)
-        names_column.label(text="")
-        for index in shown:
-            numbers.label(text=texts.COMPARISON_HEADER[index])
-        for each in candidates:
-            name, *_ = row = texts.comparison_row(texts.COMPARED_METHODS[each.method], each.numbers, each.seconds)
-            names_column.label(text=name, icon="CHECKMARK" if each == best else "BLANK1")
-            for index in shown:
-                numbers.label(text=row[index])
-
-
 def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
     """Return whether live unwrapping leaves a mesh in edit mode alone."""
     most = user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES)
@@ -303,7 +274,6 @@ def _panels() -> list[type]:
         _AdvancedPanel,
         _ResultPanel,
         _MapOverlayPanel,
-        _ComparisonPanel,
         _ExtendersPanel,
     )
     made = []

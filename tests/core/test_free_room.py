@@ -5,7 +5,7 @@ import itertools
 import random
 
 import pytest
-from spectral_unwrap.core.free_room import free_boxes, largest, lower_right
+from spectral_unwrap.core.free_room import free_boxes, lower_right
 
 SIZE = (800.0, 600.0)
 SIDEBAR = (600.0, 0.0, 800.0, 600.0)
@@ -35,8 +35,7 @@ def test_scaled_down_where_there_is_less_room():
 def test_nothing_where_everything_is_covered():
     covers = ((0.0, 0.0, 500.0, 600.0), (500.0, 0.0, 800.0, 600.0))
     assert lower_right(SIZE, covers, 10.0, 10.0) is None
-    assert largest(SIZE, covers) is None
-    assert largest((0.0, 5.0), ()) is None
+    assert lower_right((0.0, 5.0), (), 10.0, 10.0) is None
 
 
 @pytest.mark.parametrize("seed", range(20))

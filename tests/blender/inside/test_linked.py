@@ -11,7 +11,7 @@ from tests.blender.inside import scenes
 
 OPERATORS = (
     *("spectral_unwrap", "spectral_suggest_seams", "spectral_select_failed", "spectral_select_defects"),
-    *("spectral_compare", "spectral_select_distorted"),
+    "spectral_select_distorted",
 )
 
 

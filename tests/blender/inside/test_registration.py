@@ -106,7 +106,7 @@ def test_menus_and_operator_come_and_go_with_the_add_on():
 
 
 def test_panels_and_extenders_come_and_go_with_the_add_on():
-    parts = ("seams", "unwrap", "settings", "advanced", "result", "comparison", "map_overlay", "extenders")
+    parts = ("seams", "unwrap", "settings", "advanced", "result", "map_overlay", "extenders")
     panels = [f"{space}_PT_spectral_{part}" for space in ("VIEW3D", "IMAGE") for part in parts]
     for _ in range(2):
         assert all(hasattr(bpy.types, panel) for panel in panels)

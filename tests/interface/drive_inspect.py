@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender with a window: an artist looks at maps before deciding for one, and reads it below the mouse.
+"""Runs inside Blender with a window: an artist reads a map below the mouse, and previews suggested seams.
 
-blender --factory-startup --python drive_compare.py -- <folder for the screenshots> <file for the verdict>
+blender --factory-startup --python drive_inspect.py -- <folder for the screenshots> <file for the verdict>
 """
 
 import importlib
-import time
 
 import bmesh
 import bpy
@@ -13,7 +12,7 @@ import numpy as np
 
 from tests.interface import driving as drive
 from tests.interface import session
-from tests.interface.session import override, picture, point_at, screenshot, xdotool
+from tests.interface.session import override, point_at, screenshot, xdotool
 
 
 def part_of_addon(name):
@@ -35,78 +34,9 @@ def open_suzanne():
     yield from drive.show_uvs()
 
 
-def of_viewport(pixels):
-    region = drive.region_of("VIEW_3D")
-    return pixels[region.y : region.y + region.height, region.x : region.x + region.width]
-
-
 def selected():
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
     return {face.index for face in bm.faces if face.select}
-
-
-def check_table():
-    """Compare beside open panels: no cell is written over the next one, and nothing below the panels."""
-    drawn, comparison = {}, part_of_addon("overlay.comparison")
-    draw_line, text_width = comparison.draw_line, part_of_addon("overlay.screen_text").text_width
-
-    def noted(text, x, top, scale, *color):
-        # The last time counts: until everything is shown it is drawn more than once.
-        drawn[x, top] = (x, top, x + text_width(text, scale), text)
-        return draw_line(text, x, top, scale, *color)
-
-    with override("VIEW_3D"):
-        assert bpy.ops.uv.spectral_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
-    yield
-    yield from drive.open_adjust_last_operation()
-    drive.area_of("VIEW_3D").spaces.active.show_region_ui = True
-    yield
-    yield
-    point_at("VIEW_3D", 0.6, 0.6)
-    comparison.draw_line = noted
-    yield from drive.search("Compare Methods")
-    yield from drive.until(lambda: drawn)
-    yield
-    yield
-    screenshot("compare_beside_adjust")
-    xdotool("key", "Escape")
-    yield from drive.until(lambda: part_of_addon("operators.job_operator").JobOperator._running is None)
-    comparison.draw_line = draw_line
-    drive.area_of("VIEW_3D").spaces.active.show_region_ui = False
-    yield
-    yield
-    region, panel = drive.region_of("VIEW_3D"), drive.region_of("VIEW_3D", "HUD")
-    lines = sorted(drawn.values(), key=lambda line: (-line[1], line[0]))
-    for (_, top, end, text), (start, next_top, _, following) in zip(lines, lines[1:]):
-        assert top != next_top or end <= start + 1.0, (text, following, end, start)
-    for start, top, end, text in lines:
-        assert end <= region.width, text
-        is_beside = start >= panel.x - region.x + panel.width or top > panel.y - region.y + panel.height
-        assert is_beside or end <= panel.x - region.x, (text, start, top)
-
-
-def cancel_between_methods():
-    """Esc, pressed while Blender unwraps by one of its methods, keeps the next from being tried."""
-    comparison, running = part_of_addon("unwrapping.comparison"), part_of_addon("operators.job_operator").JobOperator
-    before, unwrap, tried = session.uv(), comparison.theirs, []
-
-    def slow(*arguments):
-        tried.append(arguments)
-        xdotool("key", "Escape")
-        time.sleep(1.0)
-        return unwrap(*arguments)
-
-    comparison.forget()
-    comparison.theirs = slow
-    point_at("VIEW_3D", 0.6, 0.6)
-    yield from drive.search("Compare Methods")
-    yield from drive.until(lambda: tried)
-    yield from drive.until(lambda: running._running is None)
-    yield
-    comparison.theirs = unwrap
-    assert len(tried) == 1, len(tried)
-    assert not comparison.last()
-    np.testing.assert_array_equal(session.uv(), before)
 
 
 def look_at_suggestions():
@@ -149,31 +79,7 @@ def look_at_suggestions():
 def steps():
     yield from drive.open_uv_editing()
     yield from open_suzanne()
-    comparison, job_operator = part_of_addon("unwrapping.comparison"), part_of_addon("operators.job_operator")
-    map_overlay = part_of_addon("overlay.map_overlay")
-    before = session.uv()
-    point_at("VIEW_3D", 0.4, 0.6)
-    without = of_viewport(picture("compare_before"))
-    yield from drive.search("Compare Methods")
-    yield from drive.until(comparison.last)
-    yield
-    yield
-    shown = of_viewport(picture("compare"))
-    assert np.abs(shown - without).mean() > 0.05, "the comparison is not to be seen"
-    np.testing.assert_array_equal(session.uv(), before)
-    # Nothing but closing it does anything.
-    xdotool("key", "x")
-    yield
-    assert job_operator.JobOperator._running is not None
-    xdotool("key", "Escape")
-    yield from drive.until(lambda: job_operator.JobOperator._running is None)
-    yield
-    after = of_viewport(picture("compare_closed"))
-    assert np.abs(after - without).mean() < 0.02, "something is left of the comparison"
-    np.testing.assert_array_equal(session.uv(), before)
-    yield from cancel_between_methods()
-    yield from check_table()
-    before = session.uv()
+    before, map_overlay = session.uv(), part_of_addon("overlay.map_overlay")
     # The numbers of the face below the mouse, in both editors; a click selects its island.
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all(action="DESELECT")
