@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import identity, operators
-from .core import kept_maps
+from .core.solve import kept_maps
 from .extenders import storage, tracking
 from .live import adjusted_map, following
 from .overlay import map_overlay

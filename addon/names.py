@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every identifier by which Blender and scripts know this add-on's parts; what artists read is in core/texts.py."""
+"""Every identifier by which Blender and scripts know the add-on's parts; core/words/texts.py has what artists read."""
 
 # By which Blender knows the add-on: as an extension it has another than before 4.2.
 PACKAGE = __package__

@@ -7,7 +7,9 @@ from bpy.types import AddonPreferences, Context, PropertyGroup, UILayout
 from bpy.utils import register_class, unregister_class
 
 from . import names, user_preferences
-from .core import color_ramp, native, texts
+from .core import native
+from .core.drawing import color_ramp
+from .core.words import texts
 from .operators.unwrap_properties import UnwrapProperties, take_as_last
 from .overlay import map_overlay
 from .ui import unwrap_settings

@@ -20,7 +20,7 @@ from bpy.types import Context, Mesh, PropertyGroup, Scene, WindowManager
 from bpy.utils import register_class, unregister_class
 
 from . import names
-from .core import texts
+from .core.words import texts
 from .extenders import storage
 from .extenders.strength import STRENGTH
 from .live import following

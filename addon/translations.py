@@ -4,7 +4,7 @@
 import bpy
 
 from . import compatibility, names
-from .core import translation
+from .core.words import translation
 from .locale import TABLES
 
 # Blender looks up labels of operators, and of buttons and undo steps that stand for them, in a context of their own,

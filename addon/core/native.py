@@ -6,8 +6,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
 
-from . import texts
 from .errors import ReadableError
+from .words import texts
 
 _TOP_LEVEL = "spectral_conformal"
 _BUNDLED = f"{__package__.rpartition('.')[0]}.{_TOP_LEVEL}"

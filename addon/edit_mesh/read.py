@@ -12,8 +12,8 @@ import numpy as np
 from bmesh.types import BMEdge, BMesh, BMLayerItem
 
 from .. import compatibility, names
-from ..core.mesh import PolygonMesh
-from ..core.subdivision import Subdivision, subdivision
+from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.solve.subdivision import Subdivision, subdivision
 from ..extenders import storage
 from . import image_aspect, subsurf
 

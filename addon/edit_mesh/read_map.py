@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from .. import compatibility
-from ..core.map_view import MapArrays
+from ..core.measure.map_view import MapArrays
 from . import image_aspect
 from .read import temporary_mesh
 

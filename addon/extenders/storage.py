@@ -17,9 +17,9 @@ import numpy as np
 from bmesh.types import BMesh, BMLayerItem
 
 from .. import editors, identity, names
-from ..core import extender_pairs as core
-from ..core import texts
-from ..core.extender_pairs import Extender
+from ..core.extenders import pairs as core
+from ..core.extenders.pairs import Extender
+from ..core.words import texts
 from ..identity import Identity
 from .strength import STRENGTH_LIMIT
 
@@ -37,7 +37,7 @@ _session = _Session()
 
 
 def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
-    """Return the list of extenders of a mesh, each with the attributes of `core.extender_pairs.Extender`."""
+    """Return the list of extenders of a mesh, each with the attributes of `core.extenders.pairs.Extender`."""
     return getattr(mesh, names.EXTENDERS_PROPERTY)
 
 

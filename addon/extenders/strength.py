@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The strength of an extender as a property, wherever it stands."""
 
-from ..core import texts
+from ..core.words import texts
 
 # Of every soft constraint: bounds drags and scripts.
 STRENGTH_LIMIT = 1e4

@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLoop
 
-from ..core import texts
-from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
+from ..core.extenders.adjustment import AdjustmentError, ExtenderAdjustment
+from ..core.words import texts
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_loops
 from ..extenders import storage

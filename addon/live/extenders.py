@@ -6,10 +6,10 @@ from collections.abc import Mapping
 import bpy
 import numpy as np
 
-from ..core import texts
-from ..core.extender_adjustment import AdjustmentError, ExtenderAdjustment
-from ..core.options import Settings
-from ..core.translation import translate
+from ..core.extenders.adjustment import AdjustmentError, ExtenderAdjustment
+from ..core.solve.options import Settings
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import subsurf
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import write_uv

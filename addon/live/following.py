@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 import bpy
 
 from .. import names
-from ..core import texts
 from ..core.errors import PrintOnce, ReadableError
-from ..core.extender_adjustment import AdjustmentError
+from ..core.extenders.adjustment import AdjustmentError
+from ..core.words import texts
 from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
 from .snapshot import Edge, Snapshot

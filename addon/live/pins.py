@@ -12,9 +12,9 @@ import numpy as np
 from bmesh.types import BMLayerItem, BMLoop
 
 from .. import compatibility
-from ..core.charts import chart_of_face
-from ..core.mesh import PolygonMesh
-from ..core.pinned_chart import PinnedChart
+from ..core.mesh.charts import chart_of_face
+from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.solve.pinned_chart import PinnedChart
 from ..edit_mesh.read import active_uv_layer
 from ..edit_mesh.write import write_loops
 from . import last_operator

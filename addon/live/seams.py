@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import bpy
 import numpy as np
 
-from ..core.charts import faces_of_charts_at
+from ..core.mesh.charts import faces_of_charts_at
 from ..unwrapping import island_list, steps
 from ..unwrapping.last_settings import last_settings
 

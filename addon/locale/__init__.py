@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The translations of `core/texts.py`: one file per language, a dictionary from every English text to the other.
+"""The translations of `core/words/texts.py`: one file per language, a dictionary from every English text to the other.
 
 The words in braces are fields and stay as they are. Where Blender itself translates a text, as it does "Margin", its
 own translation is shown.

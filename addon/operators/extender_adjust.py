@@ -8,10 +8,10 @@ import bpy
 from bpy.props import FloatProperty, IntProperty
 
 from .. import editors, names
-from ..core import texts
-from ..core.extender_adjustment import AdjustmentError
-from ..core.translation import translate
-from ..core.typed_number import TypedNumber
+from ..core.extenders.adjustment import AdjustmentError
+from ..core.extenders.typed_number import TypedNumber
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..extenders.strength import STRENGTH, STRENGTH_LIMIT
 from ..live import adjusted_map
 from ..live.adjusted_map import AdjustedMap

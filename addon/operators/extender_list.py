@@ -8,10 +8,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
-from ..core import texts
 from ..core.errors import ReadableError
-from ..core.extender_pairs import SelectionError, pairs_in_order, pairs_to_active
-from ..core.translation import translate
+from ..core.extenders.pairs import SelectionError, pairs_in_order, pairs_to_active
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..extenders import storage
 from ..extenders.strength import STRENGTH

@@ -4,8 +4,8 @@
 import bpy
 
 from .. import names
-from ..core import texts
-from ..core.translation import translate
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..overlay import map_overlay, under_mouse
 from ..overlay.under_mouse import FaceBelow

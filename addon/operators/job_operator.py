@@ -10,9 +10,9 @@ from typing import Any, Protocol
 import bpy
 
 from .. import user_preferences
-from ..core import texts
-from ..core.progress import Progress
-from ..core.worker import Worker
+from ..core.solve.progress import Progress
+from ..core.solve.worker import Worker
+from ..core.words import texts
 from ..ui import progress
 from ..ui.progress import WindowProgress
 from .reporting_operator import ReportingOperator

@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import bpy
 
-from ..core import texts
 from ..core.errors import ReadableError
-from ..core.translation import translate
+from ..core.words import texts
+from ..core.words.translation import translate
 
 
 class ReportingOperator:

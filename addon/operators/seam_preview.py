@@ -7,14 +7,17 @@ import bpy
 import numpy as np
 
 from .. import user_preferences
-from ..core import kept_maps, quality, seam_suggestion, texts
-from ..core.placement import place
-from ..core.progress import Progress
-from ..core.quality import MapQuality
-from ..core.seam_suggestion import Suggestion
-from ..core.solve import solve_all
-from ..core.translation import translate
-from ..core.worker import Worker
+from ..core.layout.placement import place
+from ..core.measure import quality
+from ..core.measure.quality import MapQuality
+from ..core.seams import suggestion as seam_suggestion
+from ..core.seams.suggestion import Suggestion
+from ..core.solve import kept_maps
+from ..core.solve.progress import Progress
+from ..core.solve.solution import solve_all
+from ..core.solve.worker import Worker
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..overlay import map_overlay
 from ..overlay.seam_lines import SeamLines
 from ..ui.progress import HeaderText, clear_status, show_status

@@ -6,9 +6,10 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
-from ..core import defects, texts
-from ..core.map_view import MapView, worst
-from ..core.translation import translate
+from ..core.measure import defects
+from ..core.measure.map_view import MapView, worst
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.read_map import read_map

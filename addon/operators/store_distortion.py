@@ -5,9 +5,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty
 
 from .. import names
-from ..core import color_ramp, texts
-from ..core.map_view import MapView, automatic_range
-from ..core.translation import translate
+from ..core.drawing import color_ramp
+from ..core.measure.map_view import MapView, automatic_range
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import attributes, read_map
 from ..overlay import legend, map_overlay
 from .reporting_operator import ReportingOperator

@@ -9,12 +9,12 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import names
-from ..core import texts
-from ..core.progress import Progress
-from ..core.seam_suggestion import Options, Preferences, Search, Suggestion
-from ..core.solve import Solution, solve_all
-from ..core.summary import summarize
-from ..core.translation import translate
+from ..core.measure.summary import summarize
+from ..core.seams.suggestion import Options, Preferences, Search, Suggestion
+from ..core.solve.progress import Progress
+from ..core.solve.solution import Solution, solve_all
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..live import following
 from ..unwrapping import island_list, seams, steps
 from ..unwrapping.last_settings import last_settings

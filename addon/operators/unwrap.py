@@ -6,8 +6,8 @@ import time
 import bpy
 
 from .. import names
-from ..core import texts
-from ..core.translation import translate
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..live import following
 from ..ui import unwrap_settings

@@ -5,7 +5,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
-from ..core import texts
+from ..core.words import texts
 from ..extenders.strength import STRENGTH_LIMIT
 
 

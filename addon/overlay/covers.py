@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..core.free_room import Box
+from ..core.drawing.free_room import Box
 
 
 def of(area: bpy.types.Area, region: bpy.types.Region, with_sidebar: bool = True) -> tuple[Box, ...]:

@@ -14,9 +14,10 @@ from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 
 from .. import editors
-from ..core import arrow_shapes, texts
-from ..core.arrow_shapes import ArrowSize
+from ..core.drawing import arrow_shapes
+from ..core.drawing.arrow_shapes import ArrowSize
 from ..core.errors import PrintOnce
+from ..core.words import texts
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
 from .fill import fill_triangles

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 import bpy
 
 from .. import user_preferences
-from ..core import color_ramp, free_room, texts
+from ..core.drawing import color_ramp, free_room
+from ..core.words import texts
 from . import covers
 from .colored_triangles import Colors
 from .screen_text import LINE, draw_line, fill_box, text_width

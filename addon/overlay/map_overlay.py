@@ -14,9 +14,9 @@ import gpu
 import numpy as np
 
 from .. import editors, names, user_preferences
-from ..core import texts
 from ..core.errors import PrintOnce
-from ..core.map_view import IslandNumbers, MapArrays, MapView, automatic_range, joined_numbers
+from ..core.measure.map_view import IslandNumbers, MapArrays, MapView, automatic_range, joined_numbers
+from ..core.words import texts
 from ..edit_mesh import read_map
 from . import colored_triangles, legend
 from .colored_triangles import Colors

@@ -9,9 +9,10 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from .. import compatibility, editors
-from ..core import seam_suggestion, texts
 from ..core.errors import PrintOnce
-from ..core.seam_suggestion import Suggestion
+from ..core.seams import suggestion as seam_suggestion
+from ..core.seams.suggestion import Suggestion
+from ..core.words import texts
 from ..edit_mesh.read import EditMesh
 from .in_front import in_front_of_faces
 

@@ -7,7 +7,7 @@ import bpy
 from bpy_extras import view3d_utils
 from mathutils.bvhtree import BVHTree
 
-from ..core.map_view import MapView
+from ..core.measure.map_view import MapView
 from . import map_overlay
 
 # The trees of the maps that were looked at, which take a moment to build.

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import bpy
 
 from .. import compatibility, names
-from ..core import texts
+from ..core.words import texts
 from .icons import draw_operator
 
 

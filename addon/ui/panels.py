@@ -7,7 +7,7 @@ import bmesh
 import bpy
 
 from .. import names, user_preferences
-from ..core import texts
+from ..core.words import texts
 from ..extenders import storage, tracking
 from ..unwrapping import island_list
 from . import unwrap_settings

@@ -7,8 +7,8 @@ from contextlib import contextmanager, nullcontext
 
 import bpy
 
-from ..core import texts
-from ..core.progress import Progress
+from ..core.solve.progress import Progress
+from ..core.words import texts
 
 # Events that a solve in the background lets through: they move the view, or concern nobody.
 _VIEW_EVENTS = frozenset(

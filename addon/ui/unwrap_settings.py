@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from ..core import texts
+from ..core.words import texts
 
 
 def draw_common(

@@ -9,11 +9,12 @@ import bpy
 import numpy as np
 
 from .. import identity, names
-from ..core import chart_records, texts
-from ..core.charts import is_island
-from ..core.mesh import PolygonMesh
-from ..core.solve import Solution
-from ..core.translation import translate
+from ..core.mesh.charts import is_island
+from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.solve import chart_records
+from ..core.solve.solution import Solution
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_mesh
 from ..identity import Identity

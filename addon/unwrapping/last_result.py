@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from .. import identity
-from ..core.solve import Solution
+from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh
 from ..identity import Identity
 

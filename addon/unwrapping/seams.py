@@ -9,10 +9,10 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.mesh import PolygonMesh
-from ..core.options import Settings
-from ..core.seam_suggestion import Suggestion
-from ..core.solve import Solution
+from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.seams.suggestion import Suggestion
+from ..core.solve.options import Settings
+from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh
 from . import steps
 from .steps import Outcome, WhileWriting

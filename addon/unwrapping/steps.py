@@ -9,13 +9,15 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core import kept_maps, obstacles, texts
-from ..core.options import Settings
-from ..core.placement import place
-from ..core.progress import Progress
-from ..core.solve import Solution, solve_all
-from ..core.summary import Summary, summarize
-from ..core.translation import translate
+from ..core.layout import obstacles
+from ..core.layout.placement import place
+from ..core.measure.summary import Summary, summarize
+from ..core.solve import kept_maps
+from ..core.solve.options import Settings
+from ..core.solve.progress import Progress
+from ..core.solve.solution import Solution, solve_all
+from ..core.words import texts
+from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import ensure_uv_map, write_uv

@@ -319,7 +319,7 @@ def spectral(
     """Suggest seams, unwrap, pack: (triangles, (3 F, 2) map, seconds of the phases and failed islands)."""
     import spectral_conformal as sc
 
-    from addon.core import placement
+    from addon.core.layout import placement
 
     offsets, corners = np.arange(0, 3 * len(triangles) + 1, 3), triangles.ravel()
     start = time.process_time()

@@ -63,7 +63,7 @@ def operators(
     _make(bpy, meshes, bystanders)
     phases = _Phases()
     # Without them each call solves everything.
-    kept_maps = importlib.import_module("spectral_unwrap.core.kept_maps")
+    kept_maps = importlib.import_module("spectral_unwrap.core.solve.kept_maps")
     memory_before = runs.peak_megabytes()
     ours: list[tuple[float, float, dict[str, float], dict[str, float]]] = []
     others: dict[str, list[tuple[float, float]]] = {method: [] for method in _known(bpy, methods)}

@@ -40,6 +40,17 @@ BELOW = {
     "ui": {"core", "extenders", "unwrapping"},
     "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
 }
+# The same of the folders of core; errors.py and native.py beside them are for all.
+BELOW_IN_CORE = {
+    "words": set(),
+    "drawing": set(),
+    "mesh": set(),
+    "solve": {"mesh", "words"},
+    "layout": {"mesh", "solve", "words"},
+    "measure": {"mesh", "solve", "words"},
+    "seams": {"mesh", "solve", "words"},
+    "extenders": {"mesh", "solve", "layout", "words"},
+}
 # Identifiers, what differs between versions of Blender, its editors and meshes, what the user prefers: no folder, and
 # below all but core.
 GROUND = {"addon.names", "addon.compatibility", "addon.editors", "addon.identity", "addon.user_preferences"}
@@ -144,6 +155,24 @@ def test_folders_import_downwards_only():
     assert upwards == []
 
 
+def test_folders_of_core_import_downwards_only():
+    known, upwards = modules(), []
+    assert {path.name for path in CORE.iterdir() if (path / "__init__.py").exists()} == set(BELOW_IN_CORE)
+    for module, path in sorted(known.items()):
+        folder = folder_of_core(module)
+        allowed = {"", folder} | BELOW_IN_CORE.get(folder, {"words"})
+        targets = [name for name in imported_modules(path, known) if name.startswith("addon.core.")]
+        if module.startswith("addon.core."):
+            upwards += [f"{relative(path)} imports {name}" for name in targets if folder_of_core(name) not in allowed]
+    assert upwards == []
+
+
+def folder_of_core(module):
+    """Return the folder of core that holds a module; empty for those beside the folders."""
+    part = module.removeprefix("addon.core.").split(".")[0]
+    return part if part in BELOW_IN_CORE else ""
+
+
 def test_what_stands_below_all_folders_imports_nothing_of_the_add_on():
     known = modules()
     for module in GROUND:
@@ -185,10 +214,10 @@ def sentences(path):
 
 def test_what_artists_read_stands_in_one_file():
     # bl_info must be literals in the add-on's __init__; the tables have the same sentences in other languages.
-    others = set(ADDON.rglob("*.py")) - {ADDON / "core" / "texts.py", ADDON / "__init__.py"}
+    others = set(ADDON.rglob("*.py")) - {ADDON / "core" / "words" / "texts.py", ADDON / "__init__.py"}
     others -= set((ADDON / "locale").glob("*.py"))
     assert {relative(path): sentences(path) for path in sorted(others) if sentences(path)} == {}
-    assert len(sentences(ADDON / "core" / "texts.py")) > 50
+    assert len(sentences(ADDON / "core" / "words" / "texts.py")) > 50
 
 
 def shown_words(path):

@@ -49,7 +49,7 @@ MESSAGES = re.findall(r'^\| "([^"]+)" \|', (ROOT / "docs" / "troubleshooting.md"
 
 def sentences():
     """Return all sources that have messages, literals that the compiler joins joined."""
-    sources = [ROOT / "addon/core/texts.py", *(ROOT / "native").rglob("*.cpp"), *(ROOT / "native").rglob("*.py")]
+    sources = [ROOT / "addon/core/words/texts.py", *(ROOT / "native").rglob("*.cpp"), *(ROOT / "native").rglob("*.py")]
     text = "\n".join(path.read_text(encoding="utf-8") for path in sources)
     return re.sub(r'"\s*\n\s*f?"', "", text)
 

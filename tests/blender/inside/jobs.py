@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import bpy
 
 job_operator = importlib.import_module("spectral_unwrap.operators.job_operator")
-worker = importlib.import_module("spectral_unwrap.core.worker")
+worker = importlib.import_module("spectral_unwrap.core.solve.worker")
 
 
 class Instance(SimpleNamespace):

@@ -10,16 +10,16 @@ import pytest
 
 from tests.blender.inside import digest, scenes
 
-core_options = importlib.import_module("spectral_unwrap.core.options")
+core_options = importlib.import_module("spectral_unwrap.core.solve.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
-core_suggestion = importlib.import_module("spectral_unwrap.core.seam_suggestion")
-kept_maps = importlib.import_module("spectral_unwrap.core.kept_maps")
+core_suggestion = importlib.import_module("spectral_unwrap.core.seams.suggestion")
+kept_maps = importlib.import_module("spectral_unwrap.core.solve.kept_maps")
 adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
-placement = importlib.import_module("spectral_unwrap.core.placement")
+placement = importlib.import_module("spectral_unwrap.core.layout.placement")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
-worker = importlib.import_module("spectral_unwrap.core.worker")
+worker = importlib.import_module("spectral_unwrap.core.solve.worker")
 
 
 def prepare(uv_map=True):

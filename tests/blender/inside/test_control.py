@@ -131,7 +131,7 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     grid.modifiers.new("Subdivision", "SUBSURF")
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    settings = module("core.options").Settings(use_subsurf=subdivide)
+    settings = module("core.solve.options").Settings(use_subsurf=subdivide)
     monkeypatch.setattr(module("live.adjusted_map"), "last_settings", lambda: settings)
     reports()
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}

@@ -155,7 +155,7 @@ def test_the_layer_is_named_after_the_list_when_the_drag_has_ended(dragged):
     drag.move(100)
     assert grid.data.spectral_extenders_layer == name
     drag.send("LEFTMOUSE", "PRESS")
-    core = module("core.extender_pairs")
+    core = module("core.extenders.pairs")
     wanted = core.layer_name(".spectral_extenders:", storage._read(grid.data))
     assert grid.data.spectral_extenders_layer == wanted != name
 
@@ -212,7 +212,7 @@ def test_an_error_gives_map_and_strength_back(dragged, monkeypatch, error):
     def fail(*_arguments, **_options):
         raise error("for the test")
 
-    monkeypatch.setattr(module("core.extender_adjustment").ExtenderAdjustment, "map", fail)
+    monkeypatch.setattr(module("core.extenders.adjustment").ExtenderAdjustment, "map", fail)
     if error is MemoryError:
         assert drag.move(10) == {"CANCELLED"}
         assert "Not enough memory" in drag.operator.reported[-1]

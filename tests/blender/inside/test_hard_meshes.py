@@ -9,7 +9,7 @@ import pytest
 
 from tests.blender.inside import digest, hard_meshes, scenes
 
-options = importlib.import_module("spectral_unwrap.core.options")
+options = importlib.import_module("spectral_unwrap.core.solve.options")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 
 REJECTED = [name for name, case in hard_meshes.CASES.items() if case.expect == "reject" and not case.may_be_either]

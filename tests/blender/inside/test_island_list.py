@@ -11,12 +11,12 @@ from tests.blender.inside import scenes
 from tests.blender.inside.test_control import add_extender, hill
 from tests.blender.inside.test_live_unwrap import bumpy_grid, mark_seams
 
-texts = importlib.import_module("spectral_unwrap.core.texts")
-options = importlib.import_module("spectral_unwrap.core.options")
+texts = importlib.import_module("spectral_unwrap.core.words.texts")
+options = importlib.import_module("spectral_unwrap.core.solve.options")
 following = importlib.import_module("spectral_unwrap.live.following")
 island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
-map_view = importlib.import_module("spectral_unwrap.core.map_view")
+map_view = importlib.import_module("spectral_unwrap.core.measure.map_view")
 
 # Across the grid of 8 x 6 faces, its columns 0 to 3 on one side.
 ACROSS = [(4 + 9 * row, 4 + 9 * (row + 1)) for row in range(6)]

@@ -8,8 +8,8 @@ import numpy as np
 
 from tests.blender.inside import digest, scenes
 
-core_options = importlib.import_module("spectral_unwrap.core.options")
-kept_maps = importlib.import_module("spectral_unwrap.core.kept_maps")
+core_options = importlib.import_module("spectral_unwrap.core.solve.options")
+kept_maps = importlib.import_module("spectral_unwrap.core.solve.kept_maps")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 
 ROWS, COLUMNS = 9, 10  # faces

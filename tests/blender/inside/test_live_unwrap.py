@@ -196,7 +196,7 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
     other = scenes.grid(3, 3, offset=(9.0, 0.0, 0.0), name="Other")
     scenes.edit(cylinder, other)
     # Background mode does not remember settings by itself.
-    settings = module("core.options").Settings(keep_in_place=placement == "KEEP")
+    settings = module("core.solve.options").Settings(keep_in_place=placement == "KEEP")
     monkeypatch.setattr(module("live.seams"), "last_settings", lambda: settings)
     scenes.select_faces(cylinder, [3])
     other_uv = scenes.read_uv(other)

@@ -12,10 +12,10 @@ import pytest
 from tests.blender.inside import scenes
 
 native = importlib.import_module("spectral_unwrap.core.native")
-texts = importlib.import_module("spectral_unwrap.core.texts")
+texts = importlib.import_module("spectral_unwrap.core.words.texts")
 map_overlay = importlib.import_module("spectral_unwrap.overlay.map_overlay")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
-map_view = importlib.import_module("spectral_unwrap.core.map_view")
+map_view = importlib.import_module("spectral_unwrap.core.measure.map_view")
 island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
 
 
@@ -227,7 +227,7 @@ def test_another_map_can_be_shown_in_place_of_the_mesh_s_own():
 
 def test_colors_are_those_of_the_preferences():
     legend = importlib.import_module("spectral_unwrap.overlay.legend")
-    color_ramp = importlib.import_module("spectral_unwrap.core.color_ramp")
+    color_ramp = importlib.import_module("spectral_unwrap.core.drawing.color_ramp")
     preferences = bpy.context.preferences.addons["spectral_unwrap"].preferences
     assert legend.colors_of("ANGLE", 1.0).low == pytest.approx(color_ramp.GOOD_TO_BAD[0])
     preferences.angle_low = (0.5, 0.25, 0.75)

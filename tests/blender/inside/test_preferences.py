@@ -64,7 +64,7 @@ def test_scripts_are_not_changed_by_the_preferences(preferences):
 
 def test_threads_are_limited_where_solves_begin(preferences):
     native = importlib.import_module(f"{ADDON}.core.native").spectral_conformal()
-    worker = importlib.import_module(f"{ADDON}.core.worker")
+    worker = importlib.import_module(f"{ADDON}.core.solve.worker")
     seen = worker.Worker(lambda _progress: native.limit_threads(0), threads=3).result()
     assert seen == 3
     preferences.threads = 2
@@ -80,7 +80,7 @@ def test_threads_are_limited_where_solves_begin(preferences):
 def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
     map_overlay = importlib.import_module(f"{ADDON}.overlay.map_overlay")
     snapshot = importlib.import_module(f"{ADDON}.live.snapshot")
-    texts = importlib.import_module(f"{ADDON}.core.texts")
+    texts = importlib.import_module(f"{ADDON}.core.words.texts")
     grid = scenes.grid(4, 4)
     scenes.edit(grid)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}

@@ -12,10 +12,10 @@ import pytest
 
 from tests.blender.inside import jobs, scenes
 
-options = importlib.import_module("spectral_unwrap.core.options")
+options = importlib.import_module("spectral_unwrap.core.solve.options")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
-worker = importlib.import_module("spectral_unwrap.core.worker")
+worker = importlib.import_module("spectral_unwrap.core.solve.worker")
 native = importlib.import_module("spectral_unwrap.core.native")
 
 

@@ -10,7 +10,7 @@ import pytest
 from tests.blender.inside import scenes
 
 names = importlib.import_module("spectral_unwrap.names")
-map_view = importlib.import_module("spectral_unwrap.core.map_view")
+map_view = importlib.import_module("spectral_unwrap.core.measure.map_view")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
 
 

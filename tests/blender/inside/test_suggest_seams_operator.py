@@ -172,7 +172,7 @@ def test_the_first_cuts_are_taken_where_fewer_are_asked_for(reports):
 
 
 def test_a_property_that_changes_nothing_of_the_search_needs_no_other(monkeypatch):
-    core = module("core.seam_suggestion")
+    core = module("core.seams.suggestion")
     searched = []
     suggest = core.suggest
     monkeypatch.setattr(module("operators.suggest_seams"), "_search", core.Search())
@@ -285,7 +285,7 @@ def test_unwraps_as_spectral_unwrap_was_used_last(monkeypatch):
     for edge in scenes.edit_mesh(cube).edges:
         edge.seam = False
     scenes.write_uv(cube, 0.5 + 0.1 * packed)
-    settings = module("core.options").Settings(keep_in_place=True)
+    settings = module("core.solve.options").Settings(keep_in_place=True)
     monkeypatch.setattr(module("operators.suggest_seams"), "last_settings", lambda: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     low, high = scenes.bounds(scenes.read_uv(cube))
@@ -297,7 +297,7 @@ def test_edges_of_the_mesh_are_cut_where_the_subdivided_mesh_is_unwrapped(monkey
     cube = CLOSED["cube"]()
     cube.modifiers.new("Subdivision", "SUBSURF").levels = 2
     scenes.edit(cube)
-    settings = module("core.options").Settings(use_subsurf=True)
+    settings = module("core.solve.options").Settings(use_subsurf=True)
     monkeypatch.setattr(module("operators.suggest_seams"), "last_settings", lambda: settings)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     assert seams(cube)
@@ -366,10 +366,10 @@ def test_a_one_sided_band_is_cut(reports):
 def test_a_packer_that_does_not_run_leaves_everything(monkeypatch):
     cube = scenes.cube()
     scenes.edit(cube)
-    placement = module("core.placement")
+    placement = module("core.layout.placement")
 
     def fail(*_arguments):
-        raise module("core.packing").MarginError("not today")
+        raise module("core.layout.packing").MarginError("not today")
 
     monkeypatch.setattr(placement, "pack", fail)
     before, uv = scenes.state(cube), scenes.read_uv(cube)
@@ -512,7 +512,7 @@ def test_escape_leaves_everything(previewed, key):
 def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
     head, before, uv, preview = previewed
     monkeypatch.setattr(module("operators.job_operator"), "_SECONDS_BEFORE_MODAL", -1.0)
-    worker = module("core.worker").Worker
+    worker = module("core.solve.worker").Worker
     # A solve that has not ended when the event comes.
     monkeypatch.setattr(worker, "wait", lambda _self, _seconds: False)
     assert preview.send("LEFTMOUSE") == {"RUNNING_MODAL"}
@@ -529,7 +529,7 @@ def test_escape_during_the_search_leaves_everything(monkeypatch):
     head.data.uv_layers.new(name="UVMap")
     scenes.edit(head)
     before = scenes.state(head)
-    worker = module("core.worker").Worker
+    worker = module("core.solve.worker").Worker
     # A search that has not ended when the events come.
     with monkeypatch.context() as patch:
         patch.setattr(worker, "wait", lambda _self, _seconds: False)
@@ -597,6 +597,6 @@ def test_islands_of_suggested_seams_cover_themselves_nowhere():
     bpy.ops.mesh.subdivide(number_cuts=2, smoothness=1.0)
     assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
     arrays = importlib.import_module("spectral_unwrap.edit_mesh.read_map").read_map(bpy.context, edited)
-    numbers = module("core.map_view").MapView(arrays).numbers()
+    numbers = module("core.measure.map_view").MapView(arrays).numbers()
     assert (numbers.flipped, numbers.overlapping) == (0, 0)
     assert numbers.mean_qc < 1.06

@@ -14,8 +14,8 @@ SWITCHES = ("interface", "tooltips", "reports", "new_dataname")
 REPORT = "Das Objekt ist negativ skaliert; abgewickelt wird das Mesh ohne Spiegelung"
 SCALE = "Object has negative scale, unwrap will operate on a non-flipped version of the mesh"
 
-texts = importlib.import_module(f"{ADDON}.core.texts")
-translation = importlib.import_module(f"{ADDON}.core.translation")
+texts = importlib.import_module(f"{ADDON}.core.words.texts")
+translation = importlib.import_module(f"{ADDON}.core.words.translation")
 
 
 @pytest.fixture

@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Move and scale charts in the UV plane: side by side, or back into the bounding boxes that they had.
+
+All functions take `uv` (C, 2) float64 and `chart` (C,) integer, the chart of every corner, -1 for corners to leave
+alone; chart numbers need not be consecutive. Charts are only translated, scaled uniformly and turned by quarter turns,
+so that angles are kept.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+import numpy as np
+
+from .. import native
+from ..mesh.polygon_mesh import PolygonMesh, next_corner
+from ..solve.joined import numbered_together
+from ..solve.options import Margin
+from ..solve.solution import Solution
+from .packing import pack
+
+# Gap between charts that are placed without a margin, relative to the mean chart size.
+GAP = 0.1
+# Lengths within 1 % count as equal, so that rounding does not decide how the chart of a square is turned.
+_EQUAL = 1.01
+# Correlation of a chart's map with its former one from which on both are the same shape, and the former decides how it
+# is turned: maps of the same chart by other options have 0.98 to 1.
+_SAME_SHAPE = 0.9
+# Below this correlation nothing tells how the former map was turned: random UVs of eight corners stay below it in nine
+# of ten cases.
+_NO_SHAPE = 0.6
+
+
+@dataclass(frozen=True)
+class _Charts:
+    """Corners grouped by chart: K charts, `corners` sorted so that chart k has `counts[k]` from `starts[k]` on."""
+
+    corners: np.ndarray
+    starts: np.ndarray
+    counts: np.ndarray
+
+    def points(self, uv: np.ndarray) -> np.ndarray:
+        """Return the `uv` (C, 2) of the corners, (len(corners), 2)."""
+        # NumPy indexes an array of rows ten times as slowly.
+        return uv.take(self.corners, axis=0)
+
+    def bounds(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the lower and upper corners of the boxes round the charts' `points` (len(corners), 2), (K, 2) each."""
+        columns = np.ascontiguousarray(points.T)
+        return tuple(bound.reduceat(columns, self.starts, axis=1).T for bound in (np.minimum, np.maximum))
+
+    def spread(self, values: np.ndarray) -> np.ndarray:
+        """Return the `values` (K, ...) of the charts for every entry of `corners`."""
+        return np.repeat(values, self.counts, axis=0)
+
+    def centred(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return `points` (len(corners), 2) as complex numbers about the charts' means, and the means, (K,)."""
+        values = points[:, 0] + 1j * points[:, 1]
+        centre = np.add.reduceat(values, self.starts) / self.counts
+        return values - self.spread(centre), centre
+
+
+def _group(chart: np.ndarray) -> _Charts:
+    corners = np.flatnonzero(chart >= 0)
+    number = chart.take(corners)
+    if (number[1:] < number[:-1]).any():
+        order = np.argsort(number, kind="stable")
+        corners, number = corners.take(order), number.take(order)
+    starts = np.flatnonzero(np.concatenate([number[:1] >= 0, number[1:] != number[:-1]]))
+    return _Charts(corners, starts, np.diff(starts, append=len(corners)))
+
+
+def _put(uv: np.ndarray, corners: np.ndarray, points: np.ndarray) -> None:
+    """Set the rows `corners` of `uv` (C, 2) to the `points`, both float64 and contiguous."""
+    # Pairs of numbers at once, as indexing rows is slow.
+    uv.view(np.complex128)[corners, 0] = points.view(np.complex128)[:, 0]
+
+
+def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None) -> np.ndarray:
+    """Pack the charts' bounding boxes into the unit square, at a common scale, with the margin or a gap between them.
+
+    Returns a copy of `uv`, (C, 2) float64.
+
+    Raises:
+        MarginError: the margin is not finite.
+    """
+    result = np.array(uv, dtype=np.float64, order="C")
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result
+    points = charts.points(result)
+    low, high = charts.bounds(points)
+    # Any magnitude is possible; dividing first keeps squares and sums in range.
+    unit = (high - low).max()
+    unit = unit if unit > 0.0 else 1.0
+    size = (high - low) / unit
+    if margin is None:
+        gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
+        position, side = native.spectral_conformal().pack_boxes(size + gap)
+        position += gap / 2.0
+    else:
+        position, side = pack(size, margin)
+    side = side if side > 0.0 else 1.0
+    points -= charts.spread(low)
+    points /= unit * side
+    points += charts.spread(position / side)
+    _put(result, charts.corners, points)
+    return result
+
+
+def lying(uv: np.ndarray, chart: np.ndarray) -> np.ndarray:
+    """Turn charts higher than wide by a quarter turn clockwise; returns a copy of `uv`, (C, 2) float64."""
+    result = np.array(uv, dtype=np.float64, order="C")
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result
+    points = charts.points(result)
+    low, high = charts.bounds(points)
+    size = high - low
+    quarters = np.where(size[:, 1] > size[:, 0] * _EQUAL, 3, 0)
+    _put(result, charts.corners, _turned(points, charts.spread(quarters)))
+    return result
+
+
+def into_former_bounds(uv: np.ndarray, former: np.ndarray, chart: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Fit every chart into the bounding box that its corners have in `former` (C, 2), the centre kept.
+
+    A chart of the same shape as in `former` is turned by quarter turns to lie as it did. Another one is turned by a
+    quarter where it fits larger that way, of both ways the one nearer to `former`; as it is where nothing in `former`
+    tells. It is scaled to the largest size that fits. A chart whose former box has no width, no height or a non-finite
+    coordinate is left as it is.
+
+    Returns a copy of `uv`, (C, 2) float64, and which corners were placed, (C,) bool.
+    """
+    result = np.array(uv, dtype=np.float64, order="C")
+    placed = np.zeros(len(result), dtype=bool)
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result, placed
+    former_points = charts.points(former)
+    former_low, former_high = charts.bounds(former_points)
+    former_centre = (former_low + former_high) / 2.0
+    with np.errstate(invalid="ignore"):
+        room = np.nan_to_num(former_high - former_low, nan=0.0, posinf=0.0)
+    fits = (room > 0.0).all(axis=1)
+
+    points = charts.points(result)
+    low, high = charts.bounds(points)
+    size = high - low
+    points -= charts.spread((low + high) / 2.0)
+    quarters = np.where(fits, _quarters_towards(points, former_points, charts, size, room), 0)
+    points = _turned(points, charts.spread(quarters))
+    odd = quarters % 2 == 1
+    size[odd] = size[odd, ::-1]
+
+    scale = _largest_scale(size, room)
+    is_kept = fits & np.isfinite(scale)
+    # What is not kept may have no finite scale or centre.
+    scale[~is_kept], former_centre[~is_kept] = 1.0, 0.0
+    points *= charts.spread(scale)[:, None]
+    points += charts.spread(former_centre)
+    keep = charts.spread(is_kept)
+    kept = charts.corners[keep]
+    _put(result, kept, points[keep])
+    placed[kept] = True
+    return result, placed
+
+
+def _quarters_towards(
+    points: np.ndarray, former_points: np.ndarray, charts: _Charts, size: np.ndarray, room: np.ndarray
+) -> np.ndarray:
+    """Return by how many quarter turns every chart is to be turned to lie as in `former`, (K,) integer from 0 to 3.
+
+    `points` (len(charts.corners), 2) are the charts' corners, in boxes of `size` (K, 2), which are to fit into `room`;
+    `former_points` those of the former map.
+    """
+    moved, _ = charts.centred(points)
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        target, _ = charts.centred(former_points)
+        along = np.add.reduceat(np.conj(moved) * target, charts.starts)
+        squares = [np.add.reduceat(np.abs(values) ** 2, charts.starts) for values in (moved, target)]
+        correlation = np.abs(along) / np.sqrt(squares[0] * squares[1])
+        nearest = np.nan_to_num(np.angle(along) / (np.pi / 2.0)).round().astype(int) % 4
+    turns = _largest_scale(size[:, ::-1], room) > _largest_scale(size, room) * _EQUAL
+    # Of the two turns that fit larger, the one within a quarter turn of `former`.
+    side = np.where(turns, np.where(along.imag >= 0.0, 1, 3), np.where(along.real >= 0.0, 0, 2))
+    untold = np.where(turns, 1, 0)
+    # A correlation that is not a number tells nothing.
+    return np.where(correlation >= _SAME_SHAPE, nearest, np.where(correlation >= _NO_SHAPE, side, untold))
+
+
+def to_former_area(
+    uv: np.ndarray, former: np.ndarray, chart: np.ndarray, pinned: np.ndarray, face_offsets: np.ndarray
+) -> np.ndarray:
+    """Scale every chart about its pin, to the area that it has in `former` (C, 2) where that is positive.
+
+    Every chart has one pin: its corners that are `pinned` (C,) have one place in `former`, the same as in `uv`. The
+    corners of face f are face_offsets[f] to face_offsets[f + 1] - 1. Returns a copy of `uv`, (C, 2) float64.
+    """
+    result = np.array(uv, dtype=np.float64)
+    number = chart.max() + 1
+    area, former_area = (areas(points, chart, face_offsets, number) for points in (result, former))
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        scale = np.sqrt(former_area / area)
+    scale[~(np.isfinite(scale) & (scale > 0.0))] = 1.0
+    pins = np.flatnonzero(pinned & (chart >= 0))
+    pin = np.zeros((number, 2))
+    pin[chart[pins]] = former[pins]
+    corners = np.flatnonzero(chart >= 0)
+    centre = pin[chart[corners]]
+    result[corners] = centre + (result[corners] - centre) * scale[chart[corners], None]
+    return result
+
+
+def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
+    """Return the area of each of `number` charts, whichever way its faces are wound, (number,)."""
+    first, end = face_offsets[:-1], face_offsets[1:]
+    following = next_corner(face_offsets)
+    # Relative to the face's first corner, so that a small face far from the origin keeps its digits.
+    local = uv - np.repeat(uv[first], end - first, axis=0)
+    cross = local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0]
+    inside = chart[first] >= 0
+    return np.bincount(chart[first][inside], np.abs(np.add.reduceat(cross, first))[inside] / 2.0, minlength=number)
+
+
+def turned_onto(uv: np.ndarray, reference: np.ndarray, chart: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Scale every chart k by scale[k], turn and move it as near to its place in `reference` (C, 2) as it gets.
+
+    Near in the sense of least squares over the corners. Returns a copy of `uv`, (C, 2) float64.
+    """
+    result = np.array(uv, dtype=np.float64, order="C")
+    charts = _group(chart)
+    if len(charts.corners) == 0:
+        return result
+    number = chart[charts.corners[charts.starts]]
+
+    moved, _ = charts.centred(charts.points(result))
+    target, centre = charts.centred(charts.points(reference))
+    along = np.add.reduceat(np.conj(moved) * target, charts.starts)
+    turn = np.where(along == 0.0, 1.0, along) / np.where(along == 0.0, 1.0, np.abs(along))
+    placed = charts.spread(scale[number] * turn) * moved + charts.spread(centre)
+    result[charts.corners] = np.stack([placed.real, placed.imag], axis=1)
+    return result
+
+
+def _largest_scale(size: np.ndarray, room: np.ndarray) -> np.ndarray:
+    """Return the largest factors by which boxes of `size` (K, 2) still fit into `room` (K, 2)."""
+    return np.divide(room, size, out=np.full_like(size, np.inf), where=size > 0.0).min(axis=1)
+
+
+def _turned(points: np.ndarray, quarters: np.ndarray) -> np.ndarray:
+    """Turn the `points` (N, 2) about the origin, anticlockwise, each by its number of `quarters` (N,), 0 to 3."""
+    x, y = points.T
+    return np.stack([np.choose(quarters, [x, -y, -x, y]), np.choose(quarters, [y, x, -y, -x])], axis=1)
+
+
+def _single_pins_at_former_area(mesh: PolygonMesh, solution: Solution) -> np.ndarray:
+    """Return the solution's map, (C, 2), with charts that have one pin scaled about it to their former area.
+
+    Without such charts it is the solution's own array.
+    """
+    single = np.append(solution.column("n_pins") == 1, False)
+    if not single.any():
+        return solution.uv
+    chart = np.where(single[solution.chart_of_corner], solution.chart_of_corner, -1)
+    if (chart < 0).all():
+        return solution.uv
+    return to_former_area(solution.uv, mesh.isotropic_uv(), chart, mesh.usable_pins(), mesh.face_offsets)
+
+
+@dataclass(frozen=True)
+class Placement:
+    """The maps of all meshes, placed together.
+
+    Attributes:
+        uv: one (C, 2) float64 array per mesh, meaningful at its solved corners.
+        without_bounds: number of charts that could not be kept in place because they had no extent before.
+    """
+
+    uv: list[np.ndarray]
+    without_bounds: int = 0
+
+
+def place(
+    meshes: Sequence[PolygonMesh],
+    solutions: Sequence[Solution],
+    keep_in_place: bool,
+    may_turn: bool = False,
+    margin: Margin | None = None,
+) -> Placement:
+    """Place the solved charts of all meshes in one UV plane.
+
+    Charts with pins stay where the solver put them; one with a single pin is scaled about it to its former area. With
+    `keep_in_place` every other chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
+    charts without a former extent, the charts are packed into the unit square, to a common scale, each as the solver
+    turned it: upright. With `may_turn` those that are higher than wide lie. Without a `margin` there are gaps between
+    them.
+
+    Raises:
+        MarginError: the margin is not finite.
+    """
+    corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
+    uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
+    chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
+    if any(solution.column("n_pins").any() for solution in solutions):
+        chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
+    without_bounds = 0
+    if keep_in_place:
+        former = np.concatenate(
+            [np.zeros((n, 2)) if mesh.uv is None else mesh.isotropic_uv() for mesh, n in zip(meshes, corner_counts)]
+        )
+        uv, kept = into_former_bounds(uv, former, chart)
+        without_bounds = len(np.unique(chart[~kept & (chart >= 0)]))
+        chart = np.where(kept, -1, chart)
+    if may_turn:
+        uv = lying(uv, chart)
+    # The tile is a square in the coordinates of each mesh's image.
+    if any(mesh.aspect != 1.0 for mesh in meshes):
+        uv = np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, corner_counts))])
+    return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
+
+
+def _split(values: np.ndarray, counts: Sequence[int]) -> list[np.ndarray]:
+    """Return the parts of an array that have so many rows each."""
+    return [values[end - count : end] for count, end in zip(counts, accumulate(counts))]

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Totals over the charts of several meshes."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..solve.solution import Solution, are_solved, column_of_all
+from ..words.translation import translate
+
+# A texture's squares become rectangles of twice their width there: seen at once, whatever the average.
+STRAINED_QC = 2.0
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Totals over all charts of all meshes.
+
+    Attributes:
+        solved: number of solved charts.
+        mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
+        max_qc: largest quasi-conformal distortion of a face.
+        strained: number of solved charts with a face beyond STRAINED_QC.
+        flipped: number of faces with a flipped triangle.
+        overlapping: number of faces that cover others of their chart.
+        unfolded: number of flipped triangles that were unfolded on request.
+        embedded: number of charts whose map was replaced by an embedding on request.
+        mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
+        failures: how many charts failed for each reason.
+        repairs: how many charts were solved after each repair or fallback.
+        pinned: how many charts with two or more pins were solved by each method.
+        refused: why meshes were refused as a whole, one "name: reason" each.
+    """
+
+    solved: int
+    mean_qc: float
+    max_qc: float
+    strained: int
+    flipped: int
+    overlapping: int
+    unfolded: int
+    embedded: int
+    mean_qc_change: tuple[float, float] | None
+    failures: Counter[str]
+    repairs: Counter[str]
+    pinned: Counter[str]
+    refused: tuple[str, ...]
+
+    @property
+    def failed(self) -> int:
+        """Number of failed charts."""
+        return sum(self.failures.values())
+
+    @property
+    def lacks_seams(self) -> bool:
+        """Whether charts failed that seams would cut open, as the solver's reasons say in these words."""
+        return any({"mark", "seams"} <= set(reason.lower().split()) for reason in self.failures)
+
+
+def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
+    """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
+
+    def of(name: str) -> np.ndarray:
+        return column_of_all(solutions, name)
+
+    solved = are_solved(solutions)
+    unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
+    messages = of("message")
+    return Summary(
+        solved=int(np.count_nonzero(solved)),
+        mean_qc=_average(of("mean_qc")[solved], of("area")[solved]),
+        max_qc=max(of("max_qc")[solved].tolist(), default=float("nan")),
+        strained=int(np.count_nonzero(of("max_qc")[solved] > STRAINED_QC)),
+        flipped=sum(of("flipped")[solved].tolist()),
+        overlapping=sum(of("overlapping")[solved].tolist()),
+        unfolded=sum(of("unfolded")[unfolded].tolist()),
+        embedded=sum(of("is_embedding")[unfolded].tolist()),
+        mean_qc_change=_mean_qc_change(*(of(name)[unfolded] for name in ("mean_qc_before", "mean_qc", "area"))),
+        failures=Counter(messages[~solved].tolist()),
+        # What unfolding did has a sentence of its own, with numbers that differ from chart to chart.
+        repairs=Counter(filter(None, messages[solved & ~unfolded].tolist())),
+        pinned=Counter(of("method")[solved & (of("n_pins") > 1)].tolist()),
+        refused=tuple(
+            f"{name}: {translate(solution.error)}" for solution, name in zip(solutions, names) if solution.error
+        ),
+    )
+
+
+def _average(values: np.ndarray, area: np.ndarray) -> float:
+    """Return the mean of `values` (N,) weighted by `area` (N,), NaN without area."""
+    total = sum(area.tolist())
+    return sum((values * (area / total)).tolist()) if total > 0.0 else float("nan")
+
+
+def _mean_qc_change(before: np.ndarray, after: np.ndarray, area: np.ndarray) -> tuple[float, float] | None:
+    """Return the mean QC before and after unfolding, weighted by area, of the charts that had a map before."""
+    mapped = ~np.isnan(before)
+    if not area[mapped].sum() > 0.0:
+        return None
+    return _average(before[mapped], area[mapped]), _average(after[mapped], area[mapped])

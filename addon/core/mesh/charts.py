@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which faces are one chart, before anything is solved, and the charts at edges and vertices.
+
+Edges are vertex pairs in any order; `faces` (F,) bool are those that count, the others are as if deleted.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .. import native
+from .polygon_mesh import PolygonMesh
+
+
+def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
+    """Return the chart of every face, (F,) int, as the solver cuts them; -1 for faces that are in none.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    return native.spectral_conformal().chart_of_face(
+        mesh.vertices,
+        mesh.face_offsets,
+        mesh.corner_vertices,
+        seam_edges=mesh.seam_edges,
+        selected_faces=faces,
+    )
+
+
+def faces_of_charts_at(mesh: PolygonMesh, faces: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Return which faces, (F,) bool, belong to a chart that has one of the `edges` (N, 2)."""
+    chart = chart_of_face(mesh, faces)
+    beside = np.zeros(len(faces), dtype=bool)
+    beside[mesh.face_of_corner()[np.isin(_corner_edges(mesh), _keys(mesh, edges))]] = True
+    return np.isin(chart, chart[beside & (chart >= 0)])
+
+
+def faces_of_charts_with(mesh: PolygonMesh, faces: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Return which faces, (F,) bool, belong to a chart that has both vertices of one of the `pairs`."""
+    chart = chart_of_face(mesh, faces)
+    chart_of_corner = chart[mesh.face_of_corner()]
+    chosen: set[int] = set()
+    for pair in pairs:
+        first, second = (set(chart_of_corner[mesh.corner_vertices == vertex].tolist()) for vertex in pair)
+        chosen |= (first & second) - {-1}
+    return np.isin(chart, list(chosen))
+
+
+def _corner_edges(mesh: PolygonMesh) -> np.ndarray:
+    """Return the key of the edge from every corner to the next one of its face, (C,)."""
+    return _keys(mesh, np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1))
+
+
+def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
+    ends = np.sort(np.asarray(edges, dtype=np.int64).reshape(-1, 2), axis=1)
+    return ends[:, 0] * len(mesh.vertices) + ends[:, 1]
+
+
+def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:
+    """Return whether `faces`, indices, are an island still, of those that were unwrapped, `domain` (F,) bool.
+
+    They are one chart; or, where seams have changed since, one island of the map, which no face outside joins.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    if _is_part(chart_of_face(mesh, domain), faces):
+        return True
+    if mesh.uv is None or not np.isfinite(mesh.uv).all():
+        return False
+    defects = native.spectral_conformal().map_defects
+    found = defects(mesh.face_offsets, mesh.corner_vertices, mesh.uv.astype(np.float32), selected_faces=domain)
+    return _is_part(found.island_of_face, faces)
+
+
+def _is_part(part_of_face: np.ndarray, faces: np.ndarray) -> bool:
+    """Return whether `faces` are all that have one number of `part_of_face`, (F,), and no others."""
+    first = part_of_face[faces[0]]
+    return bool(
+        first >= 0 and (part_of_face[faces] == first).all() and np.count_nonzero(part_of_face == first) == len(faces)
+    )

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cuts that are proposed for several meshes at once, and the first few of them."""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import zip_longest
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import native
+from ..mesh.polygon_mesh import PolygonMesh
+from ..solve.progress import Progress, parts
+from ..words import texts
+
+# Per mesh (V,) float64 from -1, where seams are avoided, to 1, where they are preferred; None for a mesh without.
+Preferences = Sequence[np.ndarray | None]
+
+
+@dataclass(frozen=True)
+class Options:
+    """Options of `spectral_conformal.suggest_cuts`, by the names and values it documents.
+
+    `max_length` holds for each mesh by itself, None for no limit. `front` is in object space.
+    """
+
+    scale_limit: float = 2.0
+    qc_limit: float = 1.1
+    max_length: float | None = None
+    weights: str = "uniform"
+    boundary: str = "length"
+    front: tuple[float, float, float] | None = None
+    qc_gain: float = 0.0
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Seams that are worth marking together.
+
+    Attributes:
+        mesh: index of the mesh.
+        edges: (n, 2) int32, vertex pairs.
+        length: sum of the edges' lengths, in object space.
+    """
+
+    mesh: int
+    edges: np.ndarray
+    length: float
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """Cuts of several meshes, the most useful first.
+
+    Attributes:
+        cuts: the first cuts of all meshes, then the second ones, and so on.
+        errors: why a mesh, or a part of it, was refused, one text per mesh, empty if it was not.
+    """
+
+    cuts: tuple[Cut, ...]
+    errors: tuple[str, ...]
+
+    @property
+    def length(self) -> float:
+        """The length of all cuts."""
+        return sum(cut.length for cut in self.cuts)
+
+    def edges(self, mesh: int) -> np.ndarray:
+        """Return the edges, (n, 2) int32, of the cuts that are in a mesh."""
+        return np.concatenate([np.empty((0, 2), np.int32), *(cut.edges for cut in self.cuts_of(mesh))])
+
+    def cuts_of(self, mesh: int) -> list[Cut]:
+        """Return the cuts that are in a mesh."""
+        return self._cuts_by_mesh.get(mesh, [])
+
+    @cached_property
+    def _cuts_by_mesh(self) -> dict[int, list[Cut]]:
+        # All at once: who goes through the meshes would go through all cuts for each of them.
+        groups: dict[int, list[Cut]] = {}
+        for cut in self.cuts:
+            groups.setdefault(cut.mesh, []).append(cut)
+        return groups
+
+    def part(self, start: int, end: int) -> "Suggestion":
+        """Return the cuts `start` to `end` - 1 alone."""
+        return replace(self, cuts=self.cuts[start:end])
+
+
+def suggest(
+    meshes: Sequence[PolygonMesh],
+    options: Options,
+    progress: Progress | None = None,
+    preferences: Preferences = (),
+) -> Suggestion:
+    """Propose cuts of the selected faces of every mesh. A mesh that is refused does not stop the others.
+
+    Args:
+        meshes: the meshes.
+        options: of all of them.
+        progress: called with the fraction done; returns False to cancel.
+        preferences: per mesh where seams are wanted, None for a mesh without; empty for none at all.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
+        MemoryError: there is too little memory for any mesh.
+    """
+    wanted = preferences or [None] * len(meshes)
+    each = parts([[mesh] for mesh in meshes], progress)
+    found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, each, wanted)]
+    if found and all(each.is_too_large for each in found):
+        raise MemoryError
+    cuts = [
+        [Cut(index, edges, _length(meshes[index], edges)) for edges in each.cuts] for index, each in enumerate(found)
+    ]
+    in_turn = (cut for turn in zip_longest(*cuts) for cut in turn if cut is not None)
+    return Suggestion(tuple(in_turn), tuple(each.message for each in found))
+
+
+class _Found(NamedTuple):
+    """The cuts of one mesh, why it, or a part of it, was refused, and whether that is for want of memory for it."""
+
+    cuts: list[np.ndarray]
+    message: str
+    is_too_large: bool = False
+
+
+def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None) -> _Found:
+    try:
+        cuts = native.spectral_conformal().suggest_cuts(
+            mesh.vertices,
+            mesh.face_offsets,
+            mesh.corner_vertices,
+            seam_edges=mesh.seam_edges,
+            selected_faces=mesh.selected_faces,
+            vertex_preference=preference,
+            max_length=options.max_length,
+            scale_limit=options.scale_limit,
+            qc_limit=options.qc_limit,
+            qc_gain=options.qc_gain,
+            front=options.front,
+            weights=options.weights,
+            boundary=options.boundary,
+            progress=progress,
+        )
+    except ValueError as error:
+        return _Found([], message=str(error))
+    except MemoryError:
+        return _Found([], message=texts.TOO_LITTLE_MEMORY_FOR_MESH, is_too_large=True)
+    return _Found(cuts, message=getattr(cuts, "message", ""))
+
+
+def _length(mesh: PolygonMesh, edges: np.ndarray) -> float:
+    first, second = segments(mesh, edges).reshape(-1, 2, 3).transpose(1, 0, 2)
+    return float(np.linalg.norm(first - second, axis=1).sum())
+
+
+def segments(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
+    """Return the ends of the edges, (2 n, 3) float64 in object space, edge after edge."""
+    return mesh.vertices[edges].reshape(-1, 3)
+
+
+def cut_open(meshes: Sequence[PolygonMesh], cuts: Suggestion) -> list[PolygonMesh]:
+    """Return the meshes with the cuts among their seams."""
+    return [
+        replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, cuts.edges(index)]))
+        for index, mesh in enumerate(meshes)
+    ]
+
+
+class Search:
+    """`suggest`, which answers the same question again without searching. Only its last answer is kept."""
+
+    def __init__(self) -> None:
+        """Remember nothing yet."""
+        self._last: tuple[bytes, Suggestion] | None = None
+
+    def suggest(
+        self,
+        meshes: Sequence[PolygonMesh],
+        options: Options,
+        progress: Progress | None = None,
+        preferences: Preferences = (),
+    ) -> Suggestion:
+        """Propose cuts as the function `suggest` does."""
+        question = _digest(meshes, options, preferences)
+        last = self._last
+        if last is not None and last[0] == question:
+            return last[1]
+        answer = suggest(meshes, options, progress, preferences)
+        self._last = (question, answer)
+        return answer
+
+
+def _digest(meshes: Sequence[PolygonMesh], options: Options, preferences: Preferences) -> bytes:
+    """Return a digest of everything that the cuts depend on."""
+    digest = hashlib.blake2b(repr(options).encode())
+    for mesh in meshes:
+        arrays = (mesh.vertices, mesh.face_offsets, mesh.corner_vertices, mesh.seam_edges, mesh.selected_faces)
+        for array in arrays:
+            digest.update(repr((array.shape, array.dtype.str)).encode())
+            digest.update(np.ascontiguousarray(array).data)
+    for preference in preferences:
+        digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
+    return digest.digest()

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Progress of several pieces of work as that of one."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ..mesh.polygon_mesh import PolygonMesh
+
+# Takes the fraction done and the name of the phase; where it returns False, the work stops.
+Progress = Callable[[float, str], "bool | None"]
+
+
+def parts(groups: Sequence[Sequence[PolygonMesh]], progress: Progress | None) -> list[Progress | None]:
+    """Return the progress function of each group of meshes, all together making `progress`; None where that is None."""
+    if progress is None or len(groups) == 1:
+        return [progress] * len(groups)
+    faces = [sum(max(1, np.count_nonzero(mesh.selected_faces)) for mesh in group) for group in groups]
+    sizes = np.array(faces, dtype=np.float64) / sum(faces)
+    ends = np.cumsum(sizes)
+    return [part(progress, end - size, size) for end, size in zip(ends.tolist(), sizes.tolist())]
+
+
+def part(progress: Progress, start: float, length: float) -> Progress:
+    """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
+    return lambda fraction, phase: progress(start + length * fraction, phase)

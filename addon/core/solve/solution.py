@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solve the charts of polygon meshes: what runs in the thread of a job."""
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import native
+from ..mesh.polygon_mesh import PolygonMesh
+from ..words import texts
+from .chart_records import column
+from .joined import joined
+from .joined import parts as joined_parts
+from .options import Options
+from .progress import Progress, parts
+
+# Small meshes are joined up to this many corners, a million quads: more would gain nothing and take memory.
+_MAX_JOINED_CORNERS = 4_000_000
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What the solver made of one mesh with F faces and C corners.
+
+    Attributes:
+        uv: (C, 2) float64, meaningful where `chart_of_corner` is not -1.
+        chart_of_corner: (C,) intp, index into `charts` of the solved chart; -1 where the map must not change.
+        charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them: made when they are
+            asked for, so that `column` is what to ask for all of them.
+        failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart where all are refused.
+        error: why the whole mesh was refused; empty if it was not.
+        unused_extenders: number of the mesh's extenders that no solved chart could use.
+        too_small_faces: number of faces that `find_too_small_faces` finds.
+    """
+
+    uv: np.ndarray
+    chart_of_corner: np.ndarray
+    charts: Sequence[Any]
+    failed_islands: np.ndarray
+    error: str = ""
+    unused_extenders: int = 0
+    too_small_faces: int = 0
+
+    @functools.cached_property
+    def has_failures(self) -> bool:
+        """Whether a chart failed, or the whole mesh was refused."""
+        return bool(self.error) or bool((self.column("status") != "solved").any())
+
+    @functools.cached_property
+    def failed_faces(self) -> np.ndarray:
+        """(F,) bool, the faces of failed charts."""
+        return self.failed_islands >= 0
+
+    @functools.cached_property
+    def solved_corners(self) -> np.ndarray:
+        """(C,) bool, the corners that get new coordinates."""
+        return self.chart_of_corner >= 0
+
+    @functools.cached_property
+    def pinned_corners(self) -> np.ndarray:
+        """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
+        pinned = self.column("n_pins") > 0
+        if not pinned.any():
+            return np.zeros(len(self.chart_of_corner), dtype=bool)
+        return np.append(pinned, False)[self.chart_of_corner]
+
+    def column(self, name: str) -> np.ndarray:
+        """Return what the charts have in one field, (number of charts,), without a record for each."""
+        return column(self.charts, name)
+
+
+def are_solved(solutions: Sequence[Solution]) -> np.ndarray:
+    """Return which charts of all solutions, one after the other, are solved, bool."""
+    return np.concatenate([np.zeros(0, bool), *(solution.column("status") == "solved" for solution in solutions)])
+
+
+def column_of_all(solutions: Sequence[Solution], name: str) -> np.ndarray:
+    """Return what the charts of all solutions, one after the other, have in one field."""
+    columns = [solution.column(name) for solution in solutions if len(solution.charts)]
+    return np.concatenate(columns) if columns else np.zeros(0)
+
+
+def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:
+    """Return the solved faces that shrink so far in their chart that Blender's single precision merges them, (N,) intp.
+
+    A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not count.
+    The arrays, (C, 2) and (C,), are those of a `Solution`.
+    """
+    chart = chart_of_corner[mesh.face_offsets[:-1]]
+    order = np.arange(len(chart))
+    if (chart[1:] < chart[:-1]).any() or (chart[:1] < 0).any():
+        order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
+    if not len(order):
+        return order
+    # A chart without area is a point, of which no face is a part.
+    with np.errstate(invalid="ignore"):
+        image = _part_of_chart(uv, mesh, chart, order)
+    small = image < 2.0**-21
+    if small.any():
+        small &= image < _part_of_chart(mesh.vertices[mesh.corner_vertices], mesh, chart, order) / 16
+    return order[small]
+
+
+def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray, order: np.ndarray) -> np.ndarray:
+    """Return the extent of faces as parts of their chart's, (len(order),); `positions` (C, n) of the corners.
+
+    `order` has the faces of charts, which may be all, in the order of their `chart` (F,).
+    """
+    low, high = (np.ascontiguousarray(bound.T) for bound in mesh.face_bounds(positions))
+    if len(order) < len(chart) or chart[order[0]] != chart[0] or (chart[1:] < chart[:-1]).any():
+        low, high, chart = low.take(order, axis=1), high.take(order, axis=1), chart.take(order)
+    if chart[0] == chart[-1]:
+        return (high - low).max(axis=0) / (high.max(axis=1) - low.min(axis=1)).max()
+    starts = np.flatnonzero(np.diff(chart, prepend=-1))
+    size = np.maximum.reduceat(high, starts, axis=1) - np.minimum.reduceat(low, starts, axis=1)
+    return (high - low).max(axis=0) / np.repeat(size.max(axis=0), np.diff(starts, append=len(chart)))
+
+
+def solve(
+    mesh: PolygonMesh,
+    options: Options,
+    progress: Progress | None = None,
+    kept: Any = None,  # noqa: ANN401 - a KeptMaps of the native module
+) -> Solution:
+    """Unwrap the selected faces of `mesh`, chart by chart; those whose maps are `kept` are not solved.
+
+    A mesh that the solver refuses as a whole comes back as a `Solution` with an `error` and no charts, so that the
+    other meshes of the same call can still be unwrapped.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
+    """
+    try:
+        result = _unwrap(mesh, options, progress, kept)
+    except ValueError as error:
+        return _refused(mesh, str(error))
+    return _solutions([mesh], mesh, result)[0]
+
+
+def _refused(mesh: PolygonMesh, message: str) -> Solution:
+    corners = len(mesh.corner_vertices)
+    failed_islands = np.where(mesh.selected_faces, 0, -1)
+    return Solution(np.zeros((corners, 2)), np.full(corners, -1), (), failed_islands, message)
+
+
+def _unwrap(mesh: PolygonMesh, options: Options, progress: Progress | None, kept: Any) -> Any:  # noqa: ANN401 - of the module
+    return native.spectral_conformal().unwrap(
+        mesh.vertices,
+        mesh.face_offsets,
+        mesh.corner_vertices,
+        **soft_constraints(mesh, options),
+        **arguments(mesh, options),
+        progress=progress,
+        kept_maps=kept,
+    )
+
+
+def _solutions(
+    meshes: Sequence[PolygonMesh],
+    whole: PolygonMesh,
+    result: Any,  # noqa: ANN401 - of the native module
+) -> list[Solution]:
+    """Return what the result for the `whole`, all `meshes` in one, is for each of them; it is used up."""
+    chart_of_corner = np.repeat(result.chart_of_face, np.diff(whole.face_offsets))
+    chart_of_corner[~result.solved_corners] = -1
+    failed = np.append(column(result.charts, "status") != "solved", False)
+    failed_islands = np.where(failed[result.chart_of_face], result.chart_of_face, -1)
+    too_small = find_too_small_faces(whole, result.uv, chart_of_corner)
+    if len(meshes) == 1:
+        unused = _count_unused(whole, result.unused_extenders)
+        return [Solution(result.uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
+    # Extenders keep a mesh from being joined.
+    return [
+        Solution(part.uv, part.chart_of_corner, part.charts, part.failed_islands, too_small_faces=part.too_small_faces)
+        for part in joined_parts(meshes, result, chart_of_corner, failed_islands, too_small)
+    ]
+
+
+def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the keyword arguments that `spectral_conformal.unwrap` and `Unwrapper` share."""
+    return {
+        "seam_edges": mesh.seam_edges,
+        "selected_faces": mesh.selected_faces,
+        "method": options.method,
+        "weights": options.weights,
+        "boundary": options.boundary,
+        "fill_holes": options.fill_holes,
+        "area_blend": options.area_blend,
+        "fold_free": options.fold_free,
+        "polish": options.polish,
+        "metric": _stretched_space(mesh, options.stretch) if _is_stretched(mesh, options) else None,
+        **_pins(mesh, options),
+    }
+
+
+def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the keyword arguments that `spectral_conformal.unwrap` shares with `Unwrapper.solve`."""
+    # Only the spectral method has a form that soft constraints could change.
+    if options.method != "spectral":
+        return {}
+    is_automatic = options.automatic_holes and options.hole_rigidity == 0.0
+    return {"extenders": mesh.extenders, "hole_rigidity": "automatic" if is_automatic else options.hole_rigidity}
+
+
+def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
+    """Count the unused extenders of which a vertex is being unwrapped: the others were not meant."""
+    if not unused.any():
+        return 0
+    unwrapped = np.zeros(len(mesh.vertices), dtype=bool)
+    unwrapped[mesh.corner_vertices[mesh.selected_faces[mesh.face_of_corner()]]] = True
+    ends = np.array([(i, j) for i, j, _ in mesh.extenders])
+    return int(np.count_nonzero(unused & unwrapped[ends].any(axis=1)))
+
+
+def _is_stretched(mesh: PolygonMesh, options: Options) -> bool:
+    return mesh.stretch_direction is not None and options.stretch != 1.0
+
+
+def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
+    """Return the metric of the mesh as it would be, stretched in space along its direction, (F, 3, 3) float64.
+
+    Unlike a direction projected to every face, it fades where faces lean away from the direction.
+    """
+    metric = np.eye(3) + (stretch**2 - 1.0) * np.outer(mesh.stretch_direction, mesh.stretch_direction)
+    return np.broadcast_to(metric, (len(mesh.selected_faces), 3, 3))
+
+
+def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
+    """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
+    if not mesh.has_usable_pins:
+        return {}
+    return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": mesh.usable_pins(), "soft_pins": options.soft_pins}
+
+
+def solve_all(
+    meshes: Sequence[PolygonMesh],
+    options: Options,
+    progress: Progress | None = None,
+    kept: Any = None,  # noqa: ANN401 - as in solve
+) -> list[Solution]:
+    """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces.
+
+    Raises:
+        MemoryError: there is too little memory for any of them. A mesh that is too large while others are not is
+            refused alone.
+    """
+    groups = _groups(meshes, options)
+    solved = [_solve_group(group, options, part, kept) for group, part in zip(groups, parts(groups, progress))]
+    solutions = [solution for group in solved for solution in group]
+    if solutions and not any(solutions):
+        raise MemoryError
+    return [
+        solution or _refused(mesh, message=texts.TOO_LITTLE_MEMORY_FOR_MESH)
+        for mesh, solution in zip(meshes, solutions)
+    ]
+
+
+def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[PolygonMesh]]:
+    """Return the meshes in their order, those together that can be joined."""
+    groups: list[list[PolygonMesh]] = []
+    room = -1
+    for mesh in meshes:
+        is_alone = _is_to_be_alone(mesh, options)
+        if is_alone or len(mesh.corner_vertices) > room:
+            groups.append([])
+            room = -1 if is_alone else _MAX_JOINED_CORNERS
+        groups[-1].append(mesh)
+        room -= len(mesh.corner_vertices)
+    return groups
+
+
+def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
+    """Return whether a mesh has what must not reach others: constraints, or a vertex that is named by number."""
+    is_constrained = bool(mesh.extenders) or mesh.has_usable_pins or _is_stretched(mesh, options)
+    return is_constrained or not np.isfinite(mesh.vertices).all()
+
+
+def _solve_group(
+    group: Sequence[PolygonMesh],
+    options: Options,
+    progress: Progress | None,
+    kept: Any,  # noqa: ANN401 - as in solve
+) -> list[Solution | None]:
+    """Return the solution of every mesh of a `group` that can be joined, None where there is too little memory."""
+    if len(group) > 1:
+        try:
+            whole = joined(group)
+            result = _unwrap(whole, options, progress, kept)
+        except (ValueError, MemoryError):
+            # One of them is refused, or too large, which the others must not suffer from.
+            pass
+        else:
+            return _solutions(group, whole, result)
+    each = [progress] if len(group) == 1 else parts([[mesh] for mesh in group], progress)
+    return [_solve_within_memory(mesh, options, part, kept) for mesh, part in zip(group, each)]
+
+
+def _solve_within_memory(
+    mesh: PolygonMesh,
+    options: Options,
+    progress: Progress | None,
+    kept: Any,  # noqa: ANN401 - as in solve
+) -> Solution | None:
+    try:
+        return solve(mesh, options, progress, kept)
+    except MemoryError:
+        return None

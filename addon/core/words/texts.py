@@ -1,0 +1,852 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every sentence, label and description that an artist reads, apart from those that the solver itself returns.
+
+Without bpy, so that both the Blender layer and the rest of core can import it. Blender calls a chart an island; so do
+these sentences. A function that returns an empty text has nothing to say.
+
+Everything here is a key of the tables in addon/locale/: a constant, with named fields where values go. The functions
+look their sentences up when they are called, and the labels that they are given; they return what is to be shown. The
+constants are plain English: Blender translates what it gets as labels and descriptions, and whoever shows a constant
+otherwise looks it up with `translation.translate`. What the solver returns, reasons and names of phases, stays English
+within our sentences.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from .translation import translate
+
+if TYPE_CHECKING:
+    from ..measure.defects import Defects
+    from ..measure.map_view import IslandNumbers
+    from ..measure.quality import MapQuality
+    from ..measure.summary import Summary
+
+UNWRAP_LABEL = "Spectral Unwrap"
+UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
+SELECT_FAILED_LABEL = "Select Failed Islands"
+SELECT_FAILED_DESCRIPTION = (
+    "Select the visible faces of the islands that Spectral Unwrap could not solve when they were unwrapped last"
+)
+SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
+SELECT_DEFECTS_DESCRIPTION = (
+    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map"
+)
+SUGGEST_SEAMS_LABEL = "Suggest Seams"
+SUGGEST_SEAMS_DESCRIPTION = (
+    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
+    "visible ones if none is selected; then unwrap again"
+)
+LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
+LIVE_UNWRAP_DESCRIPTION = (
+    "Let islands follow while their pins are moved or their extenders change, and unwrap again when seams are changed"
+)
+EXTENDER_NAME = "Extender"
+SELECT_LABEL = "Select"
+REMOVE_LABEL = "Remove"
+ADD_EXTENDER_LABEL = "Add Extender"
+ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
+REMOVE_EXTENDER_LABEL = "Remove Extender"
+REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
+REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
+REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders with a vertex that is gone"
+ADJUST_EXTENDER_LABEL = "Adjust Extender"
+ADJUST_EXTENDER_DESCRIPTION = "Change the strength of the active extender by dragging, while its island follows"
+SELECT_EXTENDER_LABEL = "Select Extender Vertices"
+SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
+SIDEBAR_TAB = "Spectral"
+SEAMS_LABEL = "Seams"
+UNWRAP_PANEL_LABEL = "Unwrap"
+SETTINGS_LABEL = "Settings"
+ADVANCED_LABEL = "Advanced"
+RESULT_LABEL = "Last Result"
+CLEAR_SEAMS_LABEL = "Clear Selected"
+SEAMS_FROM_ISLANDS_LABEL = "From Islands"
+NO_RESULT_LABEL = "Nothing was unwrapped yet"
+SELECT_ISLAND_LABEL = "Select Island"
+SELECT_DISTORTED_LABEL = "Select Most Distorted"
+SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
+INSPECT_LABEL = "Inspect Map"
+INSPECT_DESCRIPTION = "Show the numbers of the face below the mouse; a click selects its island"
+INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
+STORE_LABEL = "Store as Attribute"
+STORE_DESCRIPTION = (
+    "Write what the UV map does to every face into an attribute of the mesh, for rendering, geometry nodes and scripts"
+)
+SUBMENU_LABEL = "Spectral"
+EXTENDERS_LABEL = "Extenders"
+ADD_TO_ACTIVE_LABEL = "Add to Active"
+VERTEX_GONE_LABEL = "Vertex gone"
+
+# Name and description of the operators' properties, by the property's identifier.
+METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
+WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
+BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
+PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
+TURN_TO_PACK_PROPERTY = {
+    "name": "Turn to Pack",
+    "description": "Lay islands that are higher than wide on their side to pack them; otherwise all stand upright",
+}
+FILL_HOLES_PROPERTY = {
+    "name": "Fill Holes",
+    "description": "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry",
+}
+HOLE_RIGIDITY_PROPERTY = {
+    "name": "Hole Rigidity",
+    "description": "Keep holes open; 1 treats them like the outer border",
+}
+AUTOMATIC_HOLES_PROPERTY = {
+    "name": "Automatic Holes",
+    "description": (
+        "Keep the holes of an island from shrinking where that lowers its distortion; a Hole Rigidity above 0 "
+        "takes the place of this"
+    ),
+}
+AREA_BLEND_PROPERTY = {
+    "name": "Angle to Area",
+    "description": "0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",
+}
+FOLD_FREE_PROPERTY = {
+    "name": "No Flip",
+    "description": (
+        "Leave no flipped faces, and no island that covers itself: unfold and move apart what is, at some cost in "
+        "angles. Islands where that is not enough get another map, which takes longer"
+    ),
+}
+POLISH_PROPERTY = {
+    "name": "Polish",
+    "description": "Lower the angle distortion further by a few steps from the spectral map",
+}
+STRETCH_PROPERTY = {
+    "name": "Edge Stretch",
+    "description": "How much longer the islands get along the direction of the active edge than across it",
+}
+SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show the settings that are seldom changed"}
+USE_SUBSURF_DATA_PROPERTY = {
+    "name": "Use Subdivision Surface",
+    "description": "Map UVs taking vertex position after Subdivision Surface modifier has been applied",
+}
+SOFT_PINS_PROPERTY = {
+    "name": "Soft Pins",
+    "description": "Let pinned UVs attract the islands of the spectral method instead of holding them",
+}
+SOFT_PIN_STRENGTH_PROPERTY = {
+    "name": "Strength",
+    "description": "How strongly soft pins attract, 1000 nearly as if they were held",
+}
+CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
+MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "What the margin is measured by"}
+MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
+SIZE_VARIATION_PROPERTY = {
+    "name": "Size Variation",
+    "description": "Factor within which the scale of 95 % of the surface is to lie; a larger one takes fewer seams",
+}
+ANGLE_DISTORTION_PROPERTY = {
+    "name": "Angle Distortion",
+    "description": (
+        "Mean quasi-conformal distortion that is not to be exceeded, 1 where all angles are kept; a larger "
+        "one takes fewer seams on coarse meshes"
+    ),
+}
+FRONT_PROPERTY = {
+    "name": "Keep Front Clear",
+    "description": (
+        "How far seams go out of the way of faces that look to the front (the object's -Y), 0 where any side will do"
+    ),
+}
+SEAM_GROUP_PROPERTY = {
+    "name": "Vertex Group",
+    "description": "Painted weights that say where seams are to go or to stay away from; none if empty",
+}
+SEAM_GROUP_USE_PROPERTY = {"name": "Group Means", "description": "What the weights of the vertex group are for"}
+SEAM_GROUP_USES = (
+    ("AVOID", "No Seams Here", "The larger the weight, the longer the way round that a seam takes"),
+    ("PREFER", "Seams Here", "The larger the weight, the rather a seam goes there"),
+)
+MAX_LENGTH_PROPERTY = {
+    "name": "Maximum Length",
+    "description": (
+        "Limit of the length of all new seams of a mesh, without the object's scale, 0 for none; cuts that "
+        "closed islands and handles need are made in any case"
+    ),
+}
+CUTS_PROPERTY = {
+    "name": "Cuts",
+    "description": "Number of the suggested cuts to mark, the most useful first, 0 for all",
+}
+UNWRAP_PROPERTY = {
+    "name": "Unwrap",
+    "description": "Unwrap the faces afterwards, with the settings with which Spectral Unwrap was used last",
+}
+FLIPPED_PROPERTY = {
+    "name": "Flipped",
+    "description": "Select faces that lie the other way round than most of their island",
+}
+OVERLAPPING_PROPERTY = {
+    "name": "Overlapping",
+    "description": "Select faces that cover part of another face of their island",
+}
+BETWEEN_ISLANDS_PROPERTY = {
+    "name": "Between Islands",
+    "description": "Also select faces that cover part of another island, of any mesh in edit mode",
+}
+EXTEND_PROPERTY = {"name": "Extend", "description": "Add to the selection instead of replacing it"}
+
+ISLANDS_PROPERTY = {"name": "Islands", "description": "The islands of the last result, the worst first"}
+ACTIVE_ISLAND_PROPERTY = {"name": "Island", "description": "Click an island to select its faces"}
+MEASURE_PROPERTY = {"name": "By", "description": "What faces are compared by"}
+MEASURE_ITEMS = (
+    ("ANGLE", "Angle Distortion", "Faces whose angles are farthest from those on the surface"),
+    ("SIZE", "Size", "Faces whose size in the map is farthest from that of most of the surface"),
+)
+AMOUNT_PROPERTY = {"name": "Amount", "description": "How much of the surface to select, the worst faces first"}
+USE_LIMIT_PROPERTY = {
+    "name": "Above Limit",
+    "description": "Select all that is worse than a limit, however much that is",
+}
+LIMIT_PROPERTY = {
+    "name": "Limit",
+    "description": "Angle distortion, 1 where angles are kept; or how many times larger or smaller than most faces are",
+}
+WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Compare islands instead of faces, by their average"}
+STORED_PROPERTY = {"name": "Store", "description": "What to write"}
+AS_COLORS_PROPERTY = {
+    "name": "As Colors",
+    "description": "Write the colors of the overlay to the corners of the faces, instead of one number per face",
+}
+# The properties of the overlay that shows the map.
+MAP_OVERLAY_LABEL = "UV Map Overlay"
+SHOW_MAP_PROPERTY = {
+    "name": "Show UV Map",
+    "description": "Colour the faces by what the active UV map does to them, in the 3D viewport and in the UV editor",
+}
+LOOK_PROPERTY = {"name": "Show", "description": "What the colours stand for"}
+USE_RANGE_PROPERTY = {
+    "name": "Own Range",
+    "description": "Set the values of the two ends of the colours by hand; otherwise they follow the map",
+}
+RANGE_LOW_PROPERTY = {"name": "Low", "description": "Value at the lower end of the colours"}
+RANGE_HIGH_PROPERTY = {"name": "High", "description": "Value at the upper end of the colours"}
+OPACITY_PROPERTY = {"name": "Opacity", "description": "How much the colours hide of what is below them"}
+IMAGE_SIZE_PROPERTY = {
+    "name": "Image Size",
+    "description": "Pixels along one side of the image that the texel density is stated for",
+}
+CHECKS_PROPERTY = {"name": "Squares", "description": "Squares of the checker along one side of a UV tile"}
+LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colours mean, and the numbers of the map"}
+
+DEFAULTS_LABEL = "Spectral Unwrap Begins With"
+LIMITS_LABEL = "Limits"
+SOLVER_LABEL = "Solver"
+THREADS_PROPERTY = {
+    "name": "Threads",
+    "description": "How many processor cores a solve may use at once, 0 for all; the map is the same",
+}
+OVERLAY_MAX_FACES_PROPERTY = {
+    "name": "Overlay: Faces",
+    "description": "Meshes with more faces are not colored, since the overlay follows every edit",
+}
+LIVE_MAX_FACES_PROPERTY = {
+    "name": "Live Unwrap: Faces",
+    "description": "Meshes with more faces are left alone by Live Spectral Unwrap, which cannot be canceled while it "
+    "solves",
+}
+TOO_MANY_FACES_TO_COLOR = "Too many faces to color:"
+LIMIT_IN_PREFERENCES = "The add-on's preferences set the limit"
+TOO_MANY_FACES_TO_FOLLOW = "Too many faces to follow"
+OVERLAY_COLORS_LABEL = "Colors of the UV Map Overlay"
+ANGLE_LOW_PROPERTY = {"name": "Angles Kept", "description": "Color of faces whose angles are kept"}
+ANGLE_MIDDLE_PROPERTY = {"name": "Between", "description": "Color of faces in the middle of the range"}
+ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of faces at the end of the range and beyond"}
+SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces that are smaller in the map than most"}
+SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of the size of most"}
+SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces that are larger in the map than most"}
+PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices make a pair"}
+STRENGTH_PROPERTY = {
+    "name": "Strength",
+    "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
+}
+INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active extender"}
+BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all extenders with a vertex that is gone instead"}
+# The same of the properties of an extender, and of a mesh that has extenders.
+EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name of the extender"}
+EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Let the extender act on the next unwrap"}
+FIRST_VERTEX_PROPERTY = {"name": "First Vertex", "description": "Identifier of its first vertex"}
+SECOND_VERTEX_PROPERTY = {"name": "Second Vertex", "description": "Identifier of its second vertex"}
+ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The extender chosen in the panel"}
+
+# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
+# spectral_conformal.unwrap.
+METHOD_ITEMS = (
+    ("SPECTRAL", "Spectral", "Least angle distortion with the whole boundary free; no pins"),
+    ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
+)
+WEIGHTS_ITEMS = (
+    ("UNIFORM", "Uniform", "Every triangle counts by its area"),
+    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same, for irregularly sampled meshes"),
+)
+BOUNDARY_ITEMS = (
+    ("LENGTH", "Length", "Weigh boundary vertices by the length of their boundary edges, whatever the sampling"),
+    ("VERTEX", "Vertex", "Weigh all boundary vertices equally, as in the original paper"),
+)
+MARGIN_METHOD_ITEMS = (
+    ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
+    ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
+    ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
+)
+LOOK_ANGLE = "ANGLE"
+LOOK_SIZE = "SIZE"
+LOOK_DENSITY = "DENSITY"
+LOOK_DEFECTS = "DEFECTS"
+LOOK_CHECKER = "CHECKER"
+LOOK_ITEMS = (
+    (LOOK_ANGLE, "Angle Distortion", "How far angles are from those on the surface: 1 where they are kept"),
+    (LOOK_SIZE, "Size", "How much larger or smaller faces are in the map than in the middle of it, beside the surface"),
+    (LOOK_DENSITY, "Texel Density", "Pixels of the image along one unit of length on the surface"),
+    (LOOK_DEFECTS, "Flipped and Overlapping", "Faces that lie the wrong way round, or cover others of their island"),
+    (LOOK_CHECKER, "Checker", "Squares of the UV map on the surface, without touching materials"),
+)
+# A checker is no value.
+STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != LOOK_CHECKER)
+PACK = "PACK"
+KEEP = "KEEP"
+PLACEMENT_ITEMS = (
+    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile, upright"),
+    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before, turned as it was"),
+)
+PAIRS_IN_ORDER = "IN_ORDER"
+PAIRS_TO_ACTIVE = "TO_ACTIVE"
+EXTENDER_PAIRS_ITEMS = (
+    (
+        PAIRS_IN_ORDER,
+        "In Order",
+        "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
+        "on, in the order in which they were selected",
+    ),
+    (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
+)
+
+SELECT_PAIR = "Select two vertices, or several, one after the other"
+SELECT_WITH_ACTIVE = "Select the vertices to connect, last the one to connect them with"
+NO_ACTIVE_VERTEX = "No vertex is active; select the one to connect the others with last, with Shift and click"
+NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in no common island; remove the seams between them"
+HELD_BY_PINS = "The extender has no effect: pins hold its island; unpin it or use soft pins"
+# Blender's own sentence where use_subsurf_data has no effect.
+NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
+NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
+ADJUSTED_WITHOUT_SUBSURF = (
+    "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
+)
+EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap with it"
+NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
+STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
+OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
+TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for it; close other programs, select fewer faces, or add seams"
+NO_SUCH_EXTENDER = "No such extender; choose one in the list"
+ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
+NOTHING_SELECTED = "No faces selected"
+MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
+NOTHING_SELECTED_MEANS_ALL = "Nothing is selected, so all visible faces are unwrapped"
+NO_VISIBLE_FACES = "No visible faces to cut"
+MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
+OUT_OF_MEMORY = (
+    "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
+    "levels"
+)
+PACKED_BESIDE_FAILED = (
+    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it"
+)
+NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
+NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
+NO_UV_MAP = "There is no UV map to look at; unwrap first"
+# Differences of scale that Blender's own Unwrap passes over.
+_EVEN_SCALE = 1e-4
+_PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+# Numbers with what they count: for one, and for any other number.
+_CUTS = ("{n} cut", "{n} cuts")
+_EXTENDERS = ("{n} extender", "{n} extenders")
+_FACES = ("{n} face", "{n} faces")
+_ISLANDS = ("{n} island", "{n} islands")
+
+
+def is_running(label: str) -> str:
+    """Return why an operator is not available while the one with this label runs."""
+    return translate("{operator} is running; Esc cancels it").format(operator=translate(label))
+
+
+def cancelled(label: str) -> str:
+    """Return what the operator with this label says when it is cancelled."""
+    return translate("{operator}: Cancelled").format(operator=translate(label))
+
+
+def progress(label: str, percent: int, phase: str) -> str:
+    """Return what the status bar shows while the operator with this label runs."""
+    operator = translate(label)
+    if not phase:
+        return translate("{operator}: {percent} %   Esc: Cancel").format(operator=operator, percent=percent)
+    sentence = translate("{operator}: {percent} % {phase}   Esc: Cancel")
+    return sentence.format(operator=operator, percent=percent, phase=phase)
+
+
+def printed_progress(label: str, percent: int, phase: str) -> str:
+    """Return the line that tells on a terminal how far the operator with this label is."""
+    sentence = translate("{operator}: {percent} % ({phase})")
+    return sentence.format(operator=translate(label), percent=percent, phase=phase)
+
+
+def could_not_follow(problem: str) -> str:
+    """Return the line that tells on a terminal that live unwrapping could not follow."""
+    sentence = translate("{operator} could not follow: {problem}")
+    return sentence.format(operator=translate(LIVE_UNWRAP_LABEL), problem=problem)
+
+
+def not_drawn(label: str, problem: str) -> str:
+    """Return the line that tells on a terminal that something could not be drawn."""
+    return translate("{name} could not be drawn: {problem}").format(name=translate(label), problem=problem)
+
+
+def information(summary: Summary, seconds: float, where_to_see: str) -> str:
+    """Return the sentence for a call that solved at least one chart.
+
+    `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
+    """
+    unwrapped = translate("Unwrapped {islands}: angle distortion {mean} average, {worst} worst")
+    if math.isinf(summary.mean_qc):
+        unwrapped = translate("Unwrapped {islands}: angle distortion beyond measure, as faces shrink to nothing")
+    parts = [
+        unwrapped.format(
+            islands=_count(summary.solved, _ISLANDS), mean=_qc(summary.mean_qc), worst=_qc(summary.max_qc)
+        ),
+        _defects(summary.flipped, summary.overlapping, where_to_see),
+        translate("{seconds} s").format(seconds=format(seconds, ".2f")),
+    ]
+    return "; ".join(parts)
+
+
+def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
+    if not flipped and not overlapping:
+        return translate("no flipped faces")
+    kinds = []
+    if flipped:
+        kinds.append(_count(flipped, ("{n} flipped face", "{n} flipped faces")))
+    if overlapping:
+        kinds.append(_count(overlapping, ("{n} overlapping face", "{n} overlapping faces")))
+    return translate("{faces} (see {operator})").format(faces=", ".join(kinds), operator=translate(where_to_see))
+
+
+def look(kind: str) -> str:
+    """Return the label of what the overlay shows."""
+    return translate(next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind))
+
+
+def look_value(kind: str, value: float) -> str:
+    """Return a value of what the overlay shows, as the legend has it."""
+    if kind == LOOK_SIZE:
+        return translate("{factor} x").format(factor=format(2.0**value, ".2f"))
+    return format(value, ".3g" if kind == LOOK_DENSITY else ".2f")
+
+
+def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
+    """Return what stands at the lower end, the middle and the upper end of the legend's colours."""
+    if kind == LOOK_DEFECTS:
+        return (translate("sound"), translate("overlapping"), translate("flipped"))
+    return tuple(look_value(kind, value) for value in (low, middle, high))
+
+
+def too_many_faces(meshes: Sequence[str]) -> list[str]:
+    """Return the legend's lines on meshes, by the names of their objects, that the overlay leaves out."""
+    return [translate(TOO_MANY_FACES_TO_COLOR), *meshes, translate(LIMIT_IN_PREFERENCES)] if meshes else []
+
+
+def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
+    """Return the lines that the legend has on the part of the map with this label."""
+    name, faces = translate(label), _count(numbers.faces, _FACES)
+    if numbers.mean_qc != numbers.mean_qc:
+        return (translate("{name}: {faces}, nothing to measure").format(name=name, faces=faces),)
+    angles = translate("Angles {mean} average, {worst} worst")
+    lines = [
+        translate("{name}: {faces}").format(name=name, faces=faces),
+        angles.format(mean=_qc(numbers.mean_qc), worst=_qc(numbers.max_qc)),
+        translate("Sizes vary by {percent} %").format(percent=_spread(numbers)),
+    ]
+    if numbers.flipped or numbers.overlapping:
+        defects = translate("{flipped} flipped, {overlapping} overlapping")
+        lines.append(defects.format(flipped=numbers.flipped, overlapping=numbers.overlapping))
+    return tuple(lines)
+
+
+def _spread(numbers: IslandNumbers) -> str:
+    """Return by how many percent the scale deviates."""
+    return format(100.0 * (2.0**numbers.log2_scale_deviation - 1.0), ".1f")
+
+
+def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapping: int) -> str:
+    """Return the line of an island in the list of the last result."""
+    parts = [" / ".join((format(mean_qc, ".3f"), _qc(max_qc))), translate("{n} f.").format(n=faces)]
+    if flipped:
+        parts.append(translate("{n} flipped").format(n=flipped))
+    if overlapping:
+        parts.append(translate("{n} overlap").format(n=overlapping))
+    return "   ".join(parts)
+
+
+def island_failed(faces: int) -> str:
+    """Return the line of an island that could not be unwrapped."""
+    return translate("Not unwrapped   {n} f.").format(n=faces)
+
+
+ISLAND_GONE = "The faces of this island have changed since; unwrap again"
+
+
+def selected_worst(faces: int) -> str:
+    """Return what Select Most Distorted says."""
+    return translate("Selected {faces}").format(faces=_count(faces, _FACES))
+
+
+def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, overlapping: bool) -> tuple[str, ...]:
+    """Return the lines that the legend has on the face below the mouse; `density` is in pixels per unit of length."""
+    size = translate("Size {size}, {density} px per unit")
+    lines = [
+        translate("{name}: angles {qc}").format(name=translate(LEGEND_FACE), qc=_qc(qc)),
+        size.format(size=look_value(LOOK_SIZE, log2_size), density=look_value(LOOK_DENSITY, density)),
+    ]
+    if flipped and overlapping:
+        lines.append(translate("Flipped and overlapping"))
+    elif flipped or overlapping:
+        lines.append(translate("Flipped" if flipped else "overlapping"))
+    return tuple(lines)
+
+
+def stored(name: str) -> str:
+    """Return what Store as Attribute says, given the attribute's name."""
+    return translate("Stored as {name}").format(name=name)
+
+
+LEGEND_MESH = "Shown"
+LEGEND_ISLAND = "Active island"
+LEGEND_FACE = "Below the mouse"
+
+
+def unfolded(summary: Summary) -> str:
+    """Return what was unfolded on request and what it cost; empty if nothing was."""
+    parts = []
+    if summary.unfolded:
+        forms = ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")
+        parts.append(_count(summary.unfolded, forms))
+    if summary.embedded:
+        forms = ("{n} island needed the slower fallback map", "{n} islands needed the slower fallback map")
+        parts.append(_count(summary.embedded, forms))
+    if not parts:
+        return ""
+    changes = ", ".join(parts)
+    if summary.mean_qc_change is None:
+        return translate("No Flip: {changes}").format(changes=changes)
+    before, after = summary.mean_qc_change
+    sentence = translate("No Flip: {changes}; their angle distortion {before} before, {after} after")
+    return sentence.format(changes=changes, before=_qc(before), after=_qc(after))
+
+
+def strained(summary: Summary) -> str:
+    """Return the warning for islands with a face whose angles are far off; empty for none."""
+    if not summary.strained:
+        return ""
+    forms = (
+        "{n} island has faces stretched to more than twice their width, {worst} at worst; add seams there",
+        "{n} islands have faces stretched to more than twice their width, {worst} at worst; add seams there",
+    )
+    return _count(summary.strained, forms, worst=_qc(summary.max_qc))
+
+
+def too_small(faces: int) -> str:
+    """Return the warning for faces that Blender's single precision cannot hold; empty for none."""
+    if not faces:
+        return ""
+    forms = (
+        "{n} face shrinks below what Blender's UV coordinates resolve; add seams that make the island flatter, or "
+        "raise Angle to Area",
+        "{n} faces shrink below what Blender's UV coordinates resolve; add seams that make the island flatter, or "
+        "raise Angle to Area",
+    )
+    return _count(faces, forms)
+
+
+def failures(summary: Summary) -> str:
+    """Return why charts or whole meshes were left as they were; empty if none was."""
+    parts = []
+    if summary.failed:
+        sentence = translate("{failed} of {islands} failed, UVs unchanged: {reasons}")
+        islands, reasons = _count(summary.solved + summary.failed, _ISLANDS), _grouped(summary.failures)
+        parts.append(sentence.format(failed=summary.failed, islands=islands, reasons=reasons))
+        if summary.lacks_seams:
+            hint = translate("{operator} finds where to cut")
+            parts.append(hint.format(operator=translate(SUGGEST_SEAMS_LABEL)))
+    if summary.refused:
+        parts.append(translate("Not unwrapped: {reasons}").format(reasons="; ".join(summary.refused)))
+    return ". ".join(parts)
+
+
+def repairs(summary: Summary) -> str:
+    """Return what was repaired or done differently to solve some charts; empty if nothing was."""
+    if not summary.repairs:
+        return ""
+    forms = (
+        "{n} island needed a repair or fallback: {reasons}",
+        "{n} islands needed a repair or fallback: {reasons}",
+    )
+    return _count(sum(summary.repairs.values()), forms, reasons=_grouped(summary.repairs))
+
+
+def pinned(summary: Summary) -> str:
+    """Return how charts with two or more pins were solved; empty if there were none."""
+    if not summary.pinned:
+        return ""
+    ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})
+    forms = ("{n} island with pins: solved by {ways}", "{n} islands with pins: solved by {ways}")
+    return _count(sum(summary.pinned.values()), forms, ways=_grouped(ways))
+
+
+def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequence[bool]) -> str:
+    """Return Blender's own sentence about the first object whose scale along its axes is uneven or negative."""
+    for (x, y, z), is_negative in zip(scales, negative):
+        if abs(x - y) >= _EVEN_SCALE or abs(y - z) >= _EVEN_SCALE:
+            return translate("Object has non-uniform scale, unwrap will operate on a non-scaled version of the mesh")
+        if is_negative:
+            return translate("Object has negative scale, unwrap will operate on a non-flipped version of the mesh")
+    return ""
+
+
+def broken_extenders(names: Sequence[str]) -> str:
+    """Return the sentence for extenders that lack a vertex; empty for none."""
+    if not names:
+        return ""
+    forms = (
+        "Skipped {n} extender whose vertex is gone: {names}",
+        "Skipped {n} extenders whose vertex is gone: {names}",
+    )
+    return _count(len(names), forms, names=", ".join(names))
+
+
+def extenders_without_strength(names: Sequence[str]) -> str:
+    """Return the sentence for extenders whose strength is no number within its limit; empty for none."""
+    if not names:
+        return ""
+    forms = (
+        "Skipped {n} extender whose strength is no number that it can have: {names}",
+        "Skipped {n} extenders whose strength is no number that it can have: {names}",
+    )
+    return _count(len(names), forms, names=", ".join(names))
+
+
+def broken_extender(name: str) -> str:
+    """Return why an extender that lacks a vertex cannot be adjusted."""
+    return translate("{name} is broken: a vertex of it is gone; remove it and add another").format(name=name)
+
+
+def adjusting(strength: str, note: str) -> str:
+    """Return what the status bar shows while a strength is dragged."""
+    sentence = translate("{operator}: strength {strength}   {note}")
+    return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), strength=strength, note=note)
+
+
+def removed_broken(count: int) -> str:
+    """Return what Remove Broken says."""
+    return translate("Removed broken extenders: {n}").format(n=count)
+
+
+def broken_extender_selected(name: str, gone: int) -> str:
+    """Return the warning that an extender lacks vertices that were to be selected."""
+    return translate("{name} is broken: {n} of its vertices gone; remove it").format(name=name, n=gone)
+
+
+def hidden_vertices(name: str, hidden: int) -> str:
+    """Return the warning that vertices of an extender are hidden, which are not selected."""
+    return translate("{name} has hidden vertices: {n}; reveal them to select them").format(name=name, n=hidden)
+
+
+def added_extenders(count: int, existing: int, follows: bool) -> str:
+    """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
+    parts, extenders = [], _count(count, _EXTENDERS)
+    if count and follows:
+        parts.append(translate("Added {extenders}").format(extenders=extenders))
+    elif count:
+        sentence = translate("Added {extenders}, which will act on the next unwrap; {operator} acts at once")
+        parts.append(sentence.format(extenders=extenders, operator=translate(ADJUST_EXTENDER_LABEL)))
+    if existing:
+        parts.append(translate("Pairs that have an extender already: {n}").format(n=existing))
+    return ". ".join(parts)
+
+
+def unused_extenders(count: int) -> str:
+    """Return the sentence for extenders that no island could use; empty for none."""
+    if count == 0:
+        return ""
+    forms = (
+        "{n} extender had no effect: both vertices must lie in one unwrapped island, which pins must not hold",
+        "{n} extenders had no effect: both vertices must lie in one unwrapped island, which pins must not hold",
+    )
+    return _count(count, forms)
+
+
+def selected_failed(islands: int, faces: int) -> str:
+    """Return what Select Failed Islands says."""
+    if faces == 0:
+        return translate("No islands failed, selection unchanged")
+    of_islands = _count(islands, ("{n} failed island", "{n} failed islands"))
+    return translate("Selected {faces} of {islands}").format(faces=_count(faces, _FACES), islands=of_islands)
+
+
+def changed_since_unwrapped(names: Sequence[str]) -> str:
+    """Return the warning for meshes that have other faces than when they were unwrapped."""
+    sentence = translate("Faces were added, removed or reordered since the last unwrap of {names}; unwrap again")
+    return sentence.format(names=", ".join(names))
+
+
+def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
+    """Return what Select Flipped and Overlapping says of the defects of each mesh, given which kinds were chosen."""
+    total = sum(int(found.chosen(flipped, overlapping).sum()) for found in defects)
+    if total == 0:
+        if flipped and overlapping:
+            return translate("No flipped or overlapping faces, selection unchanged")
+        if flipped:
+            return translate("No flipped faces, selection unchanged")
+        return translate("No overlapping faces, selection unchanged")
+    kinds = (
+        ("{n} flipped", sum(int(found.flipped.sum()) for found in defects) if flipped else 0),
+        ("{n} overlapping", sum(int(found.overlapping.sum()) for found in defects) if overlapping else 0),
+        ("{n} with UVs that are not finite", sum(int(found.not_finite.sum()) for found in defects)),
+    )
+    counts = ", ".join(translate(text).format(n=count) for text, count in kinds if count)
+    return translate("Selected {faces}: {kinds}").format(faces=_count(total, _FACES), kinds=counts)
+
+
+def marked(count: int, length: str) -> str:
+    """Return what Suggest Seams says once `count` cuts are marked, of a length that is given with its unit."""
+    return translate("Marked {cuts} of length {length}").format(cuts=_count(count, _CUTS), length=length)
+
+
+def nothing_to_suggest(is_limited: bool) -> str:
+    """Return the sentence for no suggested seams; `is_limited` where the user gave a greatest length."""
+    if is_limited:
+        return translate(
+            "No seams to suggest: the islands are even enough already, or no cut makes them better, or none within "
+            "the length"
+        )
+    return translate("No seams to suggest: the islands are even enough already, or no cut makes them better")
+
+
+def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
+    """Return why meshes got no suggestion, given one text for each, empty where there is nothing to tell."""
+    refused = [": ".join((name, translate(error).rstrip("."))) for name, error in zip(names, errors) if error]
+    return translate("No seams suggested for {meshes}").format(meshes="; ".join(refused)) if refused else ""
+
+
+def preview(count: int, total: int, length: str, total_length: str) -> str:
+    """Return which of the suggested cuts are shown, with lengths that are given with their unit."""
+    cuts = _count(total, _CUTS)
+    if count == total:
+        return translate("{cuts}, length {length}").format(cuts=cuts, length=length)
+    sentence = translate("{n} of {cuts}, length {length} of {total}")
+    return sentence.format(n=count, cuts=cuts, length=length, total=total_length)
+
+
+PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
+
+
+def preview_status(known: str) -> str:
+    """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
+    sentence = translate("{operator}: {known}   {keys}")
+    return sentence.format(operator=translate(SUGGEST_SEAMS_LABEL), known=known, keys=translate(PREVIEW_KEYS))
+
+
+def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
+    """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
+    now = [_percent(before.even)]
+    if before.mean_qc == before.mean_qc:
+        now.append(_qc(before.mean_qc))
+    fields = {"percent": _percent(after.even), "factor": format(factor, ".3g"), "now": ", ".join(now)}
+    if after.mean_qc != after.mean_qc:
+        return translate("{percent} of the surface within {factor} times the median scale (now {now})").format(**fields)
+    sentence = translate(
+        "{percent} of the surface within {factor} times the median scale, angle distortion {qc} (now {now})"
+    )
+    return sentence.format(qc=_qc(after.mean_qc), **fields)
+
+
+def _percent(part: float) -> str:
+    # Rounded down, so that only the whole is 100 %.
+    return translate("{percent} %").format(percent=int(100.0 * part + 1e-9))
+
+
+def no_module(reason: object) -> str:
+    """Return what to do where the compiled module cannot be imported."""
+    sentence = translate(
+        "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made for "
+        "this platform and this version of Blender ({reason})"
+    )
+    return sentence.format(reason=reason)
+
+
+def solver(factorization: str, kernel: str) -> str:
+    """Return what maps are solved with; `kernel` is the processor whose kernels OpenBLAS runs, empty without it."""
+    if not kernel:
+        return factorization
+    return translate("{name}, OpenBLAS's kernels for {kernel}").format(name=factorization, kernel=kernel)
+
+
+def no_margin(margin: float) -> str:
+    """Return what is wrong with a margin that is not finite."""
+    return translate("The margin must be a number, not {margin}").format(margin=margin)
+
+
+def unnamed_extender() -> str:
+    """Return what to call an extender without a name."""
+    return translate("Extender without a name")
+
+
+def without_order(selected: int, ordered: int) -> str:
+    """Return what to do where the order of only some of the selected vertices is known."""
+    sentence = translate(
+        "{n} vertices are selected, {unordered} of them in no order; select them one after the other with Shift and "
+        "click, or use {operator}"
+    )
+    return sentence.format(n=selected, unordered=selected - ordered, operator=translate(ADD_TO_ACTIVE_LABEL))
+
+
+def without_partner(selected: int) -> str:
+    """Return what to do where an odd number of vertices is selected."""
+    return translate("{n} vertices are selected, so one has no partner; select an even number").format(n=selected)
+
+
+def without_bounds(count: int) -> str:
+    """Return the sentence for `count` charts that could not be kept in place; empty for none."""
+    if count == 0:
+        return ""
+    forms = (
+        "{n} island had no UV bounds to keep and was laid out in the unit square",
+        "{n} islands had no UV bounds to keep and were laid out side by side in the unit square",
+    )
+    return _count(count, forms)
+
+
+def _grouped(messages: Counter[str]) -> str:
+    """Join the messages, each with its number if there are several."""
+    return "; ".join(
+        message.rstrip(".") if len(messages) == 1 else ": ".join((str(count), message.rstrip(".")))
+        for message, count in messages.most_common()
+    )
+
+
+def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
+    """Return the first of two sentences where `n` is one, the second for any other number, with the `fields` filled."""
+    return translate(forms[0] if number == 1 else forms[1]).format(n=number, **fields)
+
+
+def _qc(value: float) -> str:
+    """Return a distortion as artists read it: 1.003 is not 1.00, and of large ones no digit counts but the first."""
+    if value < 1.1:
+        return format(value, ".3f")
+    return format(value, ".2f" if value < 100.0 else ".3g")

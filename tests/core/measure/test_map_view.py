@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the overlay of the UV map shows, in numbers."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from spectral_unwrap.core.measure.map_view import (
+    MapArrays,
+    MapView,
+    automatic_range,
+    joined_numbers,
+    weighted_percentiles,
+)
+from spectral_unwrap.core.words import texts
+
+
+def grid(n=4, scale=(1.0, 1.0)):
+    """A flat grid of n x n unit squares; its map is the same, stretched."""
+    y, x = np.divmod(np.arange((n + 1) ** 2), n + 1)
+    positions = np.c_[x, y, 0 * x].astype(np.float32)
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    corners = np.c_[first, first + 1, first + n + 2, first + n + 1].astype(np.int32).ravel()
+    faces = np.ones(n * n, dtype=bool)
+    uv = (positions[corners][:, :2] * scale).astype(np.float32)
+    return MapArrays(positions, np.arange(0, 4 * n * n + 1, 4, dtype=np.int32), corners, uv, faces, faces.copy())
+
+
+def changed(arrays, **fields):
+    return dataclasses.replace(arrays, **fields)
+
+
+def test_values_of_every_kind():
+    view = MapView(grid(scale=(0.5, 0.25)))
+    assert view.values(texts.LOOK_ANGLE) == pytest.approx(2.0)
+    assert view.values(texts.LOOK_SIZE) == pytest.approx(0.0)
+    assert view.values(texts.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.125**0.5)
+    assert not view.values(texts.LOOK_DEFECTS).any()
+
+
+def test_flipped_and_overlapping_faces_differ():
+    arrays = grid()
+    uv = arrays.uv.copy()
+    uv[:4] = uv[[1, 0, 3, 2]]  # the first face the other way round, apart from the others
+    uv[4:8] -= [100.0, 0.0]
+    uv[8:12] -= [101.0, 0.0]  # the third on the second, as islands of their own
+    view = MapView(changed(arrays, uv=uv))
+    assert view.island_of_face[:3].tolist() == [0, 1, 2]
+    assert not view.flipped.any()  # an island that is mirrored as a whole is not flipped
+    folded = arrays.uv.copy()
+    moved = (folded == [1.0, 1.0]).all(axis=1)
+    folded[moved] = [3.5, 3.5]
+    values = MapView(changed(arrays, uv=folded)).values(texts.LOOK_DEFECTS)
+    assert set(values) == {0.0, 0.5, 1.0}
+
+
+def test_buffers_are_those_of_the_visible_faces():
+    arrays = grid()
+    arrays.visible_faces[::2] = False
+    arrays.uv_faces[:] = np.arange(16) == 3
+    view = MapView(arrays)
+    positions, (uv, values) = view.triangle_positions(), view.triangle_map(texts.LOOK_ANGLE)
+    assert [buffer.shape for buffer in (positions, uv, values)] == [(48, 3), (48, 2), (48,)]
+    assert {buffer.dtype for buffer in (positions, uv, values)} == {np.dtype(np.float32)}
+    np.testing.assert_array_equal(positions[:, :2], uv)
+    assert view.is_in_uv_editor().sum() == 2
+
+
+def test_nothing_that_is_drawn_is_not_a_number():
+    arrays = grid()
+    arrays.uv[:4] = np.nan
+    arrays.uv[4:8] = 0.0
+    view = MapView(arrays)
+    for kind in (texts.LOOK_ANGLE, texts.LOOK_SIZE, texts.LOOK_DENSITY, texts.LOOK_DEFECTS):
+        assert np.isfinite(view.triangle_map(kind)[1]).all()
+        assert np.isfinite(automatic_range([view], kind)).all()
+    assert view.numbers().faces == 16
+
+
+def test_numbers_of_the_map_and_of_an_island():
+    arrays = grid(scale=(2.0, 1.0))
+    arrays.uv[:32] = arrays.positions[arrays.corner_vertices[:32], :2] - 50.0
+    view = MapView(arrays)
+    assert view.numbers().mean_qc == pytest.approx(1.5)
+    assert view.numbers().max_qc == pytest.approx(2.0)
+    assert view.numbers().log2_scale_deviation == pytest.approx(0.25)
+    first = view.numbers([0])
+    assert (first.faces, first.flipped, first.overlapping) == (8, 0, 0)
+    assert first.mean_qc == pytest.approx(1.0)
+
+
+def test_a_good_map_looks_good():
+    view = MapView(grid())
+    assert automatic_range([view], texts.LOOK_ANGLE) == pytest.approx((1.0, 1.2))
+    assert automatic_range([view], texts.LOOK_SIZE) == pytest.approx((-0.25, 0.25))
+    low, high = automatic_range([view], texts.LOOK_DENSITY, 1024)
+    assert low < 1024 < high
+
+
+def test_range_follows_most_of_the_surface():
+    arrays = grid(10, scale=(3.0, 1.0))
+    arrays.uv[:4] *= [40.0, 1.0]
+    assert automatic_range([MapView(arrays)], texts.LOOK_ANGLE)[1] == pytest.approx(3.0)
+
+
+def test_percentiles_count_weights():
+    values, weights = np.array([3.0, 1.0, np.nan, 2.0]), np.array([1.0, 8.0, 50.0, 1.0])
+    assert weighted_percentiles(values, weights, (50.0, 85.0, 100.0)) == [1.0, 2.0, 3.0]
+
+
+def test_equal_arrays_are_equal():
+    one = grid()
+    one.uv[0] = np.nan
+    moved = changed(one, uv=one.uv + 1.0)
+    assert one.has_map_of(changed(one, uv=one.uv.copy()))
+    assert one.has_mesh_of(moved)
+    assert not one.has_map_of(moved)
+    known = MapView(one)
+    assert MapView(moved, before=known).triangles is known.triangles
+    hidden = changed(one, visible_faces=~one.visible_faces)
+    assert hidden.has_map_of(one)
+    assert not hidden.has_mesh_of(one)
+    assert not changed(one, positions=one.positions + np.float32(1.0)).has_mesh_of(one)
+
+
+def test_legend_has_a_line_for_what_there_is():
+    numbers = MapView(grid()).numbers()
+    lines = texts.legend_numbers("Shown", numbers)
+    assert lines == ("Shown: 16 faces", "Angles 1.000 average, 1.000 worst", "Sizes vary by 0.0 %")
+    nothing = MapView(changed(grid(), uv=np.full((64, 2), np.nan, np.float32))).numbers()
+    assert texts.legend_numbers("Shown", nothing) == ("Shown: 16 faces, nothing to measure",)
+
+
+def test_faces_are_found_by_a_place_of_the_map():
+    arrays = grid()
+    view = MapView(arrays)
+    assert [view.face_at(place) for place in ((0.5, 0.5), (1.5, 0.25), (3.9, 3.9))] == [0, 1, 15]
+    assert view.face_at((-0.1, 0.5)) == -1
+    assert view.face_at((float("nan"), 0.5)) == -1
+    shown = arrays.uv_faces.copy()
+    shown[0] = False
+    assert MapView(changed(arrays, uv_faces=shown)).face_at((0.5, 0.5)) == -1
+
+
+def test_what_an_image_stretches_back_is_not_distorted():
+    # On an image of twice the width.
+    view = MapView(changed(grid(scale=(0.5, 1.0)), aspect=2.0))
+    assert view.qc == pytest.approx(1.0)
+    assert view.values(texts.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
+    assert not view.arrays.has_map_of(changed(view.arrays, aspect=1.0))
+
+
+def test_numbers_of_several_maps_are_weighed_by_their_surface():
+    small, large = MapView(grid(2)), MapView(grid(4, scale=(2.0, 1.0)))
+    joined = joined_numbers([small, large])
+    assert joined.faces == 20
+    assert joined.mean_qc == pytest.approx((4 * 1.0 + 16 * 2.0) / 20)
+    assert joined_numbers([small]) == small.numbers()

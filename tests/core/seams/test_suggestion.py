@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cuts of several meshes: their order, the first few, and when there is no need to search."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from spectral_unwrap.core import native
+from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+from spectral_unwrap.core.seams import suggestion as seam_suggestion
+from spectral_unwrap.core.seams.suggestion import Options, Search, Suggestion
+from spectral_unwrap.core.words import texts
+
+
+def square(size=1.0):
+    """A square of four vertices and one face."""
+    vertices = size * np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    return PolygonMesh(
+        vertices,
+        np.array([0, 4]),
+        np.arange(4),
+        seam_edges=np.array([[2, 3]], np.int32),
+        selected_faces=np.array([True]),
+    )
+
+
+@pytest.fixture
+def module(monkeypatch):
+    """Stands for the native module; `cuts` are what it returns mesh after mesh, an error is raised."""
+    fake = SimpleNamespace(cuts=[], asked=[])
+
+    def suggest_cuts(*_arrays, progress, **options):
+        fake.asked.append(options)
+        if progress:
+            progress(1.0, "search")
+        answer = fake.cuts.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        return [np.array(edges, np.int32) for edges in answer]
+
+    fake.suggest_cuts = suggest_cuts
+    monkeypatch.setattr(native, "spectral_conformal", lambda: fake)
+    return fake
+
+
+def test_meshes_take_turns(module):
+    module.cuts = [[[[0, 1]], [[1, 2], [0, 3]]], [[[1, 2]]]]
+    suggestion = seam_suggestion.suggest([square(), square(2.0)], Options())
+    assert [(cut.mesh, cut.length) for cut in suggestion.cuts] == [(0, 1.0), (1, 2.0), (0, 2.0)]
+    assert suggestion.length == 5.0
+    assert suggestion.errors == ("", "")
+
+
+def test_part_of_the_cuts(module):
+    module.cuts = [[[[0, 1]], [[1, 2], [0, 3]]], [[[1, 2]]]]
+    suggestion = seam_suggestion.suggest([square(), square(2.0)], Options())
+    first = suggestion.part(0, 2)
+    assert first.length == 3.0
+    assert first.edges(0).tolist() == [[0, 1]]
+    assert first.edges(1).tolist() == [[1, 2]]
+    assert suggestion.edges(0).tolist() == [[0, 1], [1, 2], [0, 3]]
+    rest = suggestion.part(2, 3)
+    assert rest.edges(1).shape == (0, 2)
+
+
+def test_refused_mesh_does_not_stop_the_others(module):
+    module.cuts = [ValueError("no mesh"), [[[0, 1]]]]
+    suggestion = seam_suggestion.suggest([square(), square()], Options())
+    assert [cut.mesh for cut in suggestion.cuts] == [1]
+    assert suggestion.errors == ("no mesh", "")
+
+
+def test_a_mesh_too_large_for_the_memory_fails_alone(module):
+    module.cuts = [[[[0, 1]]], MemoryError("std::bad_alloc"), [[[1, 2]]]]
+    suggestion = seam_suggestion.suggest([square(), square(), square()], Options())
+    assert [cut.mesh for cut in suggestion.cuts] == [0, 2]
+    assert suggestion.errors == ("", texts.TOO_LITTLE_MEMORY_FOR_MESH, "")
+
+
+def test_no_memory_for_any_mesh_is_that_error(module):
+    module.cuts = [MemoryError("std::bad_alloc"), MemoryError("std::bad_alloc")]
+    with pytest.raises(MemoryError):
+        seam_suggestion.suggest([square(), square()], Options())
+
+
+def test_options_and_seams_reach_the_module(module):
+    module.cuts = [[]]
+    seam_suggestion.suggest([square()], Options(3.0, 1.2, 7.0, "inverse_area", "vertex", (0.0, -2.0, 0.0), 0.01))
+    (options,) = module.asked
+    assert options.pop("seam_edges").tolist() == [[2, 3]]
+    assert options.pop("selected_faces").tolist() == [True]
+    assert options == {
+        "scale_limit": 3.0,
+        "qc_limit": 1.2,
+        "qc_gain": 0.01,
+        "max_length": 7.0,
+        "weights": "inverse_area",
+        "boundary": "vertex",
+        "front": (0.0, -2.0, 0.0),
+        "vertex_preference": None,
+    }
+
+
+def test_every_mesh_gets_its_own_preference(module):
+    module.cuts = [[], []]
+    wanted = np.array([1.0, 0.0, 0.5, 0.0])
+    seam_suggestion.suggest([square(), square()], Options(), preferences=[None, wanted])
+    assert [options["vertex_preference"] for options in module.asked] == [None, wanted]
+
+
+def test_progress_is_that_of_all_meshes(module):
+    module.cuts = [[], []]
+    seen = []
+    seam_suggestion.suggest([square(), square()], Options(), lambda fraction, phase: seen.append((fraction, phase)))
+    assert seen == [(0.5, "search"), (1.0, "search")]
+
+
+def test_segments_are_the_ends_of_edges():
+    points = seam_suggestion.segments(square(2.0), np.array([[1, 2], [0, 3]]))
+    assert points.tolist() == [[2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 0.0, 0.0], [0.0, 2.0, 0.0]]
+    assert seam_suggestion.segments(square(), np.empty((0, 2), np.int32)).shape == (0, 3)
+
+
+def test_cut_meshes_have_the_cuts_beside_their_seams(module):
+    module.cuts = [[[[0, 1]]], []]
+    meshes = [square(), square()]
+    first, second = seam_suggestion.cut_open(meshes, seam_suggestion.suggest(meshes, Options()))
+    assert first.seam_edges.tolist() == [[2, 3], [0, 1]]
+    assert second.seam_edges.tolist() == [[2, 3]]
+    assert meshes[0].seam_edges.tolist() == [[2, 3]]
+
+
+def _moved():
+    mesh = square()
+    mesh.vertices[0, 2] = 1e-6
+    return mesh
+
+
+def _deselected():
+    mesh = square()
+    mesh.selected_faces[0] = False
+    return mesh
+
+
+def _without_seams():
+    mesh = square()
+    return PolygonMesh(
+        mesh.vertices, mesh.face_offsets, mesh.corner_vertices, np.empty((0, 2), np.int32), mesh.selected_faces
+    )
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        ([_moved()], Options()),
+        ([_deselected()], Options()),
+        ([_without_seams()], Options()),
+        ([square(), square()], Options()),
+        ([square()], Options(qc_limit=1.2)),
+        ([square()], Options(qc_gain=0.01)),
+        ([square()], Options(front=(0.0, -1.0, 0.0))),
+        ([square()], Options(), None, [np.ones(4)]),
+        ([square()], Options(max_length=1.0)),
+    ],
+)
+def test_only_the_same_question_needs_no_search(module, question):
+    module.cuts = [[[[0, 1]]]] + [[]] * 4
+    search = Search()
+    answer = search.suggest([square()], Options())
+    assert search.suggest([square()], Options()) is answer
+    assert len(module.asked) == 1
+    assert search.suggest(*question).cuts == ()
+    assert len(module.asked) == 1 + len(question[0])
+    # Only the last answer is kept.
+    assert search.suggest([square()], Options()) is not answer
+
+
+def test_nothing_suggested():
+    assert Suggestion((), ("",)).length == 0
+    assert Suggestion((), ("",)).edges(0).shape == (0, 2)

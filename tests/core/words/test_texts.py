@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sentences that the user reads."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import spectral_conformal
+from spectral_unwrap.core.measure.defects import Defects
+from spectral_unwrap.core.measure.quality import MapQuality
+from spectral_unwrap.core.measure.summary import summarize
+from spectral_unwrap.core.solve.solution import Solution
+from spectral_unwrap.core.words import texts
+
+
+def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="spectral", n_pins=0, **unfolding):
+    return SimpleNamespace(
+        **{"unfolded": 0, "is_embedding": False, "mean_qc_before": float("nan"), **unfolding},
+        status="solved",
+        message="",
+        area=area,
+        mean_qc=mean_qc,
+        max_qc=max_qc,
+        flipped=flipped,
+        overlapping=overlapping,
+        method=method,
+        n_pins=n_pins,
+    )
+
+
+def failed(message):
+    nan = float("nan")
+    return SimpleNamespace(
+        status="failed",
+        message=message,
+        area=nan,
+        mean_qc=nan,
+        max_qc=nan,
+        flipped=0,
+        overlapping=0,
+        unfolded=0,
+        is_embedding=False,
+        mean_qc_before=nan,
+        method="",
+        n_pins=0,
+    )
+
+
+def summary(*charts, error=""):
+    solution = Solution(np.zeros((0, 2)), np.zeros(0, dtype=int), charts, np.zeros(0, dtype=int), error)
+    return summarize([solution], ["Object"])
+
+
+def test_mean_is_weighted_by_area_and_maximum_is_over_all():
+    result = summary(solved(3.0, 1.0, 1.5, 2), failed("closed"), solved(1.0, 2.0, 4.0, 1))
+    assert (result.solved, result.failed) == (2, 1)
+    assert result.mean_qc == pytest.approx(1.25)
+    assert (result.max_qc, result.flipped) == (4.0, 3)
+
+
+@pytest.mark.parametrize("area", [1e-300, 1e300])
+def test_mean_does_not_overflow(area):
+    assert summary(solved(area, 1.5), solved(area, 1.5)).mean_qc == pytest.approx(1.5)
+
+
+def test_information():
+    one = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select")
+    assert one == "Unwrapped 1 island: angle distortion 1.010 average, 1.50 worst; no flipped faces; 0.26 s"
+    two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0, "Select")
+    assert two == "Unwrapped 2 islands: angle distortion 1.000 average, 1.23e+04 worst; no flipped faces; 12.00 s"
+
+
+@pytest.mark.parametrize(
+    ("flipped", "overlapping", "said"),
+    [
+        (1, 0, "; 1 flipped face (see Select); "),
+        (0, 12, "; 12 overlapping faces (see Select); "),
+        (3, 1, "; 3 flipped faces, 1 overlapping face (see Select); "),
+    ],
+)
+def test_information_tells_where_to_see_defects(flipped, overlapping, said):
+    charts = solved(flipped=flipped, overlapping=overlapping), solved()
+    assert said in texts.information(summary(*charts), 1.0, "Select")
+
+
+def test_selected_defects():
+    first = Defects(np.array([True, True, False]), np.array([False, True, True]), np.array([False, False, False]))
+    second = Defects(np.array([False]), np.array([False]), np.array([True]))
+    both = [first, second]
+    said = texts.selected_defects(both, True, True)
+    assert said == "Selected 4 faces: 2 flipped, 2 overlapping, 1 with UVs that are not finite"
+    assert texts.selected_defects([first], False, True) == "Selected 2 faces: 2 overlapping"
+    none = Defects(*(np.zeros(2, dtype=bool),) * 3)
+    assert texts.selected_defects([none], True, True) == "No flipped or overlapping faces, selection unchanged"
+    assert texts.selected_defects([none, none], False, True) == "No overlapping faces, selection unchanged"
+
+
+def test_unfolding_tells_what_it_cost():
+    unfolded = solved(3.0, 1.25, unfolded=5, mean_qc_before=1.05)
+    replaced = solved(1.0, 1.5, unfolded=1, is_embedding=True, mean_qc_before=1.25)
+    without_map = solved(1.0, 9.0, is_embedding=True)
+    for chart in (unfolded, replaced, without_map):
+        chart.message = "what the module says"
+    result = summary(unfolded, replaced, without_map, solved())
+    assert texts.unfolded(result) == (
+        "No Flip: 6 flipped triangles unfolded, 2 islands needed the slower fallback map; "
+        "their angle distortion 1.10 before, 1.31 after"
+    )
+    assert texts.repairs(result) == ""
+    assert texts.unfolded(summary(without_map)).endswith("needed the slower fallback map")
+    assert texts.unfolded(summary(solved())) == ""
+
+
+def test_what_could_not_be_unfolded_is_reported_as_a_fallback_that_failed():
+    stuck = solved(unfolded=2, flipped=1, mean_qc_before=1.1)
+    stuck.message = "1 triangle could not be unfolded between the pins; move or remove pins."
+    result = summary(stuck)
+    assert texts.unfolded(result) == ""
+    assert "could not be unfolded" in texts.repairs(result)
+
+
+def test_faces_below_single_precision():
+    assert texts.too_small(0) == ""
+    assert texts.too_small(1).startswith("1 face shrinks below")
+    assert texts.too_small(12).startswith("12 faces shrink below")
+
+
+def test_no_failures_no_warning():
+    assert texts.failures(summary(solved())) == ""
+    assert texts.without_bounds(0) == ""
+
+
+def test_equal_reasons_are_grouped():
+    one = texts.failures(summary(solved(), failed("closed; cut"), failed("closed; cut")))
+    assert one == "2 of 3 islands failed, UVs unchanged: closed; cut"
+    two = texts.failures(summary(failed("flat"), failed("closed"), failed("closed")))
+    assert two == "3 of 3 islands failed, UVs unchanged: 2: closed; 1: flat"
+
+
+def test_repairs_and_fallbacks_are_reported():
+    assert texts.repairs(summary(solved())) == ""
+    charts = [solved(), solved(), solved()]
+    charts[0].message = charts[1].message = "3 faces were turned."
+    assert texts.repairs(summary(*charts)) == "2 islands needed a repair or fallback: 3 faces were turned"
+
+
+def test_pins_tell_how_islands_were_solved():
+    assert texts.pinned(summary(solved(), solved(n_pins=1))) == ""
+    charts = [solved(method="lscm", n_pins=2), solved(method="lscm", n_pins=5), solved()]
+    assert texts.pinned(summary(*charts)) == "2 islands with pins: solved by pinned least squares (LSCM)"
+    soft = texts.pinned(summary(solved(n_pins=3)))
+    assert soft == "1 island with pins: solved by the spectral method, pins attracting softly"
+
+
+def test_object_scale_is_told_as_blender_does():
+    assert texts.object_scale([(1.0, 1.0, 1.0), (2.0, 2.0, 2.0)], [False, False]) == ""
+    assert texts.object_scale([(1.0, 1.0, 1.0)], [True]).startswith("Object has negative scale, ")
+    uneven = texts.object_scale([(2.0, 2.0, 2.0), (1.0, 1.1, 1.0)], [False, True])
+    assert uneven.startswith("Object has non-uniform scale, ")
+
+
+def test_selecting_failed_islands_is_counted():
+    assert texts.selected_failed(2, 4) == "Selected 4 faces of 2 failed islands"
+    assert texts.selected_failed(0, 0) == "No islands failed, selection unchanged"
+
+
+def test_refused_meshes_are_named():
+    assert texts.failures(summary(error="no vertices")) == "Not unwrapped: Object: no vertices"
+
+
+def test_marked_cuts():
+    assert texts.marked(1, "2 m") == "Marked 1 cut of length 2 m"
+    assert texts.marked(3, "7.5") == "Marked 3 cuts of length 7.5"
+
+
+def test_nothing_to_suggest_names_the_limit_if_there_is_one():
+    assert "length" not in texts.nothing_to_suggest(is_limited=False)
+    assert "within the length" in texts.nothing_to_suggest(is_limited=True)
+
+
+def test_meshes_without_suggestion():
+    assert texts.without_suggestion(["", ""], ["A", "B"]) == ""
+    assert texts.without_suggestion(["", "No mesh."], ["A", "B"]) == "No seams suggested for B: No mesh"
+
+
+def test_preview_of_cuts():
+    assert texts.preview(3, 3, "2 m", "2 m") == "3 cuts, length 2 m"
+    assert texts.preview(1, 3, "1 m", "2 m") == "1 of 3 cuts, length 1 m of 2 m"
+
+
+def test_expected_gain():
+    nan = float("nan")
+    gain = texts.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271), 2.0)
+    assert gain == "99 % of the surface within 2 times the median scale, angle distortion 1.027 (now 0 %)"
+    gain = texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0), 1.25)
+    assert gain == "100 % of the surface within 1.25 times the median scale, angle distortion 1.000 (now 50 %, 1.50)"
+
+
+def test_extenders_without_a_strength_are_named():
+    assert texts.extenders_without_strength([]) == ""
+    assert texts.extenders_without_strength(["A", "B"]).startswith("Skipped 2 extenders")
+    assert texts.extenders_without_strength(["A", "B"]).endswith(": A, B")
+
+
+def test_where_seams_are_missing_suggest_seams_is_named():
+    cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    offsets, corners = np.arange(0, 25, 4), np.concatenate(faces)
+    (chart,) = spectral_conformal.unwrap(cube, offsets, corners).charts
+    text = texts.failures(summary(failed(chart.message)))
+    assert "closed" in text
+    assert text.endswith("Suggest Seams finds where to cut")
+    assert "Suggest Seams" not in texts.failures(summary(failed("The map winds.")))
+
+
+def test_what_is_infinite_is_said_in_words():
+    text = texts.information(summary(solved(mean_qc=float("inf"), max_qc=float("inf"))), 0.5, "There")
+    assert text.startswith("Unwrapped 1 island: angle distortion beyond measure, as faces shrink to nothing; ")
+
+
+@pytest.mark.parametrize(("worst", "said"), [((1.9, 1.2), False), ((12.4, 1.2), True)])
+def test_islands_with_faces_that_are_bent_far_are_a_warning(worst, said):
+    warning = texts.strained(summary(*(solved(max_qc=qc) for qc in worst)))
+    assert ("1 island has faces stretched" in warning and "12.4" in warning) is said
+    assert bool(warning) is said

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that artists read can be translated, is looked up where it is shown, and stands in every table."""
+
+import ast
+import inspect
+import re
+from collections import Counter
+from pathlib import Path
+from string import Formatter
+
+import numpy as np
+import pytest
+from spectral_unwrap.core import native
+from spectral_unwrap.core.measure.defects import Defects
+from spectral_unwrap.core.measure.map_view import IslandNumbers
+from spectral_unwrap.core.measure.quality import MapQuality
+from spectral_unwrap.core.measure.summary import Summary
+from spectral_unwrap.core.words import texts, translation
+from spectral_unwrap.locale import TABLES
+
+ADDON = Path(__file__).resolve().parents[3] / "addon"
+TEXTS = (ADDON / "core" / "words" / "texts.py").read_text(encoding="utf-8")
+NAN = float("nan")
+
+
+def is_message(node):
+    """Return whether this is a text with words or fields, and no identifier as Blender has them."""
+    is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
+    return is_text and bool(re.search("[A-Za-z]", node.value)) and not re.fullmatch("[A-Z][A-Z0-9_]*", node.value)
+
+
+def messages(tree):
+    """Return the messages in a piece of code: no docstrings, keys of dictionaries or formats of numbers."""
+    silent = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr):
+            silent.add(id(node.value))
+        elif isinstance(node, ast.Dict):
+            silent.update(map(id, node.keys))
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "format":
+            silent.update(id(part) for argument in node.args[1:] for part in ast.walk(argument))
+    return {node.value for node in ast.walk(tree) if is_message(node) and id(node) not in silent}
+
+
+def in_pieces(source):
+    """Return the lines with a sentence that no table could have: filled in before it is looked up, or glued."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        is_bad = isinstance(node, ast.JoinedStr)
+        if isinstance(node, ast.BinOp):
+            is_bad = is_message(node.left) or is_message(node.right)
+        elif isinstance(node, ast.AugAssign):
+            is_bad = is_message(node.value)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            is_bad = is_message(node.func.value)
+        if is_bad:
+            found.append(node.lineno)
+    return found
+
+
+def test_sentences_are_whole():
+    assert in_pieces(TEXTS) == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'f"{count} islands"',
+        'noun + "s"',
+        '"%d islands" % count',
+        'text += " and more"',
+        '" or ".join(kinds)',
+        '"{n} islands".format(n=2)',
+    ],
+)
+def test_the_scan_sees_pieces(line):
+    assert in_pieces(f"pass\n{line}\n") == [2]
+    assert in_pieces('", ".join(names)\ntranslate("{n} islands").format(n=2)\n') == []
+
+
+def fields(text):
+    """Return the names of the fields of a text, sorted, having found nothing but a name in each."""
+    found = []
+    for _, field, spec, conversion in Formatter().parse(text):
+        if field is not None:
+            assert field.isidentifier() and not spec and not conversion, text
+            found.append(field)
+    return sorted(found)
+
+
+@pytest.mark.parametrize("language", TABLES)
+def test_tables_have_what_is_said_and_nothing_else(language):
+    said = messages(ast.parse(TEXTS))
+    assert len(said) > 300
+    assert sorted(said - set(TABLES[language])) == [], "not translated"
+    assert sorted(set(TABLES[language]) - said) == [], "said no more"
+
+
+@pytest.mark.parametrize("language", TABLES)
+def test_translations_have_the_fields_of_their_sources(language):
+    for source, translated in TABLES[language].items():
+        assert translated and translated == translated.strip(), source
+        assert fields(translated) == fields(source)
+
+
+def test_no_table_says_a_thing_twice():
+    for path in (ADDON / "locale").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Dict):
+                keys = Counter(key.value for key in node.keys)
+                assert [key for key, count in keys.items() if count > 1] == []
+
+
+@pytest.fixture
+def looked_up():
+    """Translate by writing in capitals, and return what has been looked up so far."""
+    asked = set()
+
+    def shout(text):
+        asked.add(text)
+        parts = Formatter().parse(text)
+        return "".join(said.upper() + ("" if field is None else "{" + field + "}") for said, field, _, _ in parts)
+
+    translation.use(shout)
+    yield asked
+    translation.use(None)
+
+
+def summary(count=0, **changed):
+    """Return a summary in which everything that is counted has happened so often."""
+    once = {"solved": count, "flipped": count, "overlapping": count, "unfolded": count, "embedded": count}
+    once["strained"] = count
+    reasons = {"failures": Counter(A=count), "repairs": Counter(A=count), "pinned": Counter(lscm=count, spectral=1)}
+    rest = {"mean_qc": 1.5, "max_qc": 2.0, "mean_qc_change": (1.5, 1.25), "refused": ("A: B",)}
+    return Summary(**{**once, **reasons, **rest, **changed})
+
+
+def numbers(mean_qc=1.5, faces=2):
+    return IslandNumbers(faces, 1, mean_qc, 2.0, 0.5, 0.0, 1, 1)
+
+
+def defects(flag):
+    return [Defects(*(np.array([flag]),) * 3)]
+
+
+LABEL, LOOKS = texts.UNWRAP_LABEL, [identifier for identifier, _, _ in texts.LOOK_ITEMS]
+# Arguments that bring out every sentence of every function; what is no sentence has no small letters.
+CALLS = {
+    "is_running": [(LABEL,)],
+    "cancelled": [(LABEL,)],
+    "progress": [(LABEL, 5, ""), (LABEL, 5, "PHASE")],
+    "printed_progress": [(LABEL, 5, "PHASE")],
+    "could_not_follow": [("A",)],
+    "not_drawn": [(LABEL, "A")],
+    "information": [(summary(n, mean_qc=qc), 1.0, LABEL) for n, qc in ((0, 1.5), (1, 1.5), (2, 1.5), (2, np.inf))],
+    "look": [(look,) for look in LOOKS],
+    "look_value": [(look, 2.0) for look in LOOKS],
+    "legend_ends": [(look, 1.0, 2.0, 3.0) for look in LOOKS],
+    "too_many_faces": [(["CUBE"],), ([],)],
+    "legend_numbers": [(texts.LEGEND_MESH, numbers()), (texts.LEGEND_MESH, numbers(NAN))],
+    "island_row": [(1, 1.5, 2.0, 1, 1)],
+    "island_failed": [(1,)],
+    "selected_worst": [(1,), (2,)],
+    "face_numbers": [(1.5, 1.0, 2.0, *flags) for flags in ((True, True), (True, False), (False, True))],
+    "solver": [("E", ""), ("E", "K")],
+    "stored": [("A",)],
+    "unfolded": [(summary(1),), (summary(2, mean_qc_change=None),)],
+    "too_small": [(0,), (1,), (2,)],
+    "failures": [(summary(1),), (summary(2),), (summary(failures=Counter({"; MARK SEAMS": 1})),)],
+    "repairs": [(summary(1),), (summary(2),)],
+    "strained": [(summary(0),), (summary(1),), (summary(2),)],
+    "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
+    "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],
+    "broken_extenders": [(["A"],), (["A", "B"],)],
+    "extenders_without_strength": [(["A"],), (["A", "B"],)],
+    "broken_extender": [("A",)],
+    "adjusting": [("0.5", "A")],
+    "removed_broken": [(2,)],
+    "broken_extender_selected": [("A", 1)],
+    "hidden_vertices": [("A", 1)],
+    "added_extenders": [(1, 1, True), (2, 0, False)],
+    "unused_extenders": [(0,), (1,), (2,)],
+    "selected_failed": [(0, 0), (1, 1), (2, 2)],
+    "changed_since_unwrapped": [(["A"],)],
+    "selected_defects": [
+        (defects(is_bad), *kinds) for is_bad in (True, False) for kinds in ((True, True), (True, False), (False, True))
+    ],
+    "marked": [(1, "2"), (2, "2")],
+    "nothing_to_suggest": [(True,), (False,)],
+    "without_suggestion": [(["A."], ["B"]), ([""], ["B"])],
+    "preview": [(2, 2, "2", "2"), (1, 2, "1", "2")],
+    "preview_status": [("A",)],
+    "expected": [(MapQuality(0.5, qc), MapQuality(1.0, qc), 2.0) for qc in (1.5, NAN)],
+    "no_module": [("A",)],
+    "no_margin": [(-1.0,)],
+    "unnamed_extender": [()],
+    "without_order": [(3, 2)],
+    "without_partner": [(3,)],
+    "without_bounds": [(0,), (1,), (2,)],
+}
+
+
+def test_functions_say_nothing_that_was_not_looked_up(looked_up):
+    functions = dict(inspect.getmembers(texts, lambda each: inspect.getmodule(each) is texts and callable(each)))
+    assert set(CALLS) == {name for name in functions if not name.startswith("_")}
+    for name, calls in CALLS.items():
+        for arguments in calls:
+            said = functions[name](*arguments)
+            assert not re.search("[a-z]", said if isinstance(said, str) else " ".join(said)), (name, said)
+    bodies = [node for node in ast.parse(TEXTS).body if isinstance(node, ast.FunctionDef)]
+    assert sorted(set().union(*map(messages, bodies)) - looked_up) == [], "not brought out by the calls above"
+
+
+def shown_as_it_is(source):
+    """Return the constants of `texts` that a file neither looks up nor gives to `texts`, or Blender, to look up."""
+    tree = ast.parse(source)
+    parents = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
+    found = []
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Attribute) and ast.unparse(node.value) == "texts"):
+            continue
+        value = getattr(texts, node.attr, None)
+        if not isinstance(value, str) or re.fullmatch("[A-Z_]+", value):
+            continue
+        user = parents[node]
+        while isinstance(user, ast.IfExp):
+            user = parents[user]
+        # Labels and descriptions of classes and properties, words in layouts, names of undo steps.
+        is_blenders = isinstance(user, ast.keyword) and user.arg in {"name", "description", "text", "message"}
+        if isinstance(user, ast.Assign):
+            is_blenders = ast.unparse(user.targets[0]).startswith("bl_")
+        is_looked_up = isinstance(user, ast.Call) and re.fullmatch(
+            r"translate|texts\.[a-z_]+|.*\.pgettext_data", ast.unparse(user.func)
+        )
+        if not (is_blenders or is_looked_up or isinstance(user, ast.arguments)):
+            found.append(node.attr)
+    return found
+
+
+def test_constants_are_looked_up_where_they_are_shown():
+    files = {path: path.read_text(encoding="utf-8") for path in ADDON.rglob("*.py")}
+    assert {str(path): shown_as_it_is(text) for path, text in files.items() if shown_as_it_is(text)} == {}
+    assert shown_as_it_is("self.report({'INFO'}, texts.NO_UV_MAP)") == ["NO_UV_MAP"]
+    assert shown_as_it_is("note = texts.NO_UV_MAP if a else texts.NOTHING_SELECTED") == [
+        "NO_UV_MAP",
+        "NOTHING_SELECTED",
+    ]
+    assert shown_as_it_is("self.report({'INFO'}, translate(texts.NO_UV_MAP))\nx.label(text=texts.SELECT_LABEL)") == []
+
+
+def test_without_a_table_texts_stay_as_they_are(looked_up):
+    assert translation.translate("Extender") == "EXTENDER"
+    assert translation.translate("") == ""
+    assert looked_up == {"Extender"}
+    translation.use(None)
+    assert translation.translate("Extender") == "Extender"
+
+
+def test_error_of_a_thread_is_worded_by_who_reads_it(monkeypatch):
+    monkeypatch.setattr(native, "_name", lambda: "no_such_module")
+    with pytest.raises(native.NativeModuleError) as raised:
+        native.spectral_conformal()
+    assert str(raised.value).startswith("The compiled module")
+    translation.use(lambda text: text.replace("The compiled", "Compiled"))
+    try:
+        assert str(raised.value).startswith("Compiled module")
+    finally:
+        translation.use(None)
