@@ -8,6 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import names
+from ..core import choices
 from ..core.errors import ReadableError
 from ..core.extenders.pairs import SelectionError, pairs_in_order, pairs_to_active
 from ..core.words import texts
@@ -118,7 +119,7 @@ class MESH_OT_spectral_extender_add(ExtenderOperator, bpy.types.Operator):
             if not selected.vertices:
                 continue
             try:
-                if self.pairs == texts.PAIRS_IN_ORDER:
+                if self.pairs == choices.PAIRS_IN_ORDER:
                     made = pairs_in_order(selected.vertices, selected.in_order)
                 else:
                     made = pairs_to_active(selected.vertices, selected.active)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import bpy
 
 from .. import user_preferences
+from ..core import choices
 from ..core.drawing import color_ramp, free_room
 from ..core.words import texts
 from . import covers
@@ -14,12 +15,12 @@ from .screen_text import LINE, draw_line, fill_box, text_width
 
 _SOUND_TO_FLIPPED = ((0.45, 0.45, 0.45), (1.0, 0.62, 0.05), (0.90, 0.05, 0.65))
 _CHECKER = ((0.12, 0.12, 0.12), (0.5, 0.5, 0.5), (0.92, 0.92, 0.92))
-_FIXED = {texts.LOOK_DEFECTS: _SOUND_TO_FLIPPED, texts.LOOK_CHECKER: _CHECKER}
+_FIXED = {choices.LOOK_DEFECTS: _SOUND_TO_FLIPPED, choices.LOOK_CHECKER: _CHECKER}
 # The other kinds: where the preferences have their colours, and what these are without preferences.
 _CHOSEN = {
-    texts.LOOK_ANGLE: ("angle", color_ramp.GOOD_TO_BAD),
-    texts.LOOK_SIZE: ("size", color_ramp.SMALL_TO_LARGE),
-    texts.LOOK_DENSITY: ("size", color_ramp.SMALL_TO_LARGE),
+    choices.LOOK_ANGLE: ("angle", color_ramp.GOOD_TO_BAD),
+    choices.LOOK_SIZE: ("size", color_ramp.SMALL_TO_LARGE),
+    choices.LOOK_DENSITY: ("size", color_ramp.SMALL_TO_LARGE),
 }
 # Pixels at a scale of 1.
 _WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
@@ -47,7 +48,7 @@ def draw(
     Where it could not be read there, the sidebar counts as free; where not there either, everything does.
     """
     low, high = low_high
-    labels = () if kind == texts.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
+    labels = () if kind == choices.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
     lines = (texts.look(kind), *lines)
     scale = context.preferences.system.ui_scale
     width, height = _size(lines, labels, scale)

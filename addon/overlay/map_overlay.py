@@ -14,6 +14,7 @@ import gpu
 import numpy as np
 
 from .. import editors, names, user_preferences
+from ..core import choices
 from ..core.errors import PrintOnce
 from ..core.measure.map_view import IslandNumbers, MapArrays, MapView, automatic_range, joined_numbers
 from ..core.words import texts
@@ -26,7 +27,7 @@ from .in_front import in_front_of_faces
 _NEARER = 0.0003
 # Seconds without an edit after which the islands are looked at.
 _QUIET_SECONDS = 0.3
-_NEEDS_ISLANDS = frozenset({texts.LOOK_DEFECTS})
+_NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS})
 
 
 class _ShownMesh:
@@ -221,7 +222,7 @@ def automatic(context: bpy.types.Context) -> tuple[float, float]:
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
     """Return the values at the two ends of the colours."""
     chosen = settings()
-    if chosen.use_range and chosen.kind not in (texts.LOOK_DEFECTS, texts.LOOK_CHECKER):
+    if chosen.use_range and chosen.kind not in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
         return chosen.range_low, max(chosen.range_high, chosen.range_low + 1e-6)
     return automatic(context)
 
@@ -296,7 +297,7 @@ def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, _Show
 
 
 def _checks(chosen: bpy.types.PropertyGroup) -> float:
-    return float(chosen.checks) if chosen.kind == texts.LOOK_CHECKER else 0.0
+    return float(chosen.checks) if chosen.kind == choices.LOOK_CHECKER else 0.0
 
 
 def _draw_legend(context: bpy.types.Context) -> None:
@@ -344,8 +345,8 @@ def _active_island_lines(
 
 
 def _face_lines(shown: _ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:
-    values = [float(view.values(kind, image_size)[face]) for kind in (texts.LOOK_ANGLE, texts.LOOK_SIZE)]
-    density = float(view.values(texts.LOOK_DENSITY, image_size)[face])
+    values = [float(view.values(kind, image_size)[face]) for kind in (choices.LOOK_ANGLE, choices.LOOK_SIZE)]
+    density = float(view.values(choices.LOOK_DENSITY, image_size)[face])
     defects = [bool(each[face]) for each in (view.flipped, view.overlapping)] if shown.islands_known else [False] * 2
     return texts.face_numbers(*values, density, *defects)
 

@@ -7,6 +7,7 @@ import bmesh
 import bpy
 
 from .. import names, user_preferences
+from ..core import choices
 from ..core.words import texts
 from ..extenders import storage, tracking
 from ..unwrapping import island_list
@@ -201,8 +202,8 @@ class _ExtendersPanel(_Panel):
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
         column = layout.column(align=True)
-        draw_operator(column, names.ADD_EXTENDER_OPERATOR).pairs = texts.PAIRS_IN_ORDER
-        column.operator(names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = texts.PAIRS_TO_ACTIVE
+        draw_operator(column, names.ADD_EXTENDER_OPERATOR).pairs = choices.PAIRS_IN_ORDER
+        column.operator(names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = choices.PAIRS_TO_ACTIVE
         if not storage.of(mesh):
             return
         layout.template_list(
@@ -242,11 +243,11 @@ class _MapOverlayPanel(_Panel):
         layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
         layout.active = overlay.show
         layout.prop(overlay, "kind", text="")
-        if overlay.kind == texts.LOOK_CHECKER:
+        if overlay.kind == choices.LOOK_CHECKER:
             layout.prop(overlay, "checks")
-        if overlay.kind == texts.LOOK_DENSITY:
+        if overlay.kind == choices.LOOK_DENSITY:
             layout.prop(overlay, "image_size")
-        if overlay.kind not in (texts.LOOK_CHECKER, texts.LOOK_DEFECTS):
+        if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS):
             layout.prop(overlay, "use_range")
             column = layout.column(align=True)
             column.active = overlay.use_range

@@ -5,6 +5,7 @@ from typing import Any
 
 import bpy
 
+from ..core import choices
 from ..core.words import texts
 
 
@@ -19,7 +20,7 @@ def draw_common(
     layout.prop(properties, "fold_free")
     _enumeration(layout, properties, "placement", texts.PLACEMENT_PROPERTY, is_narrow)
     column = layout.column()
-    column.active = properties.placement == texts.PACK
+    column.active = properties.placement == choices.PACK
     column.prop(properties, "turn_to_pack")
     _enumeration(column, properties, "margin_method", texts.MARGIN_METHOD_PROPERTY, is_narrow)
     column.prop(properties, "margin")

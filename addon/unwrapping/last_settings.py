@@ -6,8 +6,8 @@ from typing import Any
 import bpy
 
 from .. import names
+from ..core.choices import KEEP
 from ..core.solve.options import Margin, Options, Settings
-from ..core.words.texts import KEEP
 
 
 def settings_of(properties: Any) -> Settings:  # noqa: ANN401 - the operator, or Blender's record of its properties

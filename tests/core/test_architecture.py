@@ -40,7 +40,7 @@ BELOW = {
     "ui": {"core", "extenders", "unwrapping"},
     "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
 }
-# The same of the folders of core; errors.py and native.py beside them are for all.
+# The same of the folders of core; choices.py, errors.py and native.py beside them are for all.
 BELOW_IN_CORE = {
     "words": set(),
     "drawing": set(),

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import native
-from ..words import texts
+from .. import choices, native
 
 # Percentiles of the surface between which an automatic range lies; the rest is seldom of interest, and large.
 _PERCENTILES = (2.0, 98.0)
@@ -176,18 +175,18 @@ class MapView:
         """Return what is shown of every face, (F,) float64.
 
         Args:
-            kind: one of `texts.LOOK_ANGLE` (quasi-conformal distortion), `LOOK_SIZE` (binary logarithm of the scale
+            kind: one of `choices.LOOK_ANGLE` (quasi-conformal distortion), `LOOK_SIZE` (binary logarithm of the scale
                 over its median), `LOOK_DENSITY` (pixels per unit of length), `LOOK_DEFECTS` (1 flipped, 0.5
                 overlapping, 0 neither) and `LOOK_CHECKER`, which shows none.
             density: root of the number of pixels that a UV tile has.
         """
-        if kind == texts.LOOK_ANGLE:
+        if kind == choices.LOOK_ANGLE:
             return self.qc
-        if kind == texts.LOOK_SIZE:
+        if kind == choices.LOOK_SIZE:
             return self.log2_scale - self.median_log2_scale
-        if kind == texts.LOOK_DENSITY:
+        if kind == choices.LOOK_DENSITY:
             return density * np.exp2(self.log2_scale)
-        if kind == texts.LOOK_DEFECTS:
+        if kind == choices.LOOK_DEFECTS:
             return np.where(self.flipped, 1.0, np.where(self.overlapping, 0.5, 0.0))
         return np.zeros(len(self.arrays.visible_faces))
 
@@ -273,16 +272,16 @@ def automatic_range(views: Sequence[MapView], kind: str, density: float = 1.0) -
 
     Sizes are centred at the median, angles begin at 1; either range has a least width, so that a good map looks good.
     """
-    if kind in (texts.LOOK_DEFECTS, texts.LOOK_CHECKER):
+    if kind in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
         return 0.0, 1.0
     values = np.concatenate([view.values(kind, density) for view in views])
     weights = np.concatenate([view.area for view in views])
     if not ((weights > 0.0) & np.isfinite(values)).any():
-        return (1.0, 1.0 + _LEAST_QC) if kind == texts.LOOK_ANGLE else (-1.0, 1.0)
+        return (1.0, 1.0 + _LEAST_QC) if kind == choices.LOOK_ANGLE else (-1.0, 1.0)
     low, high = weighted_percentiles(values, weights, _PERCENTILES)
-    if kind == texts.LOOK_ANGLE:
+    if kind == choices.LOOK_ANGLE:
         return 1.0, max(high, 1.0 + _LEAST_QC)
-    if kind == texts.LOOK_SIZE:
+    if kind == choices.LOOK_SIZE:
         size = max(-low, high, _LEAST_LOG2_SCALE)
         return -size, size
     middle, factor = (low * high) ** 0.5, 2.0**_LEAST_LOG2_SCALE
@@ -300,13 +299,13 @@ def worst(
 
     Args:
         views: at least one.
-        measure: `texts.LOOK_ANGLE` or `texts.LOOK_SIZE`.
+        measure: `choices.LOOK_ANGLE` or `choices.LOOK_SIZE`.
         percent: of the surface, 0 to 100; at least one face or island is chosen.
         whole_islands: choose islands by their averages.
         limit: in place of `percent`, quasi-conformal distortion above which, or factor of the scale over its median, or
             under it, beyond which faces or islands are chosen.
     """
-    if measure == texts.LOOK_SIZE:
+    if measure == choices.LOOK_SIZE:
         scales, areas = (np.concatenate([getattr(v, name) for v in views]) for name in ("log2_scale", "area"))
         is_measured = (areas > 0.0) & np.isfinite(scales)
         median = weighted_percentiles(scales, areas, (50.0,))[0] if is_measured.any() else 0.0

@@ -18,6 +18,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from .. import choices
 from .translation import translate
 
 if TYPE_CHECKING:
@@ -298,36 +299,39 @@ MARGIN_METHOD_ITEMS = (
     ("ADD", "Add", "Just add the margin, ignoring any UV scale"),
     ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
 )
-LOOK_ANGLE = "ANGLE"
-LOOK_SIZE = "SIZE"
-LOOK_DENSITY = "DENSITY"
-LOOK_DEFECTS = "DEFECTS"
-LOOK_CHECKER = "CHECKER"
 LOOK_ITEMS = (
-    (LOOK_ANGLE, "Angle Distortion", "How far angles are from those on the surface: 1 where they are kept"),
-    (LOOK_SIZE, "Size", "How much larger or smaller faces are in the map than in the middle of it, beside the surface"),
-    (LOOK_DENSITY, "Texel Density", "Pixels of the image along one unit of length on the surface"),
-    (LOOK_DEFECTS, "Flipped and Overlapping", "Faces that lie the wrong way round, or cover others of their island"),
-    (LOOK_CHECKER, "Checker", "Squares of the UV map on the surface, without touching materials"),
+    (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are from those on the surface: 1 where they are kept"),
+    (
+        choices.LOOK_SIZE,
+        "Size",
+        "How much larger or smaller faces are in the map than in the middle of it, beside the surface",
+    ),
+    (choices.LOOK_DENSITY, "Texel Density", "Pixels of the image along one unit of length on the surface"),
+    (
+        choices.LOOK_DEFECTS,
+        "Flipped and Overlapping",
+        "Faces that lie the wrong way round, or cover others of their island",
+    ),
+    (choices.LOOK_CHECKER, "Checker", "Squares of the UV map on the surface, without touching materials"),
 )
 # A checker is no value.
-STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != LOOK_CHECKER)
-PACK = "PACK"
-KEEP = "KEEP"
+STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != choices.LOOK_CHECKER)
 PLACEMENT_ITEMS = (
-    (PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile, upright"),
-    (KEEP, "Keep in Place", "Fit every island into the bounding box that it had before, turned as it was"),
+    (choices.PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile, upright"),
+    (choices.KEEP, "Keep in Place", "Fit every island into the bounding box that it had before, turned as it was"),
 )
-PAIRS_IN_ORDER = "IN_ORDER"
-PAIRS_TO_ACTIVE = "TO_ACTIVE"
 EXTENDER_PAIRS_ITEMS = (
     (
-        PAIRS_IN_ORDER,
+        choices.PAIRS_IN_ORDER,
         "In Order",
         "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
         "on, in the order in which they were selected",
     ),
-    (PAIRS_TO_ACTIVE, "To Active", "Connect every selected vertex with the active one, which was selected last"),
+    (
+        choices.PAIRS_TO_ACTIVE,
+        "To Active",
+        "Connect every selected vertex with the active one, which was selected last",
+    ),
 )
 
 SELECT_PAIR = "Select two vertices, or several, one after the other"
@@ -445,14 +449,14 @@ def look(kind: str) -> str:
 
 def look_value(kind: str, value: float) -> str:
     """Return a value of what the overlay shows, as the legend has it."""
-    if kind == LOOK_SIZE:
+    if kind == choices.LOOK_SIZE:
         return translate("{factor} x").format(factor=format(2.0**value, ".2f"))
-    return format(value, ".3g" if kind == LOOK_DENSITY else ".2f")
+    return format(value, ".3g" if kind == choices.LOOK_DENSITY else ".2f")
 
 
 def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
     """Return what stands at the lower end, the middle and the upper end of the legend's colours."""
-    if kind == LOOK_DEFECTS:
+    if kind == choices.LOOK_DEFECTS:
         return (translate("sound"), translate("overlapping"), translate("flipped"))
     return tuple(look_value(kind, value) for value in (low, middle, high))
 
@@ -512,7 +516,7 @@ def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, ove
     size = translate("Size {size}, {density} px per unit")
     lines = [
         translate("{name}: angles {qc}").format(name=translate(LEGEND_FACE), qc=_qc(qc)),
-        size.format(size=look_value(LOOK_SIZE, log2_size), density=look_value(LOOK_DENSITY, density)),
+        size.format(size=look_value(choices.LOOK_SIZE, log2_size), density=look_value(choices.LOOK_DENSITY, density)),
     ]
     if flipped and overlapping:
         lines.append(translate("Flipped and overlapping"))

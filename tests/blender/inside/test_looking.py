@@ -12,6 +12,7 @@ import pytest
 from tests.blender.inside import scenes
 
 native = importlib.import_module("spectral_unwrap.core.native")
+choices = importlib.import_module("spectral_unwrap.core.choices")
 texts = importlib.import_module("spectral_unwrap.core.words.texts")
 map_overlay = importlib.import_module("spectral_unwrap.overlay.map_overlay")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
@@ -54,9 +55,9 @@ def test_values_are_those_of_the_module(mode):
     ((shown, _, view),) = map_overlay.views(bpy.context)
     assert shown == grid
     expected = of_module(grid)
-    np.testing.assert_allclose(view.values(texts.LOOK_ANGLE), expected.qc, atol=1e-6)
+    np.testing.assert_allclose(view.values(choices.LOOK_ANGLE), expected.qc, atol=1e-6)
     assert view.numbers().max_qc == pytest.approx(expected.qc.max())
-    assert view.triangle_map(texts.LOOK_ANGLE)[1].max() == pytest.approx(expected.qc.max(), rel=1e-6)
+    assert view.triangle_map(choices.LOOK_ANGLE)[1].max() == pytest.approx(expected.qc.max(), rel=1e-6)
     map_overlay.forget()
 
 

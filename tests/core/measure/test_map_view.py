@@ -5,6 +5,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from spectral_unwrap.core import choices
 from spectral_unwrap.core.measure.map_view import (
     MapArrays,
     MapView,
@@ -32,10 +33,10 @@ def changed(arrays, **fields):
 
 def test_values_of_every_kind():
     view = MapView(grid(scale=(0.5, 0.25)))
-    assert view.values(texts.LOOK_ANGLE) == pytest.approx(2.0)
-    assert view.values(texts.LOOK_SIZE) == pytest.approx(0.0)
-    assert view.values(texts.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.125**0.5)
-    assert not view.values(texts.LOOK_DEFECTS).any()
+    assert view.values(choices.LOOK_ANGLE) == pytest.approx(2.0)
+    assert view.values(choices.LOOK_SIZE) == pytest.approx(0.0)
+    assert view.values(choices.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.125**0.5)
+    assert not view.values(choices.LOOK_DEFECTS).any()
 
 
 def test_flipped_and_overlapping_faces_differ():
@@ -50,7 +51,7 @@ def test_flipped_and_overlapping_faces_differ():
     folded = arrays.uv.copy()
     moved = (folded == [1.0, 1.0]).all(axis=1)
     folded[moved] = [3.5, 3.5]
-    values = MapView(changed(arrays, uv=folded)).values(texts.LOOK_DEFECTS)
+    values = MapView(changed(arrays, uv=folded)).values(choices.LOOK_DEFECTS)
     assert set(values) == {0.0, 0.5, 1.0}
 
 
@@ -59,7 +60,7 @@ def test_buffers_are_those_of_the_visible_faces():
     arrays.visible_faces[::2] = False
     arrays.uv_faces[:] = np.arange(16) == 3
     view = MapView(arrays)
-    positions, (uv, values) = view.triangle_positions(), view.triangle_map(texts.LOOK_ANGLE)
+    positions, (uv, values) = view.triangle_positions(), view.triangle_map(choices.LOOK_ANGLE)
     assert [buffer.shape for buffer in (positions, uv, values)] == [(48, 3), (48, 2), (48,)]
     assert {buffer.dtype for buffer in (positions, uv, values)} == {np.dtype(np.float32)}
     np.testing.assert_array_equal(positions[:, :2], uv)
@@ -71,7 +72,7 @@ def test_nothing_that_is_drawn_is_not_a_number():
     arrays.uv[:4] = np.nan
     arrays.uv[4:8] = 0.0
     view = MapView(arrays)
-    for kind in (texts.LOOK_ANGLE, texts.LOOK_SIZE, texts.LOOK_DENSITY, texts.LOOK_DEFECTS):
+    for kind in (choices.LOOK_ANGLE, choices.LOOK_SIZE, choices.LOOK_DENSITY, choices.LOOK_DEFECTS):
         assert np.isfinite(view.triangle_map(kind)[1]).all()
         assert np.isfinite(automatic_range([view], kind)).all()
     assert view.numbers().faces == 16
@@ -91,16 +92,16 @@ def test_numbers_of_the_map_and_of_an_island():
 
 def test_a_good_map_looks_good():
     view = MapView(grid())
-    assert automatic_range([view], texts.LOOK_ANGLE) == pytest.approx((1.0, 1.2))
-    assert automatic_range([view], texts.LOOK_SIZE) == pytest.approx((-0.25, 0.25))
-    low, high = automatic_range([view], texts.LOOK_DENSITY, 1024)
+    assert automatic_range([view], choices.LOOK_ANGLE) == pytest.approx((1.0, 1.2))
+    assert automatic_range([view], choices.LOOK_SIZE) == pytest.approx((-0.25, 0.25))
+    low, high = automatic_range([view], choices.LOOK_DENSITY, 1024)
     assert low < 1024 < high
 
 
 def test_range_follows_most_of_the_surface():
     arrays = grid(10, scale=(3.0, 1.0))
     arrays.uv[:4] *= [40.0, 1.0]
-    assert automatic_range([MapView(arrays)], texts.LOOK_ANGLE)[1] == pytest.approx(3.0)
+    assert automatic_range([MapView(arrays)], choices.LOOK_ANGLE)[1] == pytest.approx(3.0)
 
 
 def test_percentiles_count_weights():
@@ -146,7 +147,7 @@ def test_what_an_image_stretches_back_is_not_distorted():
     # On an image of twice the width.
     view = MapView(changed(grid(scale=(0.5, 1.0)), aspect=2.0))
     assert view.qc == pytest.approx(1.0)
-    assert view.values(texts.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
+    assert view.values(choices.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
     assert not view.arrays.has_map_of(changed(view.arrays, aspect=1.0))
 
 

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Identifiers of what an artist chooses among; words/texts.py has their labels."""
+
+# What the overlay shows of a map.
+LOOK_ANGLE = "ANGLE"
+LOOK_SIZE = "SIZE"
+LOOK_DENSITY = "DENSITY"
+LOOK_DEFECTS = "DEFECTS"
+LOOK_CHECKER = "CHECKER"
+
+# Where unwrapped islands go.
+PACK = "PACK"
+KEEP = "KEEP"
+
+# Which of the selected vertices an extender connects.
+PAIRS_IN_ORDER = "IN_ORDER"
+PAIRS_TO_ACTIVE = "TO_ACTIVE"
