@@ -33,6 +33,7 @@ void bind_build(pybind11::module_& module) {
   module.def("build_info", &info);
   module.def("counted_work", &counted_work);
   module.attr("SIZE_LIMIT") = size_limit;
+  module.attr("VERSION") = SPECTRAL_CONFORMAL_VERSION;
 }
 
 }  // namespace spectral_conformal::python

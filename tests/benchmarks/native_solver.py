@@ -160,7 +160,7 @@ def seam_change(meshes: Sequence[Mesh], parts: int) -> runs.Figures:
         start = time.perf_counter()
         sc.unwrap(*mesh, seam_edges=seams)
         whole.append(time.perf_counter() - start)
-        kept = sc.KeptMaps()
+        kept = sc.hosts.KeptMaps()
         sc.unwrap(*mesh, seam_edges=seams[:-1], kept_maps=kept)
         start = time.perf_counter()
         sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)

@@ -5,6 +5,8 @@ import ast
 import re
 from pathlib import Path
 
+import spectral_conformal
+
 from tools import environment, packaging
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,7 +34,7 @@ def bl_info(source=None):
 
 def test_version_stands_in_one_place_and_gets_into_packages():
     version = re.search(r'^\[project\]$.*?^version = "(.*?)"$', PROJECT, re.MULTILINE | re.DOTALL).group(1)
-    assert packaging.version() == version
+    assert packaging.version() == spectral_conformal.__version__ == version
     assert not re.search(r"^version", MANIFEST, re.MULTILINE)
     assert "version" not in bl_info()
     packed = bl_info(packaging.with_version((ROOT / "addon" / "__init__.py").read_bytes()))

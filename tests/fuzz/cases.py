@@ -148,7 +148,7 @@ def draw_an_edge_twice(faces, known):
 
     They need a fold as well where they share two of their edges. Quads have another split for that.
     """
-    triangles, face = sc.face_triangles(known["vertices"], known["face_offsets"], known["corner_vertices"])
+    triangles, face = sc.hosts.face_triangles(known["vertices"], known["face_offsets"], known["corner_vertices"])
     size = np.diff(np.asarray(known["face_offsets"]).astype(np.int64))[face]
     chosen = np.isin(face, faces) & (size != 4)
     vertices = np.sort(np.asarray(known["corner_vertices"])[triangles[chosen]], axis=1)

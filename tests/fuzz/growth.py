@@ -176,7 +176,7 @@ def unwrap(rng, mesh):
 def charts(rng, mesh):
     import spectral_conformal as sc
 
-    return lambda: sc.chart_of_face(mesh.vertices, mesh.offsets, mesh.corners)
+    return lambda: sc.hosts.chart_of_face(mesh.vertices, mesh.offsets, mesh.corners)
 
 
 def pinned(rng, mesh):
@@ -204,7 +204,7 @@ def kept(rng, mesh):
     """Unwrapped again."""
     import spectral_conformal as sc
 
-    maps = sc.KeptMaps()
+    maps = sc.hosts.KeptMaps()
     sc.unwrap(mesh.vertices, mesh.offsets, mesh.corners, kept_maps=maps)
     return lambda: sc.unwrap(mesh.vertices, mesh.offsets, mesh.corners, kept_maps=maps)
 
@@ -238,7 +238,7 @@ def pack_boxes(rng, mesh):
         mesh.vertices[mesh.corners], ends
     )
     many = np.tile(size[:, :2], (16, 1))
-    return lambda: sc.pack_boxes(many)
+    return lambda: sc.hosts.pack_boxes(many)
 
 
 def read_ply(rng, mesh):

@@ -103,7 +103,7 @@ def progress(rng, mesh):
     return listen
 
 
-class Kept(sc.KeptMaps):
+class Kept(sc.hosts.KeptMaps):
     """Maps to keep, which look alike in the description of a case whatever they hold."""
 
     def __repr__(self):

@@ -130,20 +130,20 @@ CALLS = {
     "suggest_cuts": lambda a, p: sc.suggest_cuts(
         *mesh(a), **cut(a), vertex_preference=a.vertex_preference, max_length=20.0, progress=p
     ),
-    "chart_of_face": lambda a, _: sc.chart_of_face(*mesh(a), **cut(a)),
+    "chart_of_face": lambda a, _: sc.hosts.chart_of_face(*mesh(a), **cut(a)),
     "distortion": lambda a, _: sc.distortion(a.vertices, a.triangles, a.uv),
     "face_distortion": lambda a, _: sc.face_distortion(*mesh(a), a.corner_uv, selected_faces=a.selected_faces),
     "face_distortion of single precision": lambda a, _: sc.face_distortion(
         *mesh(a), a.corner_uv.astype(np.float32), selected_faces=a.selected_faces
     ),
-    "face_triangles": lambda a, _: sc.face_triangles(*mesh(a), selected_faces=a.selected_faces),
+    "face_triangles": lambda a, _: sc.hosts.face_triangles(*mesh(a), selected_faces=a.selected_faces),
     "map_defects": lambda a, _: sc.map_defects(
         a.face_offsets, a.corner_vertices, a.corner_uv, selected_faces=a.selected_faces, between_islands=True
     ),
     "metric_from_uv": lambda a, _: sc.metric_from_uv(a.vertices, a.triangles, a.uv),
     "metric_from_direction": lambda a, _: sc.metric_from_direction(a.vertices, a.triangles, a.directions, a.ratios),
     "blend_metric": lambda a, _: sc.blend_metric(a.triangle_metric, 0.5),
-    "pack_boxes": lambda a, _: sc.pack_boxes(a.sizes),
+    "pack_boxes": lambda a, _: sc.hosts.pack_boxes(a.sizes),
 }
 WITH_PROGRESS = [name for name, call in CALLS.items() if "p" in call.__code__.co_varnames]
 # What takes no arrays.

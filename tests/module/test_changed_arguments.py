@@ -82,7 +82,7 @@ def test_flags_are_true_or_false_to_the_native_module():
     arguments = some_arguments()
     assert len(odd) == len(arguments.selected_faces)
     plain = odd.view(np.uint8) != 0
-    for call in (sc.face_triangles, sc.unwrap, sc.chart_of_face):
+    for call in (sc.hosts.face_triangles, sc.unwrap, sc.hosts.chart_of_face):
         assert_equal(call(*mesh(arguments), selected_faces=odd), call(*mesh(arguments), selected_faces=plain))
     found = sc.map_defects(arguments.face_offsets, arguments.corner_vertices, arguments.corner_uv, selected_faces=odd)
     assert (found.island_of_face >= 0).tolist() == plain.tolist()

@@ -84,7 +84,7 @@ def test_the_number_of_threads_does_not_matter():
 def test_triangles_cover_the_selected_faces_in_their_order():
     vertices, offsets, corners = saddle()
     selected = np.arange(len(offsets) - 1) % 3 > 0
-    triangles, face = sc.face_triangles(vertices, offsets, corners, selected_faces=selected)
+    triangles, face = sc.hosts.face_triangles(vertices, offsets, corners, selected_faces=selected)
     assert triangles.shape == (2 * selected.sum(), 3)
     assert np.array_equal(face, np.repeat(np.flatnonzero(selected), 2))
     assert np.array_equal(triangles // 4, np.repeat(face, 3).reshape(-1, 3))
@@ -95,6 +95,6 @@ def test_what_is_no_mesh_is_refused():
     with pytest.raises(ValueError, match="corner_uv has 3 rows"):
         sc.face_distortion(vertices, offsets, corners, np.zeros((3, 2)))
     with pytest.raises(ValueError, match="corner_vertices"):
-        sc.face_triangles(vertices[:5], offsets, corners)
+        sc.hosts.face_triangles(vertices[:5], offsets, corners)
     with pytest.raises(sc.InvalidMeshError, match="no faces"):
-        sc.face_triangles(vertices, [0], [])
+        sc.hosts.face_triangles(vertices, [0], [])

@@ -41,7 +41,7 @@ def n_reused(result):
 
 def test_the_same_again_is_not_solved_again():
     mesh, seams = grid()
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     plain = sc.unwrap(*mesh, seam_edges=seams)
     first = sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
     again = sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
@@ -55,7 +55,7 @@ def test_the_same_again_is_not_solved_again():
 def test_an_island_without_area_is_a_point_again_where_another_has_a_map():
     vertices = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (5, 0, 0), (6, 0, 0), (8, 0, 0.0)])
     face_offsets, corners = [0, 3, 6], np.arange(6)
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     for selected in ([False, True], [True, True], [True, True], [False, True]):
         given = {"selected_faces": np.array(selected)}
         expected = sc.unwrap(vertices, face_offsets, corners, **given)
@@ -66,7 +66,7 @@ def test_an_island_without_area_is_a_point_again_where_another_has_a_map():
 
 def test_after_a_seam_changed_only_the_islands_at_it_are_solved():
     mesh, seams = grid()
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
     # The last seam edge parts two islands.
     fewer = sc.unwrap(*mesh, seam_edges=seams[:-1], kept_maps=kept)
@@ -97,7 +97,7 @@ def test_after_a_seam_changed_only_the_islands_at_it_are_solved():
 )
 def test_whatever_a_map_is_made_of_makes_another(change):
     mesh, seams = grid()
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
     if "metric" in change:
         change = {"metric": np.broadcast_to(np.diag([2.0, 1.0, 1.0]), (len(mesh[1]) - 1, 3, 3))}
@@ -110,7 +110,7 @@ def test_whatever_a_map_is_made_of_makes_another(change):
 
 def test_a_vertex_that_moved_in_its_last_digit_counts():
     (vertices, offsets, corners), seams = grid()
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     sc.unwrap(vertices, offsets, corners, seam_edges=seams, kept_maps=kept)
     moved = vertices.copy()
     moved[0, 2] = np.nextafter(moved[0, 2], 2.0)
@@ -120,7 +120,7 @@ def test_a_vertex_that_moved_in_its_last_digit_counts():
 
 def test_pins_of_corners_count():
     mesh, seams = grid()
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     sc.unwrap(*mesh, seam_edges=seams, kept_maps=kept)
     pinned = np.arange(len(mesh[2])) < 2
     for place in (0.5, 0.75):
@@ -135,7 +135,7 @@ def test_pins_of_corners_count():
 def test_charts_that_fail_fail_again_with_the_same_message():
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     mesh = vertices, *meshes.polygons(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     first, again = (sc.unwrap(*mesh, kept_maps=kept) for _ in range(2))
     assert first.charts[0].status == again.charts[0].status == "failed"
     assert again.charts[0].reused
@@ -144,11 +144,11 @@ def test_charts_that_fail_fail_again_with_the_same_message():
 
 def test_those_used_last_are_kept():
     (vertices, offsets, corners), seams = grid()
-    kept = sc.KeptMaps(max_megabytes=0)
+    kept = sc.hosts.KeptMaps(max_megabytes=0)
     sc.unwrap(vertices, offsets, corners, seam_edges=seams, kept_maps=kept)
     assert len(kept) == 0
     # One grid of 90,000 faces takes about 14 MB.
-    kept = sc.KeptMaps(max_megabytes=20)
+    kept = sc.hosts.KeptMaps(max_megabytes=20)
     vertices, quads = meshes.saddle_quads(300)
     large = vertices, *meshes.polygons(quads)
     for scale in (1.0, 2.0, 1.0):
@@ -169,7 +169,7 @@ def test_a_call_that_was_cancelled_is_gone_on_with():
         np.concatenate([large[1], large[1][1:] + large[1][-1]]),
         np.concatenate([large[2], large[2] + len(vertices)]),
     )
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     with pytest.raises(sc.Cancelled):
         sc.unwrap(*joined, kept_maps=kept, progress=lambda fraction, _phase: fraction < 0.7)
     assert len(kept) == 1
@@ -181,7 +181,7 @@ def test_a_call_that_was_cancelled_is_gone_on_with():
 def test_calls_from_within_and_from_other_threads_do_without():
     mesh, seams = grid()
     plain = sc.unwrap(*mesh, seam_edges=seams)
-    kept = sc.KeptMaps()
+    kept = sc.hosts.KeptMaps()
     found = []
 
     def progress(_fraction, _phase):
@@ -210,4 +210,4 @@ def test_bad_arguments_are_named():
     with pytest.raises(TypeError, match="kept_maps must be a KeptMaps or None, not dict"):
         sc.unwrap(*mesh, kept_maps={})
     with pytest.raises(ValueError, match="max_megabytes must be a whole number"):
-        sc.KeptMaps(max_megabytes=-1)
+        sc.hosts.KeptMaps(max_megabytes=-1)

@@ -100,7 +100,7 @@ def test_a_chart_that_is_too_large_fails_alone(call, factorization):
         sizes = (20, 550, 9, 30)
         mesh = parts(*sizes)
         small = parts(20, 2, 9, 30)
-        kept = sc.KeptMaps()
+        kept = sc.hosts.KeptMaps()
         unwrap = {{
             "unwrap": lambda mesh: sc.unwrap(*mesh, **options),
             "Unwrapper": lambda mesh: sc.Unwrapper(*mesh, **options).solve(),

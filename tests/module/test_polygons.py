@@ -94,7 +94,7 @@ def test_touching_outlines_are_covered_once(name):
 
 def check_covered_once(vertices, flat):
     """Check the triangles of a polygon against its place in the plane."""
-    triangles, _ = sc.face_triangles(vertices, [0, len(flat)], np.arange(len(flat)))
+    triangles, _ = sc.hosts.face_triangles(vertices, [0, len(flat)], np.arange(len(flat)))
     a, b, c = (flat[triangles[:, k]] for k in range(3))
     areas = 0.5 * bridged.cross(b - a, c - a)
     assert len(areas) == len(flat) - 2 and areas.min() > -1e-5

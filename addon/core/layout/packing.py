@@ -49,5 +49,5 @@ def pack(size: np.ndarray, margin: Margin) -> tuple[np.ndarray, float]:
 
 
 def _with_space(size: np.ndarray, space: float) -> tuple[np.ndarray, float]:
-    corners, side = native.spectral_conformal().pack_boxes(size + 2.0 * space)
+    corners, side = native.spectral_conformal().hosts.pack_boxes(size + 2.0 * space)
     return corners + space, side

@@ -96,7 +96,7 @@ def side_by_side(uv: np.ndarray, chart: np.ndarray, margin: Margin | None = None
     size = (high - low) / unit
     if margin is None:
         gap = GAP * max(np.sqrt((size**2).sum(axis=1).mean()), np.finfo(np.float64).tiny)
-        position, side = native.spectral_conformal().pack_boxes(size + gap)
+        position, side = native.spectral_conformal().hosts.pack_boxes(size + gap)
         position += gap / 2.0
     else:
         position, side = pack(size, margin)

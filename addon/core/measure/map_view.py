@@ -130,7 +130,7 @@ class MapView:
     def triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """The visible faces as triangles: their corners, (T, 3), and the face of each, (T,), both int32."""
         arrays = self.arrays
-        return native.spectral_conformal().face_triangles(*arrays.mesh(), selected_faces=arrays.visible_faces)
+        return native.spectral_conformal().hosts.face_triangles(*arrays.mesh(), selected_faces=arrays.visible_faces)
 
     @functools.cached_property
     def _defects(self) -> object:

@@ -18,7 +18,7 @@ def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    return native.spectral_conformal().chart_of_face(
+    return native.spectral_conformal().hosts.chart_of_face(
         mesh.vertices,
         mesh.face_offsets,
         mesh.corner_vertices,

@@ -15,13 +15,13 @@ _kept: list[Any] = []
 
 
 def of_session() -> Any:  # noqa: ANN401 - of the native module
-    """Return the maps that are kept, a `spectral_conformal.KeptMaps`.
+    """Return the maps that are kept, a `spectral_conformal.hosts.KeptMaps`.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     if not _kept:
-        _kept.append(native.spectral_conformal().KeptMaps(_MAX_MEGABYTES))
+        _kept.append(native.spectral_conformal().hosts.KeptMaps(_MAX_MEGABYTES))
     return _kept[0]
 
 

@@ -51,7 +51,7 @@ def test_a_thousand_walls_are_covered_as_by_blender():
         corners, points = bridged.random_wall(rng)
         flat = points[corners]
         vertices = bridged.in_space(rng, points)[corners]
-        own, _ = sc.face_triangles(vertices, [0, len(flat)], np.arange(len(flat)))
+        own, _ = sc.hosts.face_triangles(vertices, [0, len(flat)], np.arange(len(flat)))
         assert len(own) == len(flat) - 2 and _is_right(flat, own)
         other = _triangles_of_blender(vertices)
         # Blender's ear clipping takes some corners at one place for each other, and has triangles turned over.
