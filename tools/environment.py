@@ -102,7 +102,7 @@ PIP: dict[str, list[str]] = {
     "package": ["auditwheel", "markdown", "wheel"],
     "fuzz": ["scipy"],
     # Other versions of clang-format, as newer systems have, format otherwise.
-    "quick": ["clang-format==14.0.6", "libigl", "pytest", "ruff", "scikit-image", "scipy"],
+    "quick": ["clang-format==14.0.6", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
     # A cluster for the batch, of the kind that studios have.
     "test": ["distributed"],
     # The compiler is pinned, since equal sources are to give equal packages.

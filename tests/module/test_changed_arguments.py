@@ -12,7 +12,8 @@ from .changing import CALLS, WITH_PROGRESS, WITHOUT_ARRAYS, assert_equal, cut, m
 
 
 def test_every_public_function_is_here():
-    functions = {name for name in sc.__all__ if callable(getattr(sc, name)) and name[0].islower()}
+    public = [(module, name) for module in (sc, sc.hosts) for name in module.__all__ if name[0].islower()]
+    functions = {name for module, name in public if callable(getattr(module, name))}
     assert functions - WITHOUT_ARRAYS <= set(CALLS)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numbers
 import operator
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Optional, Union
+from typing import Optional, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -67,15 +67,18 @@ def checked_faces(
 def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
     """Return the offsets and the vertices of faces that are given as vertices, (F, n) or polygon by polygon."""
     if not isinstance(faces, np.ndarray) and not hasattr(faces, "__array__"):
+        polygons = cast("Sequence[Sequence[int]]", faces)
         try:
-            counts = [len(face) for face in faces]
+            counts = [len(polygon) for polygon in polygons]
         except TypeError as error:
             raise TypeError(
                 "faces must be vertices, (F, n) or a list of polygons, or come with corner_vertices as offsets."
             ) from error
         if len(set(counts)) > 1:
             offsets = np.concatenate([[0], np.cumsum(counts)])
-            return checked_index_vector(offsets, "faces"), np.concatenate([np.asarray(f) for f in faces if len(f)])
+            return checked_index_vector(offsets, "faces"), np.concatenate(
+                [np.asarray(polygon) for polygon in polygons if len(polygon)]
+            )
     array = checked_array(faces, "faces")
     if array.shape[:1] == (0,):
         return np.zeros(1, np.int32), np.zeros(0, np.int32)

@@ -129,7 +129,7 @@ def onto_former(
     if not len(corners):
         return result, placed
 
-    def centred(points: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.complex128], npt.NDArray[np.complex128]]:
+    def centred(points: npt.NDArray[np.float64]) -> tuple[np.ndarray, np.ndarray]:
         values = points[corners, 0] + 1j * points[corners, 1]
         centre = np.add.reduceat(values, starts) / counts
         return values - np.repeat(centre, counts), centre

@@ -6,7 +6,7 @@ import difflib
 import inspect
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypedDict, TypeVar, get_args
 
@@ -243,8 +243,8 @@ AnyOptions = TypeVar("AnyOptions", Options, SeamOptions)
 def changed(
     options: AnyOptions | None,
     default: AnyOptions,
-    changes: dict[str, Any],
-    allowed: type,
+    changes: Mapping[str, Any],
+    allowed: Any,  # noqa: ANN401 - a TypedDict is no type to type checkers
     function: Callable[..., Any],
 ) -> AnyOptions:
     """Return `options`, or `default` where they are None, with changes.
@@ -265,8 +265,8 @@ def changed(
         raise TypeError(f"options must be {type(default).__name__}, not {type(options).__name__}.")
     for name in changes:
         if name not in allowed.__optional_keys__:
-            own = inspect.signature(function).parameters.keys() - {"self", "changes"}
-            known = sorted({*own, *allowed.__optional_keys__})
+            own = set(inspect.signature(function).parameters) - {"self", "changes"}
+            known = sorted(own | allowed.__optional_keys__)
             near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
             called = function.__qualname__.replace(".__init__", "")
             raise TypeError(f"{called}() has no option '{name}'; did you mean '{near}'?")

@@ -1,0 +1,116 @@
+"""The compiled part, which the modules beside it call with arguments that they have checked."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._arguments import Progress
+from ._options import Options, SeamOptions
+
+_Floats = npt.NDArray[np.float64]
+_Indices = npt.NDArray[np.int32]
+_Flags = npt.NDArray[np.bool_]
+_Pins = list[tuple[int, float, float]]
+_Extenders = list[tuple[int, int, float]]
+
+CHART_FIELDS: tuple[str, ...]
+CHART_NAMES: dict[str, tuple[str | None, ...]]
+SIZE_LIMIT: int
+VERSION: str
+
+class InvalidMeshError(ValueError): ...
+class SolveError(RuntimeError): ...
+class Cancelled(Exception): ...
+
+class Solver:
+    def __init__(
+        self,
+        vertices: _Floats,
+        triangles: _Indices,
+        metric: _Floats | None,
+        options: Options,
+        progress: Progress | None,
+    ) -> None: ...
+    def factorize(self, progress: Progress | None) -> None: ...
+    def solve(
+        self, options: Options, pins: _Pins, extenders: _Extenders, progress: Progress | None
+    ) -> dict[str, Any]: ...
+
+class UnwrapArguments:
+    def __init__(
+        self,
+        vertices: _Floats,
+        face_offsets: _Indices,
+        corner_vertices: _Indices,
+        seam_edges: _Indices | None,
+        selected_faces: _Flags | None,
+        pins: _Pins,
+        pinned_corners: _Flags | None,
+        corner_uv: _Floats | None,
+        metric: _Floats | None,
+        options: Options,
+    ) -> None: ...
+
+class Unwrapper:
+    def __init__(self, arguments: UnwrapArguments) -> None: ...
+    def solve(self, options: Options, extenders: _Extenders, progress: Progress | None) -> dict[str, Any]: ...
+
+class KeptMaps:
+    def __init__(self, max_bytes: int) -> None: ...
+    def clear(self) -> None: ...
+    def size(self) -> int: ...
+
+def unwrap(
+    arguments: UnwrapArguments, extenders: _Extenders, progress: Progress | None, kept: KeptMaps | None
+) -> dict[str, Any]: ...
+def chart_of_face(
+    vertices: _Floats,
+    face_offsets: _Indices,
+    corner_vertices: _Indices,
+    seam_edges: _Indices | None,
+    selected_faces: _Flags | None,
+) -> _Indices: ...
+def suggest_seams(
+    vertices: _Floats,
+    face_offsets: _Indices,
+    corner_vertices: _Indices,
+    seam_edges: _Indices | None,
+    selected_faces: _Flags | None,
+    vertex_preference: _Floats | None,
+    options: SeamOptions,
+    progress: Progress | None,
+) -> tuple[_Indices, _Indices, str]: ...
+def warn(message: str) -> None: ...
+def distortion(vertices: _Floats, triangles: _Indices, uv: _Floats) -> dict[str, Any]: ...
+def map_defects(
+    face_offsets: _Indices,
+    corner_vertices: _Indices,
+    corner_uv: _Floats,
+    selected_faces: _Flags | None,
+    between_islands: bool,
+) -> dict[str, Any]: ...
+def face_distortion(
+    vertices: _Floats,
+    face_offsets: _Indices,
+    corner_vertices: _Indices,
+    corner_uv: npt.NDArray[np.floating],
+    selected_faces: _Flags | None,
+) -> dict[str, Any]: ...
+def face_triangles(
+    vertices: _Floats, face_offsets: _Indices, corner_vertices: _Indices, selected_faces: _Flags | None
+) -> tuple[_Indices, _Indices]: ...
+def metric_from_uv(vertices: _Floats, triangles: _Indices, uv: _Floats) -> _Floats: ...
+def metric_from_direction(vertices: _Floats, triangles: _Indices, directions: _Floats, ratios: _Floats) -> _Floats: ...
+def blend_metric(metric: _Floats, amount: float) -> _Floats: ...
+def first_not_positive_definite(metric: _Floats) -> int: ...
+def pack_boxes(sizes: _Floats) -> tuple[_Floats, float]: ...
+def build_info() -> dict[str, str]: ...
+def limit_threads(threads: int) -> int: ...
+
+# For tests and benchmarks.
+def counted_work(call: Callable[[], object]) -> dict[str, int]: ...
+def exchange_listening_interval(seconds: float) -> float: ...
+def take_longest_silence() -> float: ...
+def pretend_cores(cores: int) -> int: ...
