@@ -20,9 +20,8 @@ from tools.systems import FOR_BPY
 VENV = BUILD / "venv"
 PYTHON = VENV / "bin" / "python"
 WHEELS = BUILD / "wheels"
+# Holds the C++ libraries that the wheel's build leaves behind.
 NATIVE_BUILD = BUILD / "native"
-# The C++ library that the wheel's build leaves behind.
-CORE = NATIVE_BUILD / "libspectral_conformal_core.a"
 # Each is made for one Python; another one uses the system's Blender.
 BPY = {(3, 11): "5.0.1", (3, 13): "5.2.3"}
 # Of the same Python as the first, each in an environment of its own, for the tests: one Python holds one bpy.

@@ -8,7 +8,7 @@ import zipfile
 from pathlib import Path
 
 from tools import packaging, solver_libraries, steps, systems, wheels
-from tools.environment import CORE, PYTHON, VENV, compile_jobs, install_newest_bpy, site_packages, wheel
+from tools.environment import NATIVE_BUILD, PYTHON, VENV, compile_jobs, install_newest_bpy, site_packages, wheel
 from tools.steps import BUILD, ROOT
 from tools.systems import System
 
@@ -67,7 +67,7 @@ def compile_bindings(system: System, folder: Path) -> Path:
         "CMAKE_MAKE_PROGRAM": PYTHON.parent / "ninja",
         "pybind11_DIR": site_packages(VENV) / "pybind11" / "share" / "cmake" / "pybind11",
         "CMAKE_CXX_FLAGS": f"-isystem {beside.parent}",
-        "SPECTRAL_CONFORMAL_CORE": CORE,
+        "SPECTRAL_CONFORMAL_BUILT": NATIVE_BUILD,
         "SPECTRAL_CONFORMAL_OTHER_PYTHON": "ON",
         "Python_INCLUDE_DIR": headers / f"python{version}",
         "Python_SOABI": abi,

@@ -1,7 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
-#include "graph/work_counter.h"
+#include "concurrency/work_counter.h"
 #include "spectral_conformal/build_info.h"
 #include "spectral_conformal/polygon_mesh.h"
 

@@ -1,8 +1,8 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bind.h"
-#include "graph/listening.h"
-#include "graph/thread_budget.h"
+#include "concurrency/listening.h"
+#include "concurrency/thread_budget.h"
 #include "spectral_conformal/thread_limit.h"
 
 namespace spectral_conformal::python {

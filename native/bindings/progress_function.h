@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal::python {

@@ -25,8 +25,8 @@ COMMON = {
 # (tests/style/test_cpp_style.py) takes them one by one and sees whether one lacks an include.
 UNITY = {"CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 8}
 FLAVOURS = {
-    # The library that is in the wheel.
-    "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_CORE": environment.CORE},
+    # The libraries that are in the wheel.
+    "release": {**UNITY, "CMAKE_BUILD_TYPE": "Release", "SPECTRAL_CONFORMAL_BUILT": environment.NATIVE_BUILD},
     # With clang, for libFuzzer's targets, which share the library with the tests.
     "sanitized": {
         **UNITY,
@@ -83,7 +83,7 @@ def exclusive(flavour):
 
 def configure(flavour):
     """Configure a flavour and return its build folder."""
-    if "SPECTRAL_CONFORMAL_CORE" in FLAVOURS[flavour]:
+    if "SPECTRAL_CONFORMAL_BUILT" in FLAVOURS[flavour]:
         assert environment.is_native_module_built(), "the built library is older than its sources: run build_addon.py"
     settings = {**COMMON, **solver_libraries.settings(), **FLAVOURS[flavour]}
     definitions = [f"-D{name}={value}" for name, value in settings.items()]

@@ -14,8 +14,8 @@
 
 #include "conformal/boundary_form.h"
 #include "conformal/start_vector.h"
-#include "conformal/upright.h"
 #include "geometry/ear_clipping.h"
+#include "layout/upright.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"
 #include "mesh/mirror_symmetry.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "conformal/conformal_energy.h"
-#include "injective/distortion_energy.h"
 #include "linear_algebra/factorization.h"
 #include "mesh/charts.h"
+#include "relaxation/distortion_energy.h"
 
 namespace spectral_conformal::test {
 

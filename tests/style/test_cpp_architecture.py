@@ -8,25 +8,14 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native"
-PUBLIC_HEADERS = sorted((NATIVE / "include").rglob("*.h"))
-HEADERS = [*PUBLIC_HEADERS, *sorted((NATIVE / "src").rglob("*.h"))]
-SOURCES = sorted((NATIVE / "src").rglob("*.cpp"))
+PUBLIC = NATIVE / "include" / "spectral_conformal"
+PUBLIC_HEADERS = sorted(PUBLIC.glob("*.h"))
+FOLDERS = sorted(path for path in [*(NATIVE / "src").iterdir(), NATIVE / "seams"] if path.is_dir())
+HEADERS = [*PUBLIC_HEADERS, *(path for folder in FOLDERS for path in sorted(folder.glob("*.h")))]
+SOURCES = [path for folder in FOLDERS for path in sorted(folder.glob("*.cpp"))]
 BINDINGS = sorted(path for path in (NATIVE / "bindings").iterdir() if path.suffix in {".cpp", ".h"})
 TESTS = ROOT / "tests" / "native"
-# From the ground: a file includes from its own floor and from those below.
-FLOORS = (
-    "base",  # header-only: what every floor may use
-    "graph",
-    "geometry",
-    "mesh",
-    "linear_algebra",
-    "quality",
-    "conformal",
-    "injective",
-    "parameterization",
-    "seams",
-    "bindings",
-)
+GUIDE = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
 HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
@@ -40,6 +29,21 @@ PLACES = {
 }
 
 
+def floors():
+    """Return the rows of the table in docs/developing.md, from the ground, and the bindings above them."""
+    table = re.search(r"\| floor, .*?\n\n", GUIDE, re.DOTALL).group()
+    return (*re.findall(r"^\| (\w+) \|", table, re.MULTILINE), "bindings")
+
+
+def floors_of_seams():
+    """Return the floors whose headers docs/developing.md lets the library of seams include, beside public ones."""
+    return set(re.findall(r"\w+(?=,| and|\.)", re.search(r"and the\s+headers of ([\w,\s]+\.)", GUIDE).group(1)))
+
+
+FLOORS = floors()
+SEAMS_MAY_INCLUDE = {"seams", "base", *floors_of_seams()}
+
+
 def relative(path):
     return str(path.relative_to(ROOT))
 
@@ -49,11 +53,9 @@ def includes(path):
 
 
 def floor_of(path):
-    """Return the floor of a file of ours: its folder below src/; of a public header, that of the source of its name."""
-    if path.parent.parent == NATIVE / "src":
+    """Return the floor of a file of ours: its folder; of a public header, that of the source of its name."""
+    if path.parent != PUBLIC:
         return path.parent.name
-    if path.parent == NATIVE / "bindings":
-        return "bindings"
     return "base" if path.stem in HEADER_ONLY else next(s.parent.name for s in SOURCES if s.stem == path.stem)
 
 
@@ -62,23 +64,34 @@ def floor_of_header(header):
     return next((floor_of(path) for path in [*HEADERS, *BINDINGS] if header == f"{path.parent.name}/{path.name}"), None)
 
 
-def upward_includes(floor, headers):
-    """Return what a file of this floor must not include: headers of ours that stand on a floor above."""
-    floors = {header: floor_of_header(header) for header in headers}
-    return [h for h, other in floors.items() if other and FLOORS.index(other) > FLOORS.index(floor)]
+def is_allowed(floor, header):
+    """Tell whether a file of this floor may include the header: of no floor above, of no library's inside."""
+    other = floor_of_header(header)
+    if not other or floor == "bindings":
+        return True
+    if floor == "seams":
+        return other in SEAMS_MAY_INCLUDE or header.startswith(f"{PUBLIC.name}/")
+    return other != "seams" and FLOORS.index(other) <= FLOORS.index(floor)
+
+
+def forbidden_includes(floor, headers):
+    """Return what a file of this floor must not include."""
+    return [header for header in headers if not is_allowed(floor, header)]
 
 
 @pytest.mark.parametrize("path", [*HEADERS, *SOURCES, *BINDINGS], ids=relative)
 def test_includes_run_downwards(path):
-    upward = upward_includes(floor_of(path), includes(path))
-    assert not upward, f"{relative(path)}, on the floor {floor_of(path)}, includes from above: {', '.join(upward)}"
+    forbidden = forbidden_includes(floor_of(path), includes(path))
+    assert not forbidden, f"{relative(path)}, on the floor {floor_of(path)}, includes {', '.join(forbidden)}"
 
 
-def test_the_scan_sees_an_upward_include():
-    assert upward_includes("mesh", ["vector", "conformal/lscm.h", "geometry/triangle_shape.h"]) == ["conformal/lscm.h"]
-    assert upward_includes("quality", ["spectral_conformal/unwrap.h", "spectral_conformal/types.h"]) == [
-        "spectral_conformal/unwrap.h"
-    ]
+def test_the_scan_sees_a_forbidden_include():
+    unwrap, seams, lscm = "spectral_conformal/unwrap.h", "spectral_conformal/seam_suggestion.h", "conformal/lscm.h"
+    assert forbidden_includes("mesh", ["vector", lscm, "geometry/triangle_shape.h"]) == [lscm]
+    assert forbidden_includes("quality", [unwrap, "spectral_conformal/types.h"]) == [unwrap]
+    assert forbidden_includes("parameterization", [lscm, unwrap, seams, "seams/pieces.h"]) == [seams, "seams/pieces.h"]
+    factor = "linear_algebra/factorization.h"
+    assert forbidden_includes("seams", [unwrap, seams, lscm, factor, "mesh/charts.h"]) == [lscm, factor]
 
 
 @pytest.mark.parametrize("path", PUBLIC_HEADERS, ids=relative)
@@ -88,8 +101,9 @@ def test_public_headers_include_public_headers_only(path):
 
 
 def test_every_floor_is_known_and_used():
-    folders = {path.name for path in (NATIVE / "src").iterdir() if path.is_dir()}
-    assert folders <= set(FLOORS)
+    folders = {path.name for path in FOLDERS} | {"base", "bindings"}
+    assert folders == {*FLOORS, "seams"}
+    assert floors_of_seams() <= set(FLOORS)
     assert not list((NATIVE / "src").glob("*.*"))
 
 

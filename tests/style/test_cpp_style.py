@@ -17,7 +17,7 @@ from tools import environment
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = [ROOT / "native", ROOT / "tests" / "native", ROOT / "tests" / "fuzz"]
 FILES = sorted(path for folder in FOLDERS for suffix in ("*.h", "*.cpp") for path in folder.rglob(suffix))
-SOURCES = sorted((ROOT / "native" / "src").rglob("*.cpp"))
+SOURCES = sorted(path for folder in ("src", "seams") for path in (ROOT / "native" / folder).rglob("*.cpp"))
 UNIT_TESTS = sorted((ROOT / "tests" / "native").rglob("test_*.cpp"))
 
 
@@ -51,7 +51,12 @@ STANDARD = "-std=c++17"
 def clang_tidy(sources, folder, *options):
     """Check sources together: Eigen's headers have some 30,000 findings, which take as long as the sources' own."""
     checks = "--checks=-clang-analyzer-*,-bugprone-suspicious-include"
-    common = ["--quiet", f"--config-file={ROOT / '.clang-tidy'}", checks, "--header-filter=/native/(include|src)/.*"]
+    common = [
+        "--quiet",
+        f"--config-file={ROOT / '.clang-tidy'}",
+        checks,
+        "--header-filter=/native/(include|src|seams)/.*",
+    ]
     return output_if_failed(tool("clang-tidy"), *common, one_unit(sources, folder), "--", STANDARD, *options)
 
 
@@ -90,7 +95,8 @@ def test_clang_finds_nothing():
 
     Of files in one unit, no two anonymous namespaces may hold the same name.
     """
-    options = (*definitions_and_folders(), f"-I{ROOT / 'native' / 'include'}", f"-I{ROOT / 'tests' / 'native'}")
+    folders = (ROOT / "native", ROOT / "native" / "include", ROOT / "tests" / "native")
+    options = (*definitions_and_folders(), *(f"-I{folder}" for folder in folders))
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as threads:
         runs = [
             threads.submit(clang_tidy, SOURCES, Path(folder), *options),

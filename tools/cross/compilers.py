@@ -55,7 +55,7 @@ def toolchain(target: Target) -> Path:
     text = "".join(f"set({name} [==[{value}]==])\n" for name, value in settings.items())
     if path.is_file() and path.read_text() != text:
         # CMake reads these settings once for a build folder.
-        for built in {"cholmod", "core", "tests", *map(python_tag, PYTHONS)}:
+        for built in {"cholmod", "libraries", "tests", *map(python_tag, PYTHONS)}:
             shutil.rmtree(target.folder / built, ignore_errors=True)
     write(path, text)
     return path

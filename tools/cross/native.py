@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compile a target's part of the wheels: OpenBLAS to link to, CHOLMOD, the core once, the bindings per Python."""
+"""Compile a target's part of the wheels: OpenBLAS to link to, CHOLMOD, our libraries once, the bindings per Python."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ BLAS_FUNCTIONS = (
     *("zgemm_", "zgemv_", "zherk_", "zpotrf_", "zscal_", "ztrsm_", "ztrsv_"),
 )
 RECIPES = Path(__file__).parent / "suitesparse"
-SOURCES = [ROOT / name for name in ("CMakeLists.txt", "native/include", "native/src", "native/bindings")]
+SOURCES = [
+    ROOT / name for name in ("CMakeLists.txt", "native/include", "native/src", "native/seams", "native/bindings")
+]
 TESTS = ROOT / "tests" / "native"
 # A translation unit with Eigen takes up to 2 GB: no more of them at once than the machine has room for.
 JOBS = min(2, os.cpu_count() or 1)
@@ -35,9 +37,9 @@ def build(target: Target) -> None:
     if steps.is_done(stamp, state) and all(module(target, python).is_file() for python in PYTHONS):
         return
     settings = {**compilers.part_settings(target), **link_settings(target)}
-    core = build_core(target, settings)
+    libraries = build_libraries(target, settings)
     for python in PYTHONS:
-        build_module(target, python, {**settings, "SPECTRAL_CONFORMAL_CORE": core})
+        build_module(target, python, {**settings, "SPECTRAL_CONFORMAL_BUILT": libraries})
     steps.mark_done(stamp, state)
 
 
@@ -46,14 +48,14 @@ def module(target: Target, python: str) -> Path:
     return target.folder / python_tag(python) / target.module_name(python)
 
 
-def build_core(target: Target, settings: dict[str, object]) -> Path:
-    """Compile what does not depend on Python and return the static library."""
-    folder = target.folder / "core"
+def build_libraries(target: Target, settings: dict[str, object]) -> Path:
+    """Compile what does not depend on Python and return the folder of the static libraries."""
+    folder = target.folder / "libraries"
     only = {"SPECTRAL_CONFORMAL_PYTHON": "OFF"}
     compilers.configure_and_build(
-        f"the core for {target.name}", ROOT, folder, {**settings, **only}, ("spectral_conformal_core",), JOBS
+        f"the libraries for {target.name}", ROOT, folder, {**settings, **only}, ("spectral_conformal_seams",), JOBS
     )
-    return folder / "libspectral_conformal_core.a"
+    return folder
 
 
 def build_module(target: Target, python: str, settings: dict[str, object]) -> None:
@@ -73,11 +75,10 @@ def build_module(target: Target, python: str, settings: dict[str, object]) -> No
 
 
 def build_tests(target: Target) -> Path:
-    """Compile the C++ tests beside the core, and return the folder that holds the programs and their BLAS."""
+    """Compile the C++ tests beside the libraries, and return the folder that holds the programs and their BLAS."""
     settings = {**compilers.part_settings(target), **link_settings(target), "SPECTRAL_CONFORMAL_PYTHON": "OFF"}
     folder = target.folder / "tests"
-    core = target.folder / "core" / "libspectral_conformal_core.a"
-    only = {"SPECTRAL_CONFORMAL_CORE": core, "SPECTRAL_CONFORMAL_TESTS": "ON"}
+    only = {"SPECTRAL_CONFORMAL_BUILT": target.folder / "libraries", "SPECTRAL_CONFORMAL_TESTS": "ON"}
     state = steps.digest([*SOURCES, TESTS, *steps.source_files(Path(__file__).parent)])
     stamp = f"cross-tests-{target.name}"
     if not steps.is_done(stamp, state) or not folder.is_dir():

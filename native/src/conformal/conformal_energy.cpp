@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "geometry/signed_area.h"
-#include "graph/listening.h"
-#include "graph/parallel_calls.h"
 #include "linear_algebra/large_pages.h"
 
 namespace spectral_conformal {

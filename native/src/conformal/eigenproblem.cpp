@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "conformal/correction.h"
 #include "conformal/start_vector.h"
-#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {

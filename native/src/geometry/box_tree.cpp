@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 namespace spectral_conformal {
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "concurrency/listening.h"
 #include "geometry/box_tree.h"
-#include "graph/listening.h"
 
 namespace spectral_conformal {
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "geometry/signed_area.h"
-#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {

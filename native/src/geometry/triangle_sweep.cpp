@@ -5,8 +5,8 @@
 #include <iterator>
 #include <set>
 
+#include "concurrency/listening.h"
 #include "geometry/orientation.h"
-#include "graph/listening.h"
 
 namespace spectral_conformal {
 namespace {

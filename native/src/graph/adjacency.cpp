@@ -1,6 +1,6 @@
 #include "graph/adjacency.h"
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <new>
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 namespace {

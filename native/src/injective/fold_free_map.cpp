@@ -6,15 +6,15 @@
 #include <cstddef>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "geometry/quad_splits.h"
-#include "graph/listening.h"
-#include "injective/descent.h"
 #include "injective/grid_embedding.h"
 #include "injective/local_unfolding.h"
 #include "injective/tutte_embedding.h"
 #include "quality/map_degree.h"
 #include "quality/overlap.h"
 #include "quality/turning_number.h"
+#include "relaxation/descent.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {

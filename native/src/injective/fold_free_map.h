@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "conformal/conformal_energy.h"
-#include "injective/descent.h"
 #include "linear_algebra/factorization.h"
+#include "relaxation/descent.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
 

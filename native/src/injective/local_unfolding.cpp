@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "graph/listening.h"
-#include "injective/descent.h"
+#include "concurrency/listening.h"
+#include "relaxation/descent.h"
 
 namespace spectral_conformal {
 namespace {

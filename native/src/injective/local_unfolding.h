@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "injective/distortion_energy.h"
 #include "linear_algebra/factorization.h"
+#include "relaxation/distortion_energy.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {

@@ -10,9 +10,9 @@
 #include <tuple>
 #include <utility>
 
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "graph/adjacency.h"
-#include "graph/listening.h"
-#include "graph/parallel_calls.h"
 #include "graph/shortest_paths.h"
 #include "mesh/boundary_loops.h"
 #include "quality/flips.h"

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "concurrency/parallel_calls.h"
 #include "graph/adjacency.h"
-#include "graph/parallel_calls.h"
 #include "linear_algebra/blas_threads.h"
 #include "linear_algebra/nested_dissection.h"
 #include "linear_algebra/supernodal_factor.h"

@@ -3,8 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
-#include "graph/parallel_calls.h"
-#include "graph/work_counter.h"
+#include "concurrency/parallel_calls.h"
+#include "concurrency/work_counter.h"
 
 namespace spectral_conformal {
 namespace {

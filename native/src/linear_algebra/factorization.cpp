@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "graph/parallel_calls.h"
+#include "concurrency/parallel_calls.h"
 #include "linear_algebra/cholmod_factorization.h"
 #include "linear_algebra/eigen_factorization.h"
 #include "spectral_conformal/errors.h"

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "graph/parallel_calls.h"
+#include "concurrency/parallel_calls.h"
 #include "graph/vertex_separator.h"
 
 namespace spectral_conformal {

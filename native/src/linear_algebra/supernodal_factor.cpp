@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "graph/parallel_calls.h"
-#include "graph/work_counter.h"
+#include "concurrency/parallel_calls.h"
+#include "concurrency/work_counter.h"
 #include "linear_algebra/blas_threads.h"
 
 // BLAS and LAPACK, Fortran linkage.

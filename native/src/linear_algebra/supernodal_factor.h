@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "concurrency/forest_schedule.h"
 #include "graph/adjacency.h"
-#include "graph/forest_schedule.h"
 #include "linear_algebra/large_pages.h"
 #include "spectral_conformal/types.h"
 

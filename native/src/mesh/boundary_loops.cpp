@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "concurrency/listening.h"
 #include "graph/adjacency.h"
-#include "graph/listening.h"
 #include "graph/shortest_paths.h"
 
 namespace spectral_conformal {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "geometry/triangle_shape.h"
-#include "graph/listening.h"
 #include "mesh/boundary_loops.h"
 #include "spectral_conformal/errors.h"
 

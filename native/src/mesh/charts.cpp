@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "geometry/polygon_triangulation.h"
 #include "graph/disjoint_sets.h"
-#include "graph/listening.h"
 #include "mesh/half_edges.h"
 
 namespace spectral_conformal {

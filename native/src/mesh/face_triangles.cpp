@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "concurrency/parallel_calls.h"
 #include "geometry/polygon_triangulation.h"
 #include "geometry/quad_splits.h"
-#include "graph/parallel_calls.h"
 
 namespace spectral_conformal {
 namespace {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "graph/parallel_calls.h"
+#include "concurrency/parallel_calls.h"
 
 namespace spectral_conformal {
 namespace {

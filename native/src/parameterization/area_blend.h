@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "injective/isometric_relaxation.h"
 #include "parameterization/spectral_solver.h"
+#include "relaxation/isometric_relaxation.h"
 #include "spectral_conformal/metric.h"
 #include "spectral_conformal/progress.h"
 

@@ -1,6 +1,6 @@
 #include "parameterization/chart_metric.h"
 
-#include "graph/listening.h"
+#include "concurrency/listening.h"
 
 namespace spectral_conformal {
 

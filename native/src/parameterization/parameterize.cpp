@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "conformal/correction.h"
 #include "conformal/pin_attraction.h"
-#include "graph/listening.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "parameterization/area_blend.h"

@@ -6,7 +6,7 @@
 
 #include "conformal/correction.h"
 #include "conformal/lscm.h"
-#include "conformal/placement.h"
+#include "layout/placement.h"
 #include "mesh/boundary_loops.h"
 #include "quality/turning_number.h"
 #include "spectral_conformal/errors.h"

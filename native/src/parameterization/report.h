@@ -5,10 +5,10 @@
 
 #include "conformal/conformal_energy.h"
 #include "injective/fold_free_map.h"
-#include "injective/isometric_relaxation.h"
 #include "mesh/charts.h"
 #include "parameterization/fallbacks.h"
 #include "parameterization/spectral_solver.h"
+#include "relaxation/isometric_relaxation.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/types.h"

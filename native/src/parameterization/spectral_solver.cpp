@@ -10,11 +10,11 @@
 #include "conformal/eigenproblem.h"
 #include "conformal/extended_form.h"
 #include "conformal/pin_attraction.h"
-#include "conformal/placement.h"
 #include "conformal/start_vector.h"
-#include "injective/polish.h"
+#include "layout/placement.h"
 #include "mesh/boundary_loops.h"
 #include "quality/turning_number.h"
+#include "relaxation/polish.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "conformal/placement.h"
+#include "layout/placement.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {

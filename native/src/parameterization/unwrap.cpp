@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "conformal/conformal_energy.h"
-#include "graph/listening.h"
-#include "graph/parallel_calls.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "mesh/corner_pins.h"

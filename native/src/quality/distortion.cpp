@@ -6,11 +6,11 @@
 #include <numeric>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "geometry/binary_unit.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
 #include "geometry/triangle_shape.h"
-#include "graph/listening.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"

@@ -6,12 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "concurrency/parallel_calls.h"
 #include "geometry/binary_unit.h"
 #include "geometry/polygon_triangulation.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
 #include "geometry/triangle_shape.h"
-#include "graph/parallel_calls.h"
 
 namespace spectral_conformal {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concurrency/listening.h"
 #include "geometry/orientation.h"
 #include "geometry/signed_area.h"
-#include "graph/listening.h"
 
 namespace spectral_conformal {
 

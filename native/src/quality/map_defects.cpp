@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "concurrency/listening.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
-#include "graph/listening.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"
 #include "quality/overlap.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
 #include "graph/disjoint_sets.h"
-#include "graph/listening.h"
-#include "graph/parallel_calls.h"
 #include "quality/flips.h"
 
 namespace spectral_conformal {

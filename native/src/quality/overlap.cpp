@@ -9,13 +9,13 @@
 #include <optional>
 #include <utility>
 
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
 #include "geometry/box_tree.h"
 #include "geometry/orientation.h"
 #include "geometry/point_merging.h"
 #include "geometry/quad_splits.h"
 #include "geometry/triangle_sweep.h"
-#include "graph/listening.h"
-#include "graph/parallel_calls.h"
 #include "quality/flips.h"
 #include "quality/map_degree.h"
 

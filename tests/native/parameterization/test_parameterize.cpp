@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "conformal/boundary_form.h"
-#include "conformal/placement.h"
+#include "layout/placement.h"
 #include "meshes.h"
 #include "spectral_conformal/distortion.h"
 #include "spectral_conformal/errors.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "conformal/placement.h"
+#include "layout/placement.h"
 #include "meshes.h"
 #include "parameterization/spectral_solver.h"
 #include "spectral_conformal/errors.h"

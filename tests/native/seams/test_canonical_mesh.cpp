@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "graph/work_counter.h"
+#include "concurrency/work_counter.h"
 #include "meshes.h"
 #include "seams/canonical_mesh.h"
 #include "spectral_conformal/errors.h"

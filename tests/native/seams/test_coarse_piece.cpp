@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
+#include "concurrency/work_counter.h"
 #include "graph/disjoint_sets.h"
-#include "graph/work_counter.h"
 #include "meshes.h"
 #include "seams/coarse_piece.h"
 #include "seams/seam_graph.h"

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "graph/work_counter.h"
+#include "concurrency/work_counter.h"
 #include "meshes.h"
 #include "seams/known_maps.h"
 

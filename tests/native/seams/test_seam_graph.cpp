@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graph/work_counter.h"
+#include "concurrency/work_counter.h"
 #include "meshes.h"
 #include "seams/seam_graph.h"
 #include "spectral_conformal/errors.h"

@@ -1,0 +1,311 @@
+#include "seams/cut_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
+#include "geometry/polygon_normal.h"
+#include "seams/faces_in_the_way.h"
+#include "seams/separating_cut.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// More are not the corners of a box, but a rough surface, whose spanning tree is no seam.
+constexpr std::size_t max_cones = 32;
+
+/// Faces of a chart times the number of parts of its defects that it is cut at, for 3 to 8 of these.
+constexpr std::size_t parted_faces = 20000;
+
+/// What is cut out of a chart: flaps of one or two faces and what they lie on, as at the ragged edges of scans. Halving
+/// instead made 1727 islands of a torn scan of a million faces, in more time, this 678.
+constexpr double few_faces = 0.03;
+constexpr std::size_t max_flap = 50;
+
+/// About what each triangle takes in a search for distorted regions.
+constexpr double region_nanoseconds = 500;
+
+/// What is found by each of some searches that do not depend on each other.
+std::vector<SeamEdges> found_by(const std::vector<std::function<SeamEdges()>>& searches) {
+  std::vector<SeamEdges> result(searches.size());
+  run_in_parallel(
+      static_cast<int>(searches.size()),
+      [&](int i, const Progress&) { result[static_cast<std::size_t>(i)] = searches[static_cast<std::size_t>(i)](); },
+      {}, "seams");
+  return result;
+}
+
+std::vector<int> all_of(const SeparableFaces& faces) {
+  std::vector<int> result(faces.size());
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
+std::vector<int> charts_of_faces(const TrialMaps& charts, int n_faces) {
+  std::vector<int> result(static_cast<std::size_t>(n_faces), -1);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    for (const int face : charts[i]->chart.faces) result[static_cast<std::size_t>(face)] = static_cast<int>(i);
+  }
+  return result;
+}
+
+int farthest_face(const SeparableFaces& faces, const std::vector<int>& among, int from) {
+  const std::vector<double> distance = face_distances(faces, {from});
+  return *std::max_element(among.begin(), among.end(), [&](int a, int b) {
+    return std::isfinite(distance[b]) && (distance[a] < distance[b] || !std::isfinite(distance[a]));
+  });
+}
+
+}  // namespace
+
+CutCandidates::CutCandidates(const PieceSeams& seams, const TrialMaps& charts, const MapQuality& quality)
+    : seams_(seams),
+      charts_(charts),
+      quality_(quality),
+      chart_of_face_(charts_of_faces(charts, seams.piece().n_faces())),
+      mutexes_(charts.size()),
+      separable_(charts.size()) {}
+
+bool CutCandidates::is_first_of_mirrored(int chart) const {
+  return seams_.mirrored_chart(chart, chart_of_face_) >= chart;
+}
+
+std::vector<CutCandidates::Region> CutCandidates::regions(Kind kind) const {
+  const PolygonMesh mesh = seams_.piece().view();
+  std::vector<Region> result;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
+    const bool halved = seams_.self_mirrored(chart, chart_of_face_);
+    std::vector<DistortedRegion> of_chart;
+    call_while_listening(region_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()), [&] {
+      of_chart = kind == Kind::scale ? scale_extrema(mesh, *charts_[i], quality_.median_log2_scale)
+                                     : angle_peaks(mesh, *charts_[i]);
+    });
+    for (DistortedRegion region : of_chart) {
+      if (halved) region.vertex = seams_.on_positive_side(region.vertex);
+      result.push_back({region, chart});
+    }
+  }
+  std::stable_sort(result.begin(), result.end(), [](const Region& a, const Region& b) { return a.volume > b.volume; });
+  std::set<int> known;
+  result.erase(std::remove_if(result.begin(), result.end(),
+                              [&](const Region& region) { return !known.insert(region.vertex).second; }),
+               result.end());
+  return result;
+}
+
+SeamEdges CutCandidates::cut_to(const Region& region, const PieceSeams& seams) const {
+  return seams.cut_to(region.vertex, region.on_loop, region.chart, chart_of_face_);
+}
+
+SeamEdges CutCandidates::cut_around(const Region& region) const {
+  const Piece& piece = seams_.piece();
+  const TrialMap& mapped = *charts_[region.chart];
+  const auto offset = [&](std::size_t i) { return mapped.log2_scale[i] - quality_.median_log2_scale; };
+  std::vector<int> sources;
+  double sign = 0;
+  for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+    const int face = mapped.chart.faces[i];
+    const auto first = piece.corner_vertices.begin() + piece.face_offsets[face];
+    const auto last = piece.corner_vertices.begin() + piece.face_offsets[face + 1];
+    if (std::find(first, last, region.vertex) == last) continue;
+    sources.push_back(static_cast<int>(i));
+    sign += offset(i);
+  }
+  std::vector<int> sinks;
+  for (std::size_t i = 0; i < mapped.chart.faces.size(); ++i) {
+    const auto face = static_cast<int>(i);
+    const bool near = std::binary_search(sources.begin(), sources.end(), face);
+    if (sign * offset(i) <= 0 && !near) sinks.push_back(face);
+  }
+  if (sources.empty() || sinks.empty()) return {};
+  return seams_.cut_apart(separable(region.chart), sources, sinks, region.chart, chart_of_face_);
+}
+
+std::vector<SeamEdges> CutCandidates::cuts_to_cones() const {
+  const PolygonMesh mesh = seams_.piece().view();
+  std::vector<SeamEdges> result;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
+    std::vector<DistortedRegion> cones;
+    call_while_listening(region_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()),
+                         [&] { cones = sharp_cones(mesh, *charts_[i]); });
+    if (cones.empty() || cones.size() > max_cones) continue;
+    const bool halved = seams_.self_mirrored(chart, chart_of_face_);
+    PieceSeams later = seams_;
+    SeamEdges all;
+    // Nearest first, as a spanning tree grows.
+    std::set<int> left;
+    for (const DistortedRegion& cone : cones) left.insert(halved ? seams_.on_positive_side(cone.vertex) : cone.vertex);
+    while (!left.empty()) {
+      const std::vector<double> distance = later.distances_to_cuts(chart, chart_of_face_);
+      const int next =
+          *std::min_element(left.begin(), left.end(), [&](int a, int b) { return distance[a] < distance[b]; });
+      left.erase(next);
+      if (!(distance[next] > 0)) continue;
+      const SeamEdges cut = later.cut_to(next, false, chart, chart_of_face_);
+      later.add(cut);
+      all.insert(all.end(), cut.begin(), cut.end());
+    }
+    result.push_back(std::move(all));
+  }
+  return result;
+}
+
+std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<int>& defective) const {
+  const SeparableFaces& faces = separable(chart);
+  const std::vector<int> all = all_of(faces);
+  const std::vector<int> largest = connected_parts(faces, defective).front();
+  std::vector<SeamEdges> result;
+  const int one = farthest_face(faces, all, all.front());
+  const int two = farthest_face(faces, all, one);
+  if (one != two) result.push_back(seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_));
+  if (largest.size() < all.size()) result.push_back(seams_.border(faces, largest));
+  if (all.size() > 1) result.push_back(seams_.border(faces, {largest.front()}));
+  return result;
+}
+
+std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<int>& defective) const {
+  const SeparableFaces& faces = separable(chart);
+  const auto parts = connected_parts(faces, defective);
+  std::vector<std::function<SeamEdges()>> searches;
+  const bool halved = seams_.self_mirrored(chart, chart_of_face_);
+  if (halved) searches.emplace_back([&] { return seams_.cut_along_axis(faces); });
+  // Each costs two solves, so large charts get fewer. Half as many gave 8 % longer seams on 12 meshes at the same
+  // distortion.
+  const std::size_t max_parts = std::clamp<std::size_t>(parted_faces / charts_[chart]->chart.faces.size(), 3, 8);
+  for (std::size_t i = 0; i < std::min(parts.size(), max_parts); ++i) {
+    searches.emplace_back([&, i] {
+      std::vector<int> others;
+      for (std::size_t j = 0; j < parts.size(); ++j) {
+        if (j != i) others.insert(others.end(), parts[j].begin(), parts[j].end());
+      }
+      return others.empty() ? SeamEdges{} : seams_.cut_apart(faces, parts[i], others, chart, chart_of_face_);
+    });
+    // One part can cover itself: its ends are farthest apart.
+    searches.emplace_back([&, i] {
+      const int one = farthest_face(faces, parts[i], parts[i].front());
+      const int two = farthest_face(faces, parts[i], one);
+      return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
+    });
+  }
+  // A slit to a flipped face gives it room.
+  const TrialMap& mapped = *charts_[chart];
+  const Piece& piece = seams_.piece();
+  constexpr std::size_t max_slits = 4;
+  for (std::size_t i = 0; i < std::min(mapped.flipped.size(), max_slits); ++i) {
+    const int face = mapped.chart.faces[static_cast<std::size_t>(mapped.flipped[i])];
+    const int vertex = piece.corner_vertices[static_cast<std::size_t>(piece.face_offsets[face])];
+    searches.emplace_back([&, vertex] {
+      return seams_.cut_to(halved ? seams_.on_positive_side(vertex) : vertex, false, chart, chart_of_face_);
+    });
+  }
+  return found_by(searches);
+}
+
+SeamEdges CutCandidates::cut_out(int chart, const std::vector<int>& defective) const {
+  const SeparableFaces& faces = separable(chart);
+  if (static_cast<double>(defective.size()) > few_faces * static_cast<double>(faces.size())) return {};
+  for (const std::vector<int>& part : connected_parts(faces, defective)) {
+    if (part.size() > max_flap) return {};
+  }
+  return seams_.border(faces, faces_in_the_way(faces, *charts_[chart], defective));
+}
+
+std::vector<SeamEdges> CutCandidates::halves() const {
+  std::vector<std::pair<double, int>> worst;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (!charts_[i]->solved || !is_first_of_mirrored(static_cast<int>(i))) continue;
+    const MapQuality quality = map_quality({charts_[i]}, 2);  // a limit that is not asked for
+    if (quality.distortion() > 0) worst.emplace_back(-quality.area * quality.distortion(), static_cast<int>(i));
+  }
+  std::sort(worst.begin(), worst.end());
+  std::vector<std::function<SeamEdges()>> searches;
+  constexpr std::size_t max_halved = 3;
+  for (std::size_t i = 0; i < std::min(worst.size(), max_halved); ++i) {
+    const int chart = worst[i].second;
+    if (charts_[chart]->chart.faces.size() < 2) continue;
+    searches.emplace_back([&, chart] { return halve(chart); });
+    if (seams_.self_mirrored(chart, chart_of_face_)) {
+      searches.emplace_back([&, chart] { return seams_.cut_along_axis(separable(chart)); });
+    }
+  }
+  return found_by(searches);
+}
+
+SeamEdges CutCandidates::halve(int chart) const {
+  const SeparableFaces& faces = separable(chart);
+  const std::vector<int> all = all_of(faces);
+  const int one = farthest_face(faces, all, all.front());
+  const int two = farthest_face(faces, all, one);
+  return one == two ? SeamEdges{} : seams_.cut_apart(faces, {one}, {two}, chart, chart_of_face_);
+}
+
+SeamEdges CutCandidates::halve_unsolved() const {
+  std::vector<std::function<SeamEdges()>> searches;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (!charts_[i]->solved && is_first_of_mirrored(chart)) searches.emplace_back([&, chart] { return halve(chart); });
+  }
+  SeamEdges all;
+  for (const SeamEdges& cut : found_by(searches)) all.insert(all.end(), cut.begin(), cut.end());
+  return all;
+}
+
+SeamEdges CutCandidates::blind_cut() const {
+  std::vector<int> cut_vertices;
+  for (const auto& edge : seams_.graph().edges()) {
+    if (edge.cut) cut_vertices.insert(cut_vertices.end(), edge.vertices.begin(), edge.vertices.end());
+  }
+  const std::vector<double> distance = seams_.graph().distances(cut_vertices, [](int) { return true; });
+  int vertex = -1;
+  int chart = -1;
+  int last_hopeless = -1;
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (!map_quality({charts_[i]}, 2).hopeless()) continue;
+    if (charts_[i]->chart.faces.size() > 1) last_hopeless = static_cast<int>(i);
+    for (const int v : charts_[i]->chart.vertices) {
+      if (!(distance[v] > 0) || !std::isfinite(distance[v])) continue;
+      if (vertex >= 0 && distance[v] <= distance[vertex]) continue;
+      vertex = v;
+      chart = static_cast<int>(i);
+    }
+  }
+  SeamEdges cut;
+  if (vertex >= 0) {
+    if (seams_.self_mirrored(chart, chart_of_face_)) vertex = seams_.on_positive_side(vertex);
+    cut = seams_.cut_to(vertex, false, chart, chart_of_face_);
+  }
+  return cut.empty() && last_hopeless >= 0 ? halve(last_hopeless) : cut;
+}
+
+/// The areas of a chart that is not solved are those of its polygons.
+const SeparableFaces& CutCandidates::separable(int chart) const {
+  const std::lock_guard<std::mutex> lock(mutexes_[static_cast<std::size_t>(chart)]);
+  std::unique_ptr<const SeparableFaces>& result = separable_[static_cast<std::size_t>(chart)];
+  if (result) return *result;
+  const Piece& piece = seams_.piece();
+  const TrialMap& mapped = *charts_[chart];
+  std::vector<double> areas;
+  if (mapped.solved) areas = mapped.area;
+  std::vector<Eigen::Vector3d> centres;
+  centres.reserve(mapped.chart.faces.size());
+  for (const int face : mapped.chart.faces) {
+    still_working(100);
+    const Positions corners = piece.corners(face);
+    centres.emplace_back(corners.colwise().mean());
+    if (!mapped.solved) areas.push_back(0.5 * polygon_normal(corners, corners.row(0).transpose()).norm());
+  }
+  result =
+      std::make_unique<const SeparableFaces>(seams_.graph(), mapped.chart.faces, std::move(areas), std::move(centres));
+  return *result;
+}
+
+}  // namespace spectral_conformal

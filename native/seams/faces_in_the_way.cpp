@@ -1,0 +1,151 @@
+#include "seams/faces_in_the_way.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "geometry/box_tree.h"
+#include "geometry/quad_splits.h"
+#include "graph/disjoint_sets.h"
+#include "quality/overlap.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The images of some faces of a chart.
+class FaceImages {
+ public:
+  /// some: ascending.
+  FaceImages(const TrialMap& mapped, const std::vector<int>& some)
+      : map_(mapped.z), faces_(some), first_(some.size() + 1, 0) {
+    const Chart& chart = mapped.chart;
+    for (const int t : mapped_triangulation(chart.triangles, chart.triangle_weights, map_)) {
+      const int i = index(chart.triangle_face[static_cast<std::size_t>(t)]);
+      if (i < 0) continue;
+      triangles_.push_back(chart.triangles[static_cast<std::size_t>(t)]);
+      first_[static_cast<std::size_t>(i) + 1] = static_cast<int>(triangles_.size());
+    }
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] = std::max(first_[i], first_[i - 1]);
+  }
+
+  /// Those of some faces, ascending, that cover part of each other's image.
+  std::vector<int> overlapping(const std::vector<int>& some) const {
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<int> face;
+    for (const int f : some) {
+      for_each_triangle(f, [&](const std::array<int, 3>& triangle) {
+        triangles.push_back(triangle);
+        face.push_back(f);
+      });
+    }
+    const std::vector<bool> overlaps = overlapping_triangles(triangles, map_, face);
+    std::vector<int> result;
+    for (std::size_t t = 0; t < face.size(); ++t) {
+      if (overlaps[t] && (result.empty() || result.back() != face[t])) result.push_back(face[t]);
+    }
+    return result;
+  }
+
+  /// Some faces, ascending, in sets that cannot overlap each other, each ascending.
+  std::vector<std::vector<int>> apart(const std::vector<int>& some) const {
+    std::vector<PlaneBox> boxes;
+    boxes.reserve(some.size());
+    for (const int f : some) boxes.push_back(box(f));
+    const BoxTree tree(boxes);
+    DisjointSets sets(static_cast<int>(some.size()));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      tree.for_each_meeting(boxes[i], [&](int other) {
+        sets.unite(static_cast<int>(i), other);
+        return true;
+      });
+    }
+    std::vector<std::vector<int>> result;
+    std::vector<int> number(some.size(), -1);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      int& set = number[static_cast<std::size_t>(sets.find(static_cast<int>(i)))];
+      if (set < 0) {
+        set = static_cast<int>(result.size());
+        result.emplace_back();
+      }
+      result[static_cast<std::size_t>(set)].push_back(some[i]);
+    }
+    return result;
+  }
+
+ private:
+  int index(int face) const {
+    const auto at = std::lower_bound(faces_.begin(), faces_.end(), face);
+    return at == faces_.end() || *at != face ? -1 : static_cast<int>(at - faces_.begin());
+  }
+  template <class Visit>
+  void for_each_triangle(int face, const Visit& visit) const {
+    const auto i = static_cast<std::size_t>(index(face));
+    for (int t = first_[i]; t < first_[i + 1]; ++t) visit(triangles_[static_cast<std::size_t>(t)]);
+  }
+  PlaneBox box(int face) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    PlaneBox result{{infinite, infinite}, {-infinite, -infinite}};
+    for_each_triangle(face, [&](const std::array<int, 3>& triangle) {
+      for (const int v : triangle) {
+        const std::array<double, 2> point{map_[v].real(), map_[v].imag()};
+        result.include({point, point});
+      }
+    });
+    return result;
+  }
+
+  const ComplexVector& map_;
+  const std::vector<int>& faces_;
+  std::vector<int> first_;  ///< per face its first triangle, and at last how many there are
+  std::vector<std::array<int, 3>> triangles_;
+};
+
+std::vector<int> without(const std::vector<int>& faces, const std::vector<int>& some) {
+  std::vector<int> result;
+  std::set_difference(faces.begin(), faces.end(), some.begin(), some.end(), std::back_inserter(result));
+  return result;
+}
+
+/// Takes parts out of faces that overlap, smaller ones first, until none of the others do.
+void take_out(const SeparableFaces& faces, const FaceImages& images, std::vector<int> left, std::vector<int>& result) {
+  std::vector<std::vector<int>> parts = connected_parts(faces, left);
+  std::reverse(parts.begin(), parts.end());
+  for (const bool by_faces : {false, true}) {
+    for (std::vector<int>& part : parts) {
+      std::sort(part.begin(), part.end());
+      // A part that covers itself loses its faces one by one, until the others have room.
+      const std::size_t step = by_faces ? 1 : part.size();
+      for (std::size_t first = 0; first < part.size() && !left.empty(); first += step) {
+        const auto begin = part.begin() + static_cast<std::ptrdiff_t>(first);
+        const std::vector<int> some(begin, begin + static_cast<std::ptrdiff_t>(step));
+        const std::vector<int> others = without(left, some);
+        still_working(1000.0 * static_cast<double>(left.size()));
+        if (others.size() == left.size()) continue;
+        std::vector<int> still = images.overlapping(others);
+        if (still.size() == others.size()) continue;
+        result.insert(result.end(), some.begin(), some.end());
+        left = std::move(still);
+      }
+    }
+  }
+  // Whatever could not be told apart.
+  result.insert(result.end(), left.begin(), left.end());
+}
+
+}  // namespace
+
+std::vector<int> faces_in_the_way(const SeparableFaces& faces, const TrialMap& mapped,
+                                  const std::vector<int>& defective) {
+  const FaceImages images(mapped, defective);
+  std::vector<int> result = mapped.flipped;
+  const std::vector<int> overlapping = images.overlapping(without(defective, mapped.flipped));
+  for (std::vector<int>& some : images.apart(overlapping)) take_out(faces, images, std::move(some), result);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,193 @@
+#include "seams/handle_cuts.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
+#include "concurrency/work_counter.h"
+#include "graph/disjoint_sets.h"
+#include "seams/cut_surface.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Bases of the generator loops for a surface with one handle curve, fewer with more: several give shorter loops, and
+/// with many handles each base passes near enough.
+constexpr int max_bases = 8;
+
+/// Edges by the number of times modulo two that they are on the paths from both ends of `edge` to the root, and `edge`.
+std::vector<int> loop_through(const SeamGraph& graph, const std::vector<int>& parent, int edge) {
+  std::set<int> loop{edge};
+  for (int v : graph.edges()[edge].vertices) {
+    while (parent[v] >= 0) {
+      const int step = parent[v];
+      count_steps(1);
+      still_working(300);
+      if (!loop.insert(step).second) loop.erase(step);
+      v = graph.edges()[step].other_end(v);
+    }
+  }
+  std::vector<int> result;
+  std::copy_if(loop.begin(), loop.end(), std::back_inserter(result), [&](int e) { return !graph.edges()[e].cut; });
+  return result;
+}
+
+/// Cheapest first; of equal cost in the order that they are in.
+void sort_by_cost(const SeamGraph& graph, std::vector<std::vector<int>>& loops) {
+  std::vector<std::pair<double, std::vector<int>>> costs;
+  costs.reserve(loops.size());
+  for (auto& loop : loops) {
+    double cost = 0;
+    for (const int edge : loop) cost += graph.edges()[edge].cost;
+    costs.emplace_back(cost, std::move(loop));
+  }
+  std::stable_sort(costs.begin(), costs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = std::move(costs[i].second);
+}
+
+/// Vertices far from each other, the first one far from vertex 0's component's start.
+std::vector<int> spread_vertices(const SeamGraph& graph, int count) {
+  std::vector<int> result;
+  const auto everywhere = [](int) { return true; };
+  std::vector<int> sources{graph.edges().front().vertices[0]};
+  for (int i = 0; i < count; ++i) {
+    const std::vector<double> distance = graph.distances(sources, everywhere);
+    int farthest = sources.front();
+    for (int v = 0; v < graph.n_vertices(); ++v) {
+      if (distance[v] > distance[farthest] && graph.adjacency().first_arc(v) < graph.adjacency().first_arc(v + 1))
+        farthest = v;
+    }
+    if (i == 0) sources.clear();
+    sources.push_back(farthest);
+    result.push_back(farthest);
+  }
+  return result;
+}
+
+/// The closed curves of edges that are their own mirror images, where no more than two of them meet.
+std::vector<std::vector<int>> self_mirrored_loops(const SeamGraph& graph, const std::function<int(int)>& mirror_edge) {
+  const int n_edges = static_cast<int>(graph.edges().size());
+  std::vector<int> degree(static_cast<std::size_t>(graph.n_vertices()), 0);
+  DisjointSets sets(graph.n_vertices());
+  std::vector<int> own;
+  for (int e = 0; e < n_edges; ++e) {
+    still_working(100);
+    if (graph.edges()[e].cut || mirror_edge(e) != e) continue;
+    own.push_back(e);
+    for (const int v : graph.edges()[e].vertices) ++degree[v];
+    sets.unite(graph.edges()[e].vertices[0], graph.edges()[e].vertices[1]);
+  }
+  std::vector<std::vector<int>> parts(static_cast<std::size_t>(graph.n_vertices()));
+  for (const int e : own) parts[sets.find(graph.edges()[e].vertices[0])].push_back(e);
+  std::vector<std::vector<int>> loops;
+  for (auto& part : parts) {
+    const bool closed = std::all_of(part.begin(), part.end(), [&](int e) {
+      return degree[graph.edges()[e].vertices[0]] == 2 && degree[graph.edges()[e].vertices[1]] == 2;
+    });
+    if (!part.empty() && closed) loops.push_back(std::move(part));
+  }
+  return loops;
+}
+
+/// Cuts along those loops that open handles, in their order, and adds them to `cuts`. Loops may end as paths between
+/// cuts made before: if `may_join`, such a path joins the boundaries at its ends where it opens no handle yet.
+/// Together, loops of one base leave no handle then: without them the surface is a disk, with or without holes.
+void cut_along(CutSurface& surface, const std::vector<std::vector<int>>& loops, bool may_join,
+               std::vector<std::vector<int>>& cuts) {
+  for (std::size_t n = cuts.size() + 1; surface.handle_curves() > 0 && cuts.size() != n;) {
+    n = cuts.size();
+    for (const auto& loop : loops) {
+      if (surface.handle_curves() == 0) return;
+      if (!loop.empty() && surface.try_cut(loop, may_join)) cuts.push_back(loop);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> generator_loops(const SeamGraph& graph, int n_faces, int base) {
+  const auto& edges = graph.edges();
+  const int n_edges = static_cast<int>(edges.size());
+  std::vector<int> parent;
+  const std::vector<double> distance = graph.distances(
+      {base}, [](int) { return true; }, &parent);
+  std::vector<char> in_tree(edges.size(), 0);
+  for (const int edge : parent) {
+    if (edge >= 0) in_tree[edge] = 1;
+  }
+  // Connected cuts are closed by a cap, a face of its own in the dual graph.
+  DisjointSets cuts(graph.n_vertices());
+  for (const auto& edge : edges) {
+    if (edge.cut) cuts.unite(edge.vertices[0], edge.vertices[1]);
+  }
+  DisjointSets cotree(n_faces + graph.n_vertices());
+  const auto join = [&](int e) {
+    const auto& edge = edges[e];
+    if (!edge.cut) return cotree.unite(edge.faces[0], edge.faces[1]);
+    bool joined = false;
+    for (const int face : edge.faces) {
+      if (face >= 0 && cotree.unite(face, n_faces + cuts.find(edge.vertices[0]))) joined = true;
+    }
+    return joined;
+  };
+  std::vector<int> order;
+  for (int e = 0; e < n_edges; ++e) {
+    if (in_tree[e] == 0) order.push_back(e);
+  }
+  const auto loop_length = [&](int e) {
+    return distance[edges[e].vertices[0]] + distance[edges[e].vertices[1]] + edges[e].cost;
+  };
+  call_while_listening(500.0 * static_cast<double>(order.size()), [&] {
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return loop_length(a) != loop_length(b) ? loop_length(a) > loop_length(b) : a < b; });
+  });
+  std::vector<std::vector<int>> loops;
+  for (const int e : order) {
+    still_working(100);
+    if (!join(e)) loops.push_back(loop_through(graph, parent, e));
+  }
+  std::reverse(loops.begin(), loops.end());
+  return loops;
+}
+
+std::vector<std::vector<int>> handle_cuts(const PolygonMesh& mesh, const SeamGraph& graph,
+                                          const std::function<int(int edge)>& mirror_edge) {
+  const ChartDecomposition decomposition = build_charts(mesh);
+  std::vector<std::vector<int>> result;
+  if (decomposition.charts.size() != 1) return result;
+  CutSurface surface(mesh, graph, decomposition.charts.front());
+  if (surface.handle_curves() == 0) return result;
+  std::vector<std::vector<int>> loops = self_mirrored_loops(graph, mirror_edge);
+  const std::vector<int> bases = spread_vertices(graph, std::max(1, max_bases / surface.handle_curves()));
+  for (const int base : bases) {
+    for (auto& loop : generator_loops(graph, mesh.n_faces, base)) loops.push_back(std::move(loop));
+  }
+  sort_by_cost(graph, loops);
+  for (const bool mirrored : {true, false}) {
+    for (const auto& loop : loops) {
+      if (surface.handle_curves() == 0) return result;
+      std::set<int> cut(loop.begin(), loop.end());
+      for (const int edge : loop) {
+        const int image = mirrored ? mirror_edge(edge) : -1;
+        if (image >= 0) cut.insert(image);
+      }
+      std::vector<int> edges(cut.begin(), cut.end());
+      if (!edges.empty() && surface.try_cut(edges)) result.push_back(std::move(edges));
+    }
+  }
+  cut_along(surface, loops, true, result);
+  if (surface.handle_curves() == 0) return result;
+  // Loops of several bases, and images, may be in each other's way: begin again with those of one.
+  CutSurface uncut(mesh, graph, decomposition.charts.front());
+  std::vector<std::vector<int>> from_one_base;
+  loops = generator_loops(graph, mesh.n_faces, bases.front());
+  cut_along(uncut, loops, false, from_one_base);
+  cut_along(uncut, loops, true, from_one_base);
+  return uncut.handle_curves() < surface.handle_curves() ? from_one_base : result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,307 @@
+#include "seams/piece_seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "mesh/boundary_loops.h"
+#include "seams/handle_cuts.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Edges of the mirror plane are where artists look for seams first. A matter of taste: without the discount seams are
+/// 2 % shorter on 12 meshes at the same distortion, at 0.5 they are 3 % longer.
+constexpr double axis_discount = 0.7;
+/// No island gets less than this fraction of the area of the chart that it is cut from: crumbs are hard to texture.
+constexpr double min_island = 0.02;
+
+/// The edges between two of the faces for which is_wanted(arc of the dual graph, the face that it leaves), ascending.
+template <class IsWanted>
+SeamEdges sorted_edges(const SeparableFaces& faces, const IsWanted& is_wanted) {
+  SeamEdges result;
+  for (int face = 0; face < faces.dual.n_nodes(); ++face) {
+    for (const auto& arc : faces.dual.arcs(face)) {
+      if (face < arc.to && is_wanted(arc, face)) result.push_back(arc.edge);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace
+
+PieceSeams::PieceSeams(const Piece& piece, int index, PieceMirror mirror, const MirrorSymmetry& symmetry)
+    : piece_(&piece),
+      graph_(piece.view()),
+      mirror_(std::move(mirror)),
+      symmetric_(mirror_.image == index),
+      side_(piece.vertices.size(), 0) {
+  if (!symmetric_) return;
+  for (std::size_t v = 0; v < side_.size(); ++v) side_[v] = symmetry.side[piece.vertices[v]];
+  for (int e = 0; e < n_edges(); ++e) {
+    still_working(10);
+    if (along_axis(e)) graph_.scale_cost(e, axis_discount);
+  }
+}
+
+void PieceSeams::scale_costs(const std::vector<double>& factors) {
+  for (int e = 0; e < n_edges(); ++e) graph_.scale_cost(e, factors[static_cast<std::size_t>(e)]);
+}
+
+double PieceSeams::length(const SeamEdges& edges) const {
+  double sum = 0;
+  for (const int edge : edges) sum += graph_.edges()[edge].length;
+  return sum;
+}
+
+void PieceSeams::add(const SeamEdges& edges) {
+  for (const int edge : edges) {
+    graph_.cut(edge);
+    edges_.push_back(edge);
+  }
+}
+
+std::vector<std::array<int, 2>> PieceSeams::with(const SeamEdges& more) const {
+  std::vector<std::array<int, 2>> seams = piece_->seams;
+  for (const auto* edges : {&edges_, &more}) {
+    for (const int edge : *edges) seams.push_back(graph_.edges()[edge].vertices);
+  }
+  return seams;
+}
+
+void PieceSeams::remove(const SeamEdges& edges) {
+  const std::set<int> gone(edges.begin(), edges.end());
+  for (const int edge : edges) graph_.uncut(edge);
+  edges_.erase(std::remove_if(edges_.begin(), edges_.end(), [&](int edge) { return gone.count(edge) > 0; }),
+               edges_.end());
+}
+
+std::vector<std::array<int, 2>> PieceSeams::without(const SeamEdges& some) const {
+  const std::set<int> gone(some.begin(), some.end());
+  std::vector<std::array<int, 2>> seams = piece_->seams;
+  for (const int edge : edges_) {
+    if (gone.count(edge) == 0) seams.push_back(graph_.edges()[edge].vertices);
+  }
+  return seams;
+}
+
+std::vector<SeamEdges> PieceSeams::chains() const {
+  std::vector<int> degree(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (const auto& edge : graph_.edges()) {
+    for (const int v : edge.vertices) degree[static_cast<std::size_t>(v)] += edge.cut ? 1 : 0;
+  }
+  still_working(10.0 * static_cast<double>(graph_.edges().size()));
+  std::set<int> left(edges_.begin(), edges_.end());
+  std::vector<std::pair<double, SeamEdges>> found;
+  while (!left.empty()) {
+    SeamEdges chain{*left.begin()};
+    left.erase(left.begin());
+    for (std::size_t head = 0; head < chain.size(); ++head) {
+      for (const int v : graph_.edges()[chain[head]].vertices) {
+        if (degree[static_cast<std::size_t>(v)] != 2) continue;
+        for (const auto& arc : graph_.adjacency().arcs(v)) {
+          if (left.erase(arc.edge) > 0) chain.push_back(arc.edge);
+        }
+      }
+    }
+    const std::size_t n = chain.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const int image = mirror_edge(chain[i]);
+      if (image >= 0 && left.erase(image) > 0) chain.push_back(image);
+    }
+    std::sort(chain.begin(), chain.end());
+    const double total = length(chain);
+    found.emplace_back(total, std::move(chain));
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<SeamEdges> result;
+  result.reserve(found.size());
+  for (auto& chain : found) result.push_back(std::move(chain.second));
+  return result;
+}
+
+int PieceSeams::mirrored_chart(int chart, const FaceCharts& chart_of_face) const {
+  if (!symmetric_) return chart;
+  return chart_of_face[mirror_.face[static_cast<std::size_t>(chart_of_face.first_face(chart))]];
+}
+
+bool PieceSeams::self_mirrored(int chart, const FaceCharts& chart_of_face) const {
+  return symmetric_ && mirrored_chart(chart, chart_of_face) == chart;
+}
+
+int PieceSeams::on_positive_side(int vertex) const {
+  return symmetric_ && side_[vertex] < 0 ? mirror_.vertex[vertex] : vertex;
+}
+
+bool PieceSeams::along_axis(int edge) const {
+  return on_axis(graph_.edges()[edge].vertices[0]) && on_axis(graph_.edges()[edge].vertices[1]);
+}
+
+int PieceSeams::mirror_edge(int edge) const {
+  if (!symmetric_) return -1;
+  const auto [a, b] = graph_.edges()[edge].vertices;
+  return graph_.find_edge(mirror_.vertex[a], mirror_.vertex[b]);
+}
+
+SeamEdges PieceSeams::with_images(const SeamEdges& path) const {
+  SeamEdges result;
+  std::set<int> known;
+  for (const int edge : path) {
+    if (!graph_.edges()[edge].cut && known.insert(edge).second) result.push_back(edge);
+  }
+  if (!symmetric_) return result;
+  const std::size_t n = result.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int image = mirror_edge(result[i]);
+    if (image >= 0 && known.insert(image).second) result.push_back(image);
+  }
+  return result;
+}
+
+std::vector<SeamEdges> PieceSeams::open() {
+  std::vector<SeamEdges> cuts = handle_cuts(piece_->view(), graph_, [&](int edge) { return mirror_edge(edge); });
+  for (const SeamEdges& cut : cuts) add(cut);
+  if (std::none_of(graph_.edges().begin(), graph_.edges().end(), [](const auto& edge) { return edge.cut; })) {
+    cuts.push_back(first_slit());
+    add(cuts.back());
+  }
+  const SeamEdges bridge = symmetric_outer_loop();
+  if (!bridge.empty()) {
+    cuts.push_back(bridge);
+    add(bridge);
+  }
+  return cuts;
+}
+
+int PieceSeams::farthest_vertex(int source, bool on_axis_only) const {
+  const std::vector<double> distance =
+      graph_.distances({source}, [&](int edge) { return !on_axis_only || along_axis(edge); });
+  int farthest = source;
+  for (int v = 0; v < graph_.n_vertices(); ++v) {
+    if (std::isfinite(distance[v]) && distance[v] > distance[farthest]) farthest = v;
+  }
+  return farthest;
+}
+
+/// The slit that opens a surface without boundary: between vertices far apart, on the mirror plane if it has edges.
+SeamEdges PieceSeams::first_slit() {
+  int axis_edge = -1;
+  for (int e = 0; e < n_edges() && axis_edge < 0; ++e) {
+    if (along_axis(e)) axis_edge = e;
+  }
+  symmetric_ = symmetric_ && axis_edge >= 0;
+  const int one = farthest_vertex(graph_.edges()[symmetric_ ? axis_edge : 0].vertices[0], symmetric_);
+  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  target[farthest_vertex(one, symmetric_)] = 1;
+  return graph_.path(one, target, [&](int edge, int) { return !symmetric_ || along_axis(edge); });
+}
+
+SeamEdges PieceSeams::symmetric_outer_loop() const {
+  if (!symmetric_) return {};
+  PolygonMesh mesh = piece_->view();
+  const std::vector<std::array<int, 2>> seams = with({});
+  mesh.seam_edges = seams.data();
+  mesh.n_seam_edges = static_cast<int>(seams.size());
+  const ChartDecomposition decomposition = build_charts(mesh);
+  const Chart& chart = decomposition.charts.front();
+  if (chart.boundary_loops.size() < 2) return {};
+  const int outer = outer_loop(chart.boundary_loops, chart.positions(mesh));
+  std::set<int> loop;
+  for (const int v : chart.boundary_loops[static_cast<std::size_t>(outer)]) loop.insert(chart.vertices[v]);
+  const int start = *loop.begin();
+  if (loop.count(mirror_.vertex[start]) > 0) return {};
+  std::vector<char> axis(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (int v = 0; v < graph_.n_vertices(); ++v) axis[v] = on_axis(v) ? 1 : 0;
+  return with_images(graph_.path(on_positive_side(start), axis,
+                                 [&](int e, int from) { return side_[graph_.edges()[e].other_end(from)] >= 0; }));
+}
+
+bool PieceSeams::in_chart(int edge, int chart, const FaceCharts& chart_of_face) const {
+  const auto& faces = graph_.edges()[edge].faces;
+  return std::any_of(faces.begin(), faces.end(), [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
+}
+
+std::vector<double> PieceSeams::distances_to_cuts(int chart, const FaceCharts& chart_of_face) const {
+  std::vector<int> sources;
+  still_working(10.0 * n_edges());
+  for (int e = 0; e < n_edges(); ++e) {
+    const auto& edge = graph_.edges()[e];
+    if (edge.cut && in_chart(e, chart, chart_of_face))
+      sources.insert(sources.end(), edge.vertices.begin(), edge.vertices.end());
+  }
+  return graph_.distances(sources, [&](int edge) { return in_chart(edge, chart, chart_of_face); });
+}
+
+SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const {
+  const bool halved = self_mirrored(chart, chart_of_face);
+  std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);
+  for (const auto& edge : graph_.edges()) {
+    if (edge.cut) target[edge.vertices[0]] = target[edge.vertices[1]] = 1;
+  }
+  std::vector<char> own_loop(target.size(), 0);
+  if (on_loop) {
+    const std::vector<double> along = graph_.distances({vertex}, [&](int edge) { return graph_.edges()[edge].cut; });
+    for (std::size_t v = 0; v < along.size(); ++v) {
+      if (!std::isfinite(along[v])) continue;
+      own_loop[v] = 1;
+      target[v] = 0;
+    }
+  }
+  const bool own_loop_halved = halved && on_loop && own_loop[mirror_.vertex[vertex]] != 0;
+  const auto allowed = [&](int e, int from) {
+    if (!in_chart(e, chart, chart_of_face)) return false;
+    const auto& edge = graph_.edges()[e];
+    if (!halved || edge.cut) return true;
+    const int to = edge.other_end(from);
+    // A path that leaves the mirror plane, or its own loop beside it, would enclose an island with its image.
+    if (side_[to] < 0 || (on_axis(from) && !on_axis(to))) return false;
+    return !(own_loop_halved && own_loop[from] != 0 && !on_axis(from));
+  };
+  return with_images(graph_.path(vertex, target, allowed));
+}
+
+SeamEdges PieceSeams::cut_along_axis(const SeparableFaces& faces) const {
+  return sorted_edges(faces, [&](const Adjacency::Arc& arc, int) { return along_axis(arc.edge); });
+}
+
+/// Makes a side that is mostly its own mirror image symmetric, and any other one disjoint from its image.
+void PieceSeams::clear_of_image(const SeparableFaces& faces, std::vector<char>& side) const {
+  const std::vector<char> whole = side;
+  const auto shared = [&](std::size_t f) {
+    const int image = faces.index(mirror_.face[static_cast<std::size_t>(faces.faces[f])]);
+    return whole[f] != 0 && image >= 0 && whole[static_cast<std::size_t>(image)] != 0;
+  };
+  double own_area = 0;
+  double shared_area = 0;
+  for (std::size_t f = 0; f < side.size(); ++f) {
+    own_area += whole[f] != 0 ? faces.area[f] : 0;
+    shared_area += shared(f) ? faces.area[f] : 0;
+  }
+  for (std::size_t f = 0; f < side.size(); ++f) {
+    side[f] = 2 * shared_area > own_area ? shared(f) : whole[f] != 0 && !shared(f);
+  }
+}
+
+SeamEdges PieceSeams::cut_apart(const SeparableFaces& faces, const std::vector<int>& sources,
+                                const std::vector<int>& sinks, int chart, const FaceCharts& chart_of_face) const {
+  std::vector<char> side = separating_side(faces, sources, sinks, min_island);
+  if (self_mirrored(chart, chart_of_face)) clear_of_image(faces, side);
+  return between_sides(faces, side);
+}
+
+SeamEdges PieceSeams::border(const SeparableFaces& faces, const std::vector<int>& some) const {
+  std::vector<char> side(faces.size(), 0);
+  for (const int face : some) side[static_cast<std::size_t>(face)] = 1;
+  return between_sides(faces, side);
+}
+
+SeamEdges PieceSeams::between_sides(const SeparableFaces& faces, const std::vector<char>& side) const {
+  return with_images(sorted_edges(faces, [&](const Adjacency::Arc& arc, int from) {
+    return side[static_cast<std::size_t>(from)] != side[static_cast<std::size_t>(arc.to)];
+  }));
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,219 @@
+#include "seams/piece_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "concurrency/parallel_calls.h"
+#include "seams/carried_seams.h"
+#include "seams/seam_preferences.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Of one level; far above what any took (at most 112 on the meshes of the tests): a bound, not a limit.
+constexpr int max_steps = 1000;
+/// Seams of pieces with more vertices are looked for on a coarse copy first, then carried over to finer ones and to the
+/// piece, each of which has at most `level_ratio` times as many vertices.
+constexpr int max_searched = 6000;
+/// A smaller piece, down to `min_copied` vertices, gets coarse copies once its search has solved for this number of
+/// vertices: seams found on copies were 9 % longer on meshes whose search ends before, but 9 % shorter, in less than
+/// half the time, on bodies with many limbs.
+constexpr std::int64_t patience = 220000;
+constexpr int min_copied = 2048;
+constexpr int level_ratio = 4;
+constexpr int coarse_vertices = 1000;
+/// Of larger pieces no more than has to be is solved for at their finer levels: on a sword of 22,000 vertices such
+/// haste saved nothing and left the energy above its limit. So it is with those of which a large mesh has many, each of
+/// which takes a second or two.
+constexpr int large_piece = 60000;
+constexpr std::size_t large_mesh = 200000;
+/// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
+/// finer ones have more of it with the same seams, and to cut them further takes longer.
+constexpr double coarse_energy = 0.85;
+/// About what it takes per vertex to look for small holes, and per corner to price edges.
+constexpr double filling_nanoseconds = 3000;
+constexpr double pricing_nanoseconds = 500;
+
+SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
+  options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
+  return options;
+}
+
+}  // namespace
+
+SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredPieces& parts,
+                           const std::vector<int>& given_vertices)
+    : options(options), parts(parts), given_vertices(given_vertices), coarse_options(with_less_energy(options)) {
+  if (!(options.qc_gain > 0)) return;
+  for (const Piece& piece : parts.pieces) {
+    const double piece_area = piece.area();
+    if (std::isfinite(piece_area)) area += piece_area;
+  }
+}
+
+PieceSearch::PieceSearch(const SearchedMesh& mesh, int index) : mesh_(mesh), index_(index) {}
+
+const Piece& PieceSearch::piece() const { return mesh_.parts.pieces[static_cast<std::size_t>(index_)]; }
+
+const PieceMirror& PieceSearch::mirror() const { return mesh_.parts.mirrors[static_cast<std::size_t>(index_)]; }
+
+int PieceSearch::n_vertices() const { return static_cast<int>(piece().vertices.size()); }
+
+bool PieceSearch::is_large() const { return n_vertices() > large_piece; }
+
+void PieceSearch::begin(const Progress& progress) {
+  if (n_vertices() > max_searched) make_levels(progress);
+  open(progress);
+}
+
+void PieceSearch::step(double longest, const Progress& progress) {
+  ++steps_;
+  const double before = urgency();
+  SeamEdges cut = cutter_->step(longest, progress);
+  if (!cut.empty()) cuts_.push_back({std::move(cut), before});
+  const bool ended = cutter_->finished() || steps_ >= max_steps;
+  if (ended && levels_.empty()) {
+    finish();
+  } else if (ended) {
+    refine(progress);
+  } else if (takes_too_long()) {
+    begin_again_on_copies(progress);
+  }
+}
+
+double PieceSearch::urgency() const {
+  const MapQuality& quality = cutter_->quality();
+  return quality.solved ? quality.distortion() * quality.area : quality.distortion();
+}
+
+/// Copies of a large piece, each with fewer vertices than the one before.
+void PieceSearch::make_levels(const Progress& progress) {
+  began_on_copies_ = true;
+  // Coarse seams are shorter than those that they become, so that a limit of the length could not be kept.
+  if (std::isfinite(mesh_.options.max_length)) return;
+  const bool is_own_image = mirror().image == index_;
+  const Piece* finer = &piece();
+  const PieceMirror* finer_mirror = &mirror();
+  call_while_listening(filling_nanoseconds * n_vertices(),
+                       [&] { filled_ = fill_small_holes(piece(), index_, mirror()); });
+  if (filled_) {
+    finer = &filled_->piece;
+    finer_mirror = &filled_->mirror;
+  }
+  int n = n_vertices();
+  while (n > coarse_vertices) {
+    n = n / level_ratio > 2 * coarse_vertices ? n / level_ratio : coarse_vertices;
+    std::vector<signed char> side;
+    std::vector<double> preference;
+    for (const int v : finer->vertices) {
+      if (is_own_image) side.push_back(mesh_.parts.symmetry.side[v]);
+      if (mesh_.options.vertex_preference == nullptr) continue;
+      preference.push_back(mesh_.options.vertex_preference[mesh_.given_vertices[static_cast<std::size_t>(v)]]);
+    }
+    levels_.push_back(
+        std::make_unique<CoarsePiece>(coarse_piece(*finer, index_, *finer_mirror, side, preference, n, progress)));
+    finer = &levels_.back()->piece;
+    finer_mirror = &levels_.back()->mirror;
+  }
+}
+
+/// The coarsest copy that there is.
+void PieceSearch::open(const Progress& progress) {
+  report(progress, 0, "seams");
+  PieceSeams seams = unseamed();
+  for (SeamEdges& cut : seams.open()) {
+    if (!cut.empty()) cuts_.push_back({std::move(cut), std::numeric_limits<double>::infinity()});
+  }
+  cutter_ = cutter(std::move(seams), false);
+  cutter_->solve(progress);
+}
+
+bool PieceSearch::takes_too_long() const {
+  return levels_.empty() && !began_on_copies_ && n_vertices() > min_copied && cutter_->solved_vertices() > patience;
+}
+
+void PieceSearch::begin_again_on_copies(const Progress& progress) {
+  make_levels(progress);
+  if (levels_.empty()) return;
+  cuts_.clear();
+  steps_ = 0;
+  open(progress);
+}
+
+std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
+  const bool is_one_of_many = mesh_.given_vertices.size() > large_mesh && n_vertices() > max_searched;
+  return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
+                                  Cutter::Stage{n_vertices(), refined, is_large() || is_one_of_many, mesh_.area});
+}
+
+/// The coarsest level that is left, without seams.
+PieceSeams PieceSearch::unseamed() const {
+  return levels_.empty() ? priced(piece(), mirror()) : priced(levels_.back()->piece, levels_.back()->mirror);
+}
+
+/// Without seams yet.
+PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) const {
+  std::optional<PieceSeams> made;
+  call_while_listening(pricing_nanoseconds * static_cast<double>(piece.corner_vertices.size()),
+                       [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
+  PieceSeams seams = std::move(*made);
+  std::vector<int> given_vertices;
+  given_vertices.reserve(piece.vertices.size());
+  for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);
+  seams.scale_costs(cost_factors(mesh_.options, seams.graph(), given_vertices));
+  return seams;
+}
+
+/// Goes on with the next finer level, cut as the one before.
+void PieceSearch::refine(const Progress& progress) {
+  const std::unique_ptr<CoarsePiece> coarse = std::move(levels_.back());
+  levels_.pop_back();
+  steps_ = 0;
+  const bool was_filled = levels_.empty() && filled_;
+  PieceSeams seams = was_filled ? priced(filled_->piece, filled_->mirror) : unseamed();
+  std::vector<SeamEdges> found;
+  for (const FoundCut& cut : cuts_) found.push_back(cut.edges);
+  std::vector<SeamEdges> carried = carry_seams(*coarse, cutter_->seams(), found, seams);
+  if (was_filled) {
+    seams = with_holes(seams, carried);
+    filled_.reset();
+  }
+  for (std::size_t k = 0; k < cuts_.size(); ++k) cuts_[k].edges = std::move(carried[k]);
+  cutter_ = cutter(std::move(seams), true);
+  cutter_->solve(progress);
+}
+
+/// The seams of a filled piece on the piece itself, whose edges have the same numbers. Those around holes are left out.
+PieceSeams PieceSearch::with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const {
+  PieceSeams seams = unseamed();
+  if (!filled.is_symmetric()) seams.forget_symmetry();
+  for (SeamEdges& cut : cuts) {
+    cut.erase(std::remove_if(cut.begin(), cut.end(), [&](int edge) { return seams.graph().edges()[edge].cut; }),
+              cut.end());
+    seams.add(cut);
+  }
+  return seams;
+}
+
+/// Keeps what was found, and gives the memory of the search back.
+void PieceSearch::finish() {
+  const PieceSeams& seams = cutter_->seams();
+  const std::set<int> left(seams.edges().begin(), seams.edges().end());
+  for (const FoundCut& found : cuts_) {
+    Cut cut{{}, found.urgency};
+    for (const int e : found.edges) {
+      if (left.count(e) > 0) cut.edges.push_back(seams.graph().edges()[e].vertices);
+    }
+    if (!cut.edges.empty()) result_.push_back(std::move(cut));
+  }
+  length_ = length();
+  cuts_.clear();
+  cutter_.reset();
+}
+
+}  // namespace spectral_conformal

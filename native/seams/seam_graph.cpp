@@ -1,0 +1,199 @@
+#include "seams/seam_graph.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "concurrency/listening.h"
+#include "concurrency/work_counter.h"
+#include "geometry/polygon_normal.h"
+#include "graph/shortest_paths.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The discount of an edge folded by a right angle or more: concave and convex. A matter of taste, not of distortion:
+/// half of either changed length and distortion on 12 meshes by less than 6 %, but twice as much left a chart unsolved.
+constexpr double concave_discount = 0.5;
+constexpr double convex_discount = 0.25;
+/// The cost of turning back, in lengths of the two edges' mean: one edge, so that a detour of one is taken for a
+/// straight path. Half of it gave 9 % more charts on 12 meshes.
+constexpr double turn_back_cost = 1.0;
+/// Turns that a path is chosen by in one vertex: all of them where it has at most `many_edges`.
+constexpr int many_edges = 1024;
+constexpr int most_turns = many_edges * many_edges;
+/// About what a search takes to settle a node, with its arcs, and to look at a turn.
+constexpr double settling_nanoseconds = 500;
+constexpr double turning_nanoseconds = 20;
+
+struct FaceShape {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d centre;
+};
+
+/// The unit normal and the mean of the corners.
+FaceShape shape_of(const PolygonMesh& mesh, const Positions& positions, int face) {
+  const int first = mesh.face_offsets[face];
+  const int size = mesh.face_offsets[face + 1] - first;
+  Positions corners(size, 3);
+  FaceShape shape{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  for (int i = 0; i < size; ++i) {
+    corners.row(i) = positions.row(mesh.corner_vertices[first + i]);
+    shape.centre += corners.row(i).transpose() / size;
+  }
+  shape.normal = polygon_normal(corners, corners.row(0).transpose()).normalized();
+  return shape;
+}
+
+}  // namespace
+
+SeamGraph::SeamGraph(const PolygonMesh& mesh)
+    : positions_(Eigen::Map<const Positions>(mesh.positions, mesh.n_vertices, 3)) {
+  validate(mesh);
+  collect_edges(mesh);
+  std::vector<std::array<int, 2>> ends;
+  ends.reserve(edges_.size());
+  for (const Edge& edge : edges_) ends.push_back(edge.vertices);
+  adjacency_ = Adjacency(mesh.n_vertices, ends);
+  for (int i = 0; i < mesh.n_seam_edges; ++i) {
+    const int edge = find_edge(mesh.seam_edges[i][0], mesh.seam_edges[i][1]);
+    if (edge >= 0) cut(edge);
+  }
+  price_edges(mesh);
+}
+
+void SeamGraph::collect_edges(const PolygonMesh& mesh) {
+  struct Side {
+    std::array<int, 2> vertices;
+    int face;
+    bool operator<(const Side& other) const {
+      if (vertices[0] != other.vertices[0]) return vertices[0] < other.vertices[0];
+      return vertices[1] != other.vertices[1] ? vertices[1] < other.vertices[1] : face < other.face;
+    }
+  };
+  std::vector<Side> sides;
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    if (mesh.selected_faces != nullptr && !mesh.selected_faces[face]) continue;
+    const int first = mesh.face_offsets[face];
+    const int size = mesh.face_offsets[face + 1] - first;
+    still_working(30.0 * size);
+    for (int i = 0; i < size; ++i) {
+      const int a = mesh.corner_vertices[first + i];
+      const int b = mesh.corner_vertices[first + (i + 1) % size];
+      if (a != b) sides.push_back({{std::min(a, b), std::max(a, b)}, face});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i;
+    while (end < sides.size() && sides[end].vertices == sides[i].vertices) ++end;
+    still_working(50);
+    const auto [a, b] = sides[i].vertices;
+    const double length = (positions_.row(a) - positions_.row(b)).norm();
+    edges_.push_back({sides[i].vertices,
+                      {sides[i].face, end > i + 1 ? sides[i + 1].face : -1},
+                      length,
+                      length,
+                      end != i + 2,
+                      Eigen::Vector3d::Zero()});
+    i = end;
+  }
+  dual_ = Adjacency::from_arcs(mesh.n_faces, [&](auto&& visit) {
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (edges_[e].cut) continue;
+      const auto [one, other] = edges_[e].faces;
+      visit(one, static_cast<int>(e), other);
+      visit(other, static_cast<int>(e), one);
+    }
+  });
+}
+
+void SeamGraph::price_edges(const PolygonMesh& mesh) {
+  std::vector<FaceShape> shapes(static_cast<std::size_t>(mesh.n_faces));
+  for (int face = 0; face < mesh.n_faces; ++face) {
+    still_working(30.0 * (mesh.face_offsets[face + 1] - mesh.face_offsets[face]));
+    if (mesh.face_offsets[face + 1] > mesh.face_offsets[face]) shapes[face] = shape_of(mesh, positions_, face);
+  }
+  for (Edge& edge : edges_) {
+    still_working(30);
+    if (edge.cut) continue;
+    const FaceShape& left = shapes[edge.faces[0]];
+    const FaceShape& right = shapes[edge.faces[1]];
+    edge.normal = left.normal + right.normal;
+    const double fold = std::min(1 - left.normal.dot(right.normal), 1.0);
+    const Eigen::Vector3d middle = 0.5 * (positions_.row(edge.vertices[0]) + positions_.row(edge.vertices[1]));
+    const bool concave = left.normal.dot(right.centre - middle) > 0;
+    if (fold > 0) edge.cost *= 1 - fold * (concave ? concave_discount : convex_discount);
+  }
+}
+
+int SeamGraph::find_edge(int a, int b) const {
+  // Edges are numbered by their ends, the smaller first: those to smaller vertices come before those to larger ones.
+  const auto arcs = adjacency_.arcs(a);
+  const auto* const arc =
+      std::lower_bound(arcs.begin(), arcs.end(), b, [](const Adjacency::Arc& other, int to) { return other.to < to; });
+  return arc != arcs.end() && arc->to == b ? arc->edge : -1;
+}
+
+std::vector<double> SeamGraph::distances(const std::vector<int>& sources, const std::function<bool(int)>& allowed,
+                                         std::vector<int>* parent) const {
+  ShortestPathSearch search(n_vertices());
+  for (const int source : sources) search.offer(source, 0);
+  for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
+    still_working(settling_nanoseconds);
+    for (const auto& [edge, to] : adjacency_.arcs(vertex)) {
+      const double through = search.distance(vertex) + (edges_[edge].cut ? 0 : edges_[edge].cost);
+      if (search.improves(to, through) && allowed(edge)) search.offer(to, through, edge);
+    }
+  }
+  if (parent != nullptr) *parent = search.previous();
+  return search.distances();
+}
+
+double SeamGraph::turn_cost(int vertex, const Adjacency::Arc& in, const Adjacency::Arc& out) const {
+  const Edge& first = edges_[in.edge];
+  const Edge& second = edges_[out.edge];
+  if (first.cut || second.cut) return 0;
+  const int from = first.other_end(vertex);
+  const double lengths = first.length * second.length;
+  if (!(lengths > 0)) return 0;
+  const double cosine =
+      (positions_.row(vertex) - positions_.row(from)).dot(positions_.row(out.to) - positions_.row(vertex)) / lengths;
+  return turn_back_cost * 0.5 * (1 - cosine) * 0.5 * (first.length + second.length);
+}
+
+std::vector<int> SeamGraph::path(int start, const std::vector<char>& is_target,
+                                 const std::function<bool(int, int)>& allowed) const {
+  if (is_target[start] != 0) return {};
+  // The nodes of the search are arcs: what a turn costs depends on the edge that it comes from.
+  ShortestPathSearch search(adjacency_.n_arcs());
+  std::map<int, int> times_left;  // of vertices with many edges
+  double n_turns = 0;
+  const auto leave = [&](int vertex, int from_arc) {
+    const int n_edges = adjacency_.first_arc(vertex + 1) - adjacency_.first_arc(vertex);
+    if (n_edges > many_edges && ++times_left[vertex] > most_turns / n_edges + 1) return;
+    n_turns += n_edges;
+    still_working(settling_nanoseconds + turning_nanoseconds * n_edges);
+    for (int k = adjacency_.first_arc(vertex); k < adjacency_.first_arc(vertex + 1); ++k) {
+      const auto& out = adjacency_.arc(k);
+      if (!allowed(out.edge, vertex)) continue;
+      const double step = (edges_[out.edge].cut ? 0 : edges_[out.edge].cost) +
+                          (from_arc < 0 ? 0 : turn_cost(vertex, adjacency_.arc(from_arc), out));
+      search.offer(k, (from_arc < 0 ? 0 : search.distance(from_arc)) + step, from_arc);
+    }
+  };
+  leave(start, -1);
+  int arc = search.settle();
+  while (arc >= 0 && is_target[adjacency_.arc(arc).to] == 0) {
+    leave(adjacency_.arc(arc).to, arc);
+    arc = search.settle();
+  }
+  count_steps(n_turns);
+  std::vector<int> result;
+  for (int k = arc; k >= 0; k = search.previous(k)) result.push_back(adjacency_.arc(k).edge);
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace spectral_conformal

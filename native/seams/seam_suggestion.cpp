@@ -1,0 +1,256 @@
+#include "spectral_conformal/seam_suggestion.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "concurrency/parallel_calls.h"
+#include "concurrency/work_counter.h"
+#include "seams/canonical_mesh.h"
+#include "seams/piece_search.h"
+#include "seams/pieces.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// About what it takes per corner to bring a mesh into its canonical order, and to take it apart.
+constexpr double order_nanoseconds = 1000;
+constexpr double pieces_nanoseconds = 1000;
+
+bool has_extent(const Piece& piece) {
+  if (!piece.positions.allFinite()) return false;
+  const double extent = (piece.positions.colwise().maxCoeff() - piece.positions.colwise().minCoeff()).maxCoeff();
+  return extent > 0 && std::isfinite(extent);
+}
+
+MirroredPieces taken_apart(const CanonicalMesh& mesh, const Progress& progress) {
+  report(progress, 0.0, "charts");
+  std::optional<MirroredPieces> result;
+  const PolygonMesh view = mesh.view();
+  call_while_listening(pieces_nanoseconds * view.n_corners(), [&] { result.emplace(view); });
+  return std::move(*result);
+}
+
+/// What the pieces have of seams, and the sum, which follows a change by the sums of pairs, of pairs of these, and so
+/// on.
+class PieceLengths {
+ public:
+  explicit PieceLengths(std::size_t n) : n_(std::max<std::size_t>(n, 1)), sums_(2 * n_, 0) {}
+  void set(std::size_t piece, double length) {
+    std::size_t at = n_ + piece;
+    for (sums_[at] = length; at > 1; at /= 2) {
+      count_steps(1);
+      sums_[at / 2] = sums_[at & ~std::size_t{1}] + sums_[at | 1];
+    }
+  }
+  double sum() const { return sums_[1]; }
+
+ private:
+  std::size_t n_;
+  std::vector<double> sums_;  ///< from 1 on; those of the pieces from n on
+};
+
+/// The whole mesh in canonical order, and the searches of its pieces.
+class SeamFinder {
+ public:
+  SeamFinder(const CanonicalMesh& canonical, const SeamSuggestionOptions& options, const Progress& progress)
+      : options_(options),
+        progress_(progress),
+        mesh_vertices_(canonical.vertices()),
+        parts_(taken_apart(canonical, progress)),
+        searched_(options, parts_, mesh_vertices_) {
+    for (std::size_t i = 0; i < parts_.pieces.size(); ++i) {
+      // The first of two mirrored pieces does the work for both.
+      const int image = parts_.mirrors[i].image;
+      const bool is_image = image >= 0 && image < static_cast<int>(i);
+      const bool is_searched = has_extent(parts_.pieces[i]) && !is_image;
+      still_working(1000);
+      searches_.push_back(is_searched ? new_search(i) : nullptr);
+    }
+  }
+
+  SeamSuggestion run() {
+    if (std::isfinite(options_.max_length)) {
+      search_within_length();
+    } else {
+      search_each();
+    }
+    report(progress_, 1.0, "done");
+    const auto is_searched = [](const auto& search) { return search != nullptr; };
+    if (!given_up_.empty() && std::none_of(searches_.begin(), searches_.end(), is_searched)) throw std::bad_alloc();
+    return result();
+  }
+
+ private:
+  std::unique_ptr<PieceSearch> new_search(std::size_t i) const {
+    return std::make_unique<PieceSearch>(searched_, static_cast<int>(i));
+  }
+  /// The pieces have nothing to do with each other. The largest first: smaller ones fill the time until they are done.
+  void search_each() {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      if (searches_[i]) order.push_back(i);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+      return parts_.pieces[a].vertices.size() > parts_.pieces[b].vertices.size();
+    });
+    std::size_t n_large = 0;
+    for (; n_large < order.size() && searches_[order[n_large]]->is_large(); ++n_large) {
+      if (!has_memory_for(order[n_large], [&] { search(order[n_large], progress_); }))
+        given_up_.push_back(order[n_large]);
+    }
+    std::vector<char> is_left(order.size(), 0);
+    run_in_parallel(
+        static_cast<int>(order.size() - n_large),
+        [&](int k, const Progress& going_on) {
+          const std::size_t place = n_large + static_cast<std::size_t>(k);
+          is_left[place] = !has_memory_for(order[place], [&] { search(order[place], going_on); });
+        },
+        progress_, "seams", Cutter::max_threads);
+    const bool were_others = order.size() - n_large > 1;
+    for (std::size_t place = n_large; place < order.size(); ++place) {
+      if (!is_left[place]) continue;
+      const std::size_t i = order[place];
+      // Once more, alone.
+      if (were_others) searches_[i] = new_search(i);
+      if (!were_others || !has_memory_for(i, [&] { search(i, progress_); })) given_up_.push_back(i);
+    }
+  }
+  /// Does some work on the search of a piece, and gives what that takes back where it is too much; then returns false.
+  template <class Work>
+  bool has_memory_for(std::size_t i, const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const std::bad_alloc&) {
+      searches_[i].reset();
+      return false;
+    }
+  }
+  void search(std::size_t i, const Progress& going_on) {
+    PieceSearch& search = *searches_[i];
+    search.begin(quiet(going_on));
+    while (!search.finished()) {
+      ++steps_;
+      search.step(options_.max_length, quiet(going_on));
+    }
+  }
+  /// What topology needs, then always the most urgent cut, as long as there is length left.
+  void search_within_length() {
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      if (!searches_[i]) continue;
+      if (!has_memory_for(i, [&] { searches_[i]->begin(quiet(progress_)); })) given_up_.push_back(i);
+    }
+    PieceLengths lengths(searches_.size());
+    std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
+    const auto look_at = [&](std::size_t i) {
+      lengths.set(i, copies(i) * searches_[i]->length());
+      if (!searches_[i]->finished()) next.emplace(searches_[i]->urgency(), -static_cast<int>(i));
+    };
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      if (searches_[i]) look_at(i);
+    }
+    while (!next.empty()) {
+      const auto i = static_cast<std::size_t>(-next.top().second);
+      next.pop();
+      ++steps_;
+      const double length = (options_.max_length - lengths.sum()) / copies(i);
+      if (has_memory_for(i, [&] { searches_[i]->step(length, quiet(progress_)); })) {
+        look_at(i);
+      } else {
+        given_up_.push_back(i);
+        lengths.set(i, 0);
+      }
+    }
+  }
+  /// Solves report that they go on, not how far they are; the fraction done only rises.
+  Progress quiet(const Progress& progress) const {
+    return [this, &progress](double, const char*) {
+      return !progress || progress(1 - 0.98 / (1 + 0.1 * steps_), "seams");
+    };
+  }
+  int copies(std::size_t piece) const {
+    return parts_.mirrors[piece].image >= 0 && parts_.mirrors[piece].image != static_cast<int>(piece) ? 2 : 1;
+  }
+  /// The cuts of all pieces, always the most urgent one of those that are next.
+  SeamSuggestion result() const {
+    SeamSuggestion result;
+    std::set<std::array<int, 2>> proposed;
+    std::vector<std::size_t> taken(searches_.size(), 0);
+    std::priority_queue<std::pair<double, int>> next;  // the first piece first of equals
+    const auto queue = [&](std::size_t i) {
+      const std::vector<PieceSearch::Cut>& cuts = searches_[i]->cuts();
+      if (taken[i] < cuts.size()) next.emplace(cuts[taken[i]].urgency, -static_cast<int>(i));
+    };
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      if (searches_[i]) queue(i);
+    }
+    while (!next.empty()) {
+      const auto i = static_cast<std::size_t>(-next.top().second);
+      next.pop();
+      add(i, searches_[i]->cuts()[taken[i]++], proposed, result);
+      queue(i);
+    }
+    std::size_t largest = 0;
+    int n_given_up = 0;
+    for (const std::size_t i : given_up_) {
+      largest = std::max(largest, parts_.pieces[i].vertices.size());
+      n_given_up += copies(i);
+    }
+    if (n_given_up > 0) {
+      result.message = "There is too little memory to look for seams in " + std::to_string(n_given_up) +
+                       (n_given_up == 1 ? " part" : " parts") + " of the mesh, of up to " + std::to_string(largest) +
+                       " vertices; close other programs, or select fewer faces.";
+    }
+    return result;
+  }
+  void add(std::size_t i, const PieceSearch::Cut& cut, std::set<std::array<int, 2>>& proposed,
+           SeamSuggestion& result) const {
+    const std::vector<int>& vertices = parts_.pieces[i].vertices;
+    for (int copy = 0; copy < copies(i); ++copy) {
+      for (auto [a, b] : cut.edges) {
+        a = mesh_vertices_[copy == 0 ? vertices[a] : parts_.symmetry.vertex[vertices[a]]];
+        b = mesh_vertices_[copy == 0 ? vertices[b] : parts_.symmetry.vertex[vertices[b]]];
+        const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+        still_working(300);
+        // Pieces that meet in an edge of three or more faces may both propose it.
+        if (proposed.insert(edge).second) result.edges.push_back(edge);
+      }
+    }
+    const int end = static_cast<int>(result.edges.size());
+    if (end > result.cut_offsets.back()) result.cut_offsets.push_back(end);
+  }
+
+  const SeamSuggestionOptions& options_;
+  const Progress& progress_;
+  const std::vector<int>& mesh_vertices_;  ///< of the canonical ones
+  MirroredPieces parts_;
+  SearchedMesh searched_;
+  std::vector<std::unique_ptr<PieceSearch>> searches_;
+  std::vector<std::size_t> given_up_;  ///< pieces that there is too little memory for
+  std::atomic<int> steps_{0};          ///< by several threads at once
+};
+
+}  // namespace
+
+SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& given) {
+  const Listening listening(given, "charts");
+  const Progress& progress = listening.progress();
+  validate(mesh);
+  report(progress, 0.0, "charts");
+  std::optional<CanonicalMesh> canonical;
+  call_while_listening(order_nanoseconds * mesh.n_corners(), [&] { canonical.emplace(mesh); });
+  return SeamFinder(*canonical, options, progress).run();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,187 @@
+#include "concurrency/forest_schedule.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <numeric>
+
+#include "concurrency/helper_threads.h"
+#include "concurrency/listening.h"
+
+namespace spectral_conformal {
+
+ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost) {
+  // Enough subtrees for sixteen threads to end at about the same time.
+  constexpr double subtrees = 64;
+  const int n = static_cast<int>(parent.size());
+  std::vector<double> below = cost;  // of the subtree
+  for (int node = 0; node < n; ++node) {
+    if (parent[node] >= 0) below[parent[node]] += below[node];
+    cost_ += cost[node];
+  }
+  // The node that names the task: of a cheap subtree its root.
+  std::vector<int> head(n);
+  std::iota(head.begin(), head.end(), 0);
+  for (int node = n - 1; node >= 0; --node) {
+    if (parent[node] >= 0 && below[parent[node]] * subtrees <= cost_) head[node] = head[parent[node]];
+  }
+  std::vector<int> task(n);
+  for (int node = 0; node < n; ++node) {
+    if (head[node] != node) continue;
+    task[node] = static_cast<int>(first_node_.size()) - 1;
+    first_node_.push_back(0);
+    below_.push_back(below[node]);
+  }
+  for (int node = 0; node < n; ++node) ++first_node_[task[head[node]] + 1];
+  std::partial_sum(first_node_.begin(), first_node_.end(), first_node_.begin());
+  nodes_.resize(n);
+  std::vector<int> end(first_node_.begin(), first_node_.end() - 1);
+  for (int node = 0; node < n; ++node) nodes_[end[task[head[node]]]++] = node;
+
+  task_cost_.assign(below_.size(), 0);
+  for (int node = 0; node < n; ++node) task_cost_[task[head[node]]] += cost[node];
+  parent_.assign(below_.size(), -1);
+  children_.resize(below_.size());
+  way_up_ = below_;
+  for (int node = n - 1; node >= 0; --node) {
+    if (head[node] != node || parent[node] < 0) continue;
+    const int own = task[node];
+    const int above = task[head[parent[node]]];
+    parent_[own] = above;
+    children_[above].push_back(own);
+    way_up_[own] += way_up_[above] - below_[above] + cost[head[parent[node]]];
+  }
+}
+
+/// One pass through all tasks.
+class ForestRun {
+ public:
+  ForestRun(const ForestSchedule& schedule, bool is_up, const std::function<void(int)>& work, double long_cost)
+      : schedule_(schedule), is_up_(is_up), work_(work), long_cost_(long_cost), n_left_(schedule.n_tasks()) {
+    ready_.reserve(schedule.parent_.size());
+    waits_for_.reserve(schedule.parent_.size());
+    for (int task = 0; task < schedule.n_tasks(); ++task) {
+      waits_for_.push_back(is_up ? static_cast<int>(schedule.children_[task].size()) : schedule.parent_[task] >= 0);
+      if (waits_for_.back() == 0) push(task);
+    }
+  }
+
+  /// Takes tasks until none is left.
+  void take() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true) {
+      wait(lock);
+      if (n_left_ == 0 || failure_) return;
+      const int task = pop();
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        run(task);
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      --n_left_;
+      if (thrown && !failure_) failure_ = thrown;
+      if (is_up_) {
+        release(schedule_.parent_[task]);
+      } else {
+        for (const int child : schedule_.children_[task]) release(child);
+      }
+      // One is for this thread; the others wake where there is more, or nothing any more.
+      if (ready_.size() > 1 || n_left_ == 0 || failure_) changed_.notify_all();
+    }
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  /// Until there is a task, or none any more.
+  void wait(std::unique_lock<std::mutex>& lock) {
+    const auto is_over = [this] { return n_left_ == 0 || failure_; };
+    if (!Listening::has_listener()) {
+      ++n_waiting_;
+      changed_.wait(lock, [&] { return is_over() || !ready_.empty(); });
+      --n_waiting_;
+      return;
+    }
+    const auto is_left_to_others = [this] {
+      return n_waiting_ > 0 && schedule_.task_cost_[ready_.front()] >= long_cost_;
+    };
+    if (!is_over() && !ready_.empty() && is_left_to_others()) changed_.notify_one();
+    const auto has_news = [&] { return is_over() || (!ready_.empty() && !is_left_to_others()); };
+    while (!changed_.wait_for(lock, Listening::interval, has_news)) {
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        Listening::ask();
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      if (thrown && !failure_) failure_ = thrown;
+      if (thrown) changed_.notify_all();
+    }
+  }
+  void run(int task) const {
+    const auto first = schedule_.nodes_.begin() + schedule_.first_node_[task];
+    const auto last = schedule_.nodes_.begin() + schedule_.first_node_[task + 1];
+    if (is_up_) {
+      for (auto node = first; node != last; ++node) work_(*node);
+    } else {
+      for (auto node = last; node != first;) work_(*--node);
+    }
+  }
+  void release(int task) {
+    if (task >= 0 && --waits_for_[task] == 0) push(task);
+  }
+  bool comes_after(int a, int b) const {
+    const std::vector<double>& way = is_up_ ? schedule_.way_up_ : schedule_.below_;
+    return way[a] != way[b] ? way[a] < way[b] : a > b;
+  }
+  void push(int task) {
+    ready_.push_back(task);
+    std::push_heap(ready_.begin(), ready_.end(), [this](int a, int b) { return comes_after(a, b); });
+  }
+  int pop() {
+    std::pop_heap(ready_.begin(), ready_.end(), [this](int a, int b) { return comes_after(a, b); });
+    const int task = ready_.back();
+    ready_.pop_back();
+    return task;
+  }
+
+  const ForestSchedule& schedule_;
+  bool is_up_;
+  const std::function<void(int)>& work_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<int> waits_for_;
+  std::vector<int> ready_;  ///< a heap
+  double long_cost_;
+  int n_left_;
+  int n_waiting_ = 0;  ///< threads without a listener
+  std::exception_ptr failure_;
+};
+
+void ForestSchedule::run_up(unsigned threads, const std::function<void(int)>& work, double long_cost) const {
+  run(true, threads, work, long_cost);
+}
+
+void ForestSchedule::run_down(unsigned threads, const std::function<void(int)>& work) const {
+  run(false, threads, work, std::numeric_limits<double>::infinity());
+}
+
+void ForestSchedule::run(bool is_up, unsigned threads, const std::function<void(int)>& work, double long_cost) const {
+  if (n_tasks() == 0) return;
+  ForestRun all(*this, is_up, work, long_cost);
+  {
+    const HelperThreads helpers(std::min(threads, static_cast<unsigned>(n_tasks())) - 1, [&all] { all.take(); });
+    all.take();
+  }
+  Listening::rethrow();
+  all.rethrow();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,40 @@
+#include "concurrency/helper_threads.h"
+
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include "concurrency/listening.h"
+#include "concurrency/work_counter.h"
+#include "spectral_conformal/thread_limit.h"
+
+namespace spectral_conformal {
+
+HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) : share_(count) {
+  if (share_.size() == 0) return;
+  try {
+    const auto as_caller = [this, work, limit = ThreadLimit::current(), counter = WorkCounter::current(),
+                            listening = Listening::current()] {
+      // The C++ library takes its memory for exceptions of a thread when the first is thrown there, and where that is
+      // for want of memory, the C library ends the process: it takes it here.
+      static_cast<void>(std::current_exception());
+      const ThreadBudget::Share::Member member(share_);
+      const ThreadLimit of_caller(limit);
+      const WorkCounter::Share with_caller(counter);
+      const Listening::Overheard overheard(listening);
+      work();
+    };
+    threads_.reserve(share_.size());
+    while (threads_.size() < share_.size()) threads_.emplace_back(as_caller);
+  } catch (const std::system_error&) {
+    share_.shrink(static_cast<unsigned>(threads_.size()));
+  } catch (const std::bad_alloc&) {
+    share_.shrink(static_cast<unsigned>(threads_.size()));
+  }
+}
+
+HelperThreads::~HelperThreads() {
+  for (std::thread& thread : threads_) thread.join();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,141 @@
+#include "concurrency/parallel_calls.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+#include "concurrency/helper_threads.h"
+#include "concurrency/listening.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The calls that are left, and what became of the others.
+class SharedCalls {
+ public:
+  SharedCalls(int n, const std::function<void(int, const Progress&)>& work)
+      : work_(work), n_(n), failures_(static_cast<std::size_t>(n)) {}
+
+  void take(const Progress& progress) {
+    while (!has_failed_ && !cancelled_) {
+      const int i = next_++;
+      if (i >= n_) return;
+      try {
+        work_(i, progress);
+      } catch (...) {
+        failures_[static_cast<std::size_t>(i)] = std::current_exception();
+        has_failed_ = true;
+        if (Listening::is_cancelled()) cancel();
+      }
+    }
+  }
+  bool is_cancelled() const { return cancelled_; }
+  void cancel() { cancelled_ = true; }
+  /// Calls begin in their order, and none that has begun is left out: those before a failed one all were made.
+  void rethrow_first() const {
+    for (const std::exception_ptr& failure : failures_) {
+      if (failure) std::rethrow_exception(failure);
+    }
+  }
+
+ private:
+  const std::function<void(int, const Progress&)>& work_;
+  int n_;
+  std::vector<std::exception_ptr> failures_;
+  std::atomic<int> next_{0};
+  std::atomic<bool> has_failed_{false};
+  std::atomic<bool> cancelled_{false};  ///< calls that go on hear of it; of failures they do not
+};
+
+/// Threads that take calls until none is left.
+class Helpers {
+ public:
+  Helpers(unsigned count, SharedCalls& calls) : calls_(calls), threads_(count, [this] { run(); }) {}
+
+  bool empty() const { return threads_.size() == 0; }
+  /// True when all are done, false after the interval.
+  bool wait() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return ended_.wait_for(lock, Listening::interval, [this] { return n_ended_ == threads_.size(); });
+  }
+
+ private:
+  void run() {
+    calls_.take([this](double, const char*) { return !calls_.is_cancelled(); });
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++n_ended_;
+    ended_.notify_one();
+  }
+
+  SharedCalls& calls_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::size_t n_ended_ = 0;
+  HelperThreads threads_;  ///< last: they use what stands above
+};
+
+}  // namespace
+
+void run_in_parallel(int n, const std::function<void(int, const Progress&)>& work, const Progress& progress,
+                     const char* phase_of_waiting, unsigned max_threads) {
+  if (n <= 0) return;
+  SharedCalls calls(n, work);
+  std::exception_ptr thrown;
+  double done = 0;
+  const auto ask = [&](const char* phase) {
+    if (calls.is_cancelled()) return false;
+    try {
+      if (!phase) {
+        Listening::ask();
+      } else if (progress && !progress(done, phase)) {
+        calls.cancel();
+      }
+    } catch (...) {
+      thrown = std::current_exception();
+      calls.cancel();
+    }
+    return !calls.is_cancelled();
+  };
+  const Progress asking = [&](double fraction, const char* phase) {
+    done = std::max(done, fraction);
+    return ask(phase);
+  };
+  {
+    Helpers helpers(std::min(max_threads, static_cast<unsigned>(n)) - 1, calls);
+    calls.take(asking);
+    while (!helpers.wait()) ask(progress ? phase_of_waiting : nullptr);
+  }
+  if (thrown) std::rethrow_exception(thrown);
+  Listening::rethrow();
+  if (calls.is_cancelled()) throw Cancelled();
+  calls.rethrow_first();
+}
+
+void call_while_listening(double nanoseconds, const std::function<void()>& call) {
+  if (!Listening::has_listener() || nanoseconds < listening_interval()) {
+    call();
+    still_working(nanoseconds);
+    return;
+  }
+  const std::function<void(int, const Progress&)> work = [&call](int, const Progress&) { call(); };
+  SharedCalls calls(1, work);
+  {
+    Helpers helpers(1, calls);
+    if (helpers.empty()) calls.take({});
+    while (!helpers.wait()) {
+      try {
+        Listening::ask();
+      } catch (...) {
+        // Thrown again below.
+      }
+    }
+  }
+  Listening::rethrow();
+  calls.rethrow_first();
+}
+
+}  // namespace spectral_conformal

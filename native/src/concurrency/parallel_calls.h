@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "concurrency/listening.h"
+#include "spectral_conformal/progress.h"
+
+namespace spectral_conformal {
+
+constexpr unsigned all_threads = std::numeric_limits<unsigned>::max();
+
+/// Calls work(i, progress) once for every i from 0 to n - 1, in as many threads as the caller's part of the
+/// ThreadBudget allows, at most max_threads, the caller's among them. The calls must not depend on each other.
+/// `progress` is called in the caller's thread only, with fractions that never fall, also while it waits for the
+/// others, and not again once it returned false or threw; the one that the work gets tells all threads then. Where it
+/// is empty, the caller's Listening is asked while it waits. Throws Cancelled then, or what it threw, and otherwise
+/// what the first of the calls that failed has thrown.
+void run_in_parallel(int n, const std::function<void(int i, const Progress& progress)>& work, const Progress& progress,
+                     const char* phase_of_waiting, unsigned max_threads = all_threads);
+
+/// Makes a call that may take long and reports nothing, such as one of another library: in a helper thread, while the
+/// caller's asks its Listening; in the caller's where it is short, nobody listens or the ThreadBudget has no thread for
+/// it. nanoseconds: about what it takes. It is waited for even where the listener cancels. Throws what the listener or
+/// the call throws.
+void call_while_listening(double nanoseconds, const std::function<void()>& call);
+
+/// Calls work(begin, end) once for every block of block_size of the numbers from 0 to n - 1, the last one's may be
+/// fewer, as run_in_parallel does; where there is one block, in the caller's thread. Index is an integer type that
+/// holds n + block_size, and the number of blocks fits an int. nanoseconds: about what each number takes; the caller's
+/// Listening is asked between blocks.
+template <class Index, class Work>
+void run_blocks_in_parallel(Index n, Index block_size, double nanoseconds, const Work& work,
+                            unsigned max_threads = all_threads) {
+  if (n <= 0) return;
+  if (n <= block_size) {
+    work(Index{0}, n);
+    still_working(nanoseconds * static_cast<double>(n));
+    return;
+  }
+  run_in_parallel(
+      static_cast<int>((n + block_size - 1) / block_size),
+      [&](int block, const Progress&) {
+        const Index begin = static_cast<Index>(block) * block_size;
+        work(begin, std::min<Index>(n, begin + block_size));
+        still_working(nanoseconds * static_cast<double>(block_size));
+      },
+      {}, "", max_threads);
+}
+
+}  // namespace spectral_conformal

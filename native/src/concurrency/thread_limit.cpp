@@ -1,0 +1,27 @@
+#include "spectral_conformal/thread_limit.h"
+
+#include "concurrency/thread_budget.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Each thread sees its own only, so that no call depends on what another thread does.
+thread_local unsigned limit_of_thread = 0;
+
+}  // namespace
+
+ThreadLimit::ThreadLimit(unsigned limit) : before_(exchange(limit)) {}
+
+ThreadLimit::~ThreadLimit() { exchange(before_); }
+
+unsigned ThreadLimit::current() { return limit_of_thread; }
+
+unsigned ThreadLimit::exchange(unsigned limit) {
+  const unsigned before = limit_of_thread;
+  limit_of_thread = limit;
+  return before;
+}
+
+unsigned ThreadLimit::available() { return ThreadBudget::available(); }
+
+}  // namespace spectral_conformal

@@ -1,0 +1,136 @@
+#include "spectral_conformal/box_packing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "layout/skyline.h"
+
+namespace spectral_conformal {
+namespace {
+
+using Order = std::vector<std::size_t>;
+
+/// Packs the boxes, in the given order, into a strip; returns the side of the square that holds them.
+double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes) {
+  // From so many segments on, a tree takes less time.
+  constexpr std::size_t many = 100;
+  Skyline skyline(width);
+  std::optional<SkylineTree> tree;
+  double side = 0;
+  for (const std::size_t i : order) {
+    PackedBox& box = boxes[i];
+    if (!tree && skyline.segments().size() >= many) tree.emplace(skyline);
+    if (tree) {
+      tree->put(box);
+    } else {
+      skyline.put(box);
+    }
+    side = std::max({side, box.x + box.width, box.y + box.height});
+  }
+  return side;
+}
+
+/// The best packing so far, and what it was made of.
+class PackingSearch {
+ public:
+  explicit PackingSearch(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
+    double area = 0;
+    for (const PackedBox& box : boxes) {
+      area += box.width * box.height;
+      longest_ = std::max({longest_, box.width, box.height});
+    }
+    least_ = std::max(longest_, std::sqrt(area));
+  }
+
+  double side() const { return side_; }
+  const std::vector<PackedBox>& boxes() const { return best_; }
+  /// Nothing smaller can be found.
+  bool is_done() const { return !(side_ > least_ * (1 + rounding)); }
+
+  /// Tries strips of all widths that may make a smaller square.
+  void try_order(const Order& order) {
+    // From the least that can hold all in a square up to the best side so far.
+    constexpr double step = 1.01;
+    for (double width = least_; width < side_ && !is_done(); width *= step) {
+      attempt(order, width);
+      if (!(width > 0)) return;
+    }
+  }
+
+  /// Exchanges boxes in the best order, by chance that is always the same, so often.
+  void improve(std::size_t attempts) {
+    // What is tried must fit into a square so much smaller.
+    constexpr double smaller = 0.999;
+    std::mt19937 chance;
+    const auto n = static_cast<std::uint32_t>(order_.size());
+    if (n < 2) return;
+    Order order = order_;
+    for (std::size_t k = 0; k < attempts && !is_done(); ++k) {
+      std::size_t& one = order[chance() % n];
+      std::size_t& other = order[chance() % n];
+      if (is_same_size(best_[one], best_[other])) continue;
+      std::swap(one, other);
+      if (!attempt(order, std::max(least_, smaller * side_))) std::swap(one, other);
+    }
+  }
+
+ private:
+  static bool is_same_size(const PackedBox& a, const PackedBox& b) {
+    return a.width == b.width && a.height == b.height;
+  }
+  bool attempt(const Order& order, double width) {
+    const double side = pack_into(width, order, tried_);
+    if (!(side < side_)) return false;
+    side_ = side;
+    order_ = order;
+    best_.swap(tried_);
+    return true;
+  }
+
+  static constexpr double rounding = 1e-9;
+  std::vector<PackedBox> best_;
+  std::vector<PackedBox> tried_;
+  Order order_;
+  double side_ = std::numeric_limits<double>::infinity();
+  double longest_ = 0;
+  double least_ = 0;
+};
+
+/// The boxes by falling keys.
+template <class Key>
+Order by(const std::vector<PackedBox>& boxes, const Key& key) {
+  Order order(boxes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(boxes[a]) > key(boxes[b]); });
+  return order;
+}
+
+}  // namespace
+
+double pack_boxes(std::vector<PackedBox>& boxes) {
+  if (boxes.empty()) return 0;
+  // All that is tried together takes some milliseconds.
+  constexpr std::size_t max_boxes_in_orders = 400;
+  constexpr std::size_t exchanged_boxes = 50000;
+  constexpr std::size_t max_exchanges = 10000;
+  PackingSearch search(boxes);
+  search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); }));
+  if (boxes.size() <= max_boxes_in_orders) {
+    search.try_order(by(boxes, [](const PackedBox& box) { return std::max(box.width, box.height); }));
+    search.try_order(by(boxes, [](const PackedBox& box) { return box.width * box.height; }));
+    search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.width, box.height); }));
+    search.improve(std::min(max_exchanges, exchanged_boxes / boxes.size()));
+  }
+  boxes = search.boxes();
+  return search.side();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,381 @@
+#include "layout/upright.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "concurrency/listening.h"
+#include "geometry/bounding_rectangles.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr Complex up(0, 1);
+
+// Rectangles within 1 % of the smallest count as equally small: the sides of a square then lean by 0.3 degrees at most.
+constexpr double equal_area = 0.01;
+// A coordinate is weak beside another that grows four times as fast in the map: a roof of less than 14 degrees is seen
+// from above.
+constexpr double weak = 0.25;
+// Gradients below this fraction of the steepest possible are rounding: positions come in single precision, 6e-8, and
+// the eigenvector's error is about as large.
+constexpr double no_gradient = 1e-4;
+// In radians, about one degree: quarter turns that are equally near in a model made by hand.
+constexpr double equally_near = 0.02;
+constexpr double rounding = 1e-6;  // in radians
+// Odd moments of a shape that is its own mirror image are 0: 1e-16 on Blender's monkey, 1e-5 on a rectangle that is
+// triangulated without symmetry, but 9e-4 on a rectangle of 2 by 1 that lacks a corner of legs 0.02.
+constexpr double odd_moment = 3e-4;
+// A moment above this tells where an axis is; with odd_moment, to 0.6 degrees at least.
+constexpr double clear_harmonic = 0.03;
+constexpr double same_axis = 0.02;  // in radians
+// An outline is straight where this fraction of it runs within 3 degrees along its smallest rectangle: of a circle 7 %
+// does, of a regular octagon half; no regular outline is at the limit.
+constexpr double straight_fraction = 0.18;
+// The sine and cosine of just below 3 degrees, at which regular outlines have edges.
+constexpr double straight_sine = 0.0523;
+constexpr double straight_cosine = 0.998631418;
+// Of a regular octagon, half runs along two of its sides and across.
+constexpr double main_fraction = 0.55;
+// Of an outline that is not, how much larger its box may get to be exactly upright.
+constexpr double larger_box = 0.1;
+
+/// A third of the area of its triangles in the map, per vertex, the sum scaled to 1.
+Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(z.size());
+  const auto& triangles = energy.triangles();
+  for (std::size_t t = 0; t + energy.n_virtual() < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    const double area = energy.triangle_weights()[t] * std::abs(signed_area(z[a], z[b], z[c]));
+    for (const int v : {a, b, c}) mass[v] += area;
+  }
+  still_working(25 * static_cast<double>(triangles.size()));
+  return mass / mass.sum();
+}
+
+/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the region that an outline encloses, moved
+/// and scaled to E[w] = 0 and E[|w|^2] = 1, each over a bound of E[|w|^(p + q)]: a mirror image has the conjugates, a
+/// turn by t multiplies by exp(i (p - q) t).
+struct Moment {
+  int harmonic = 0;  ///< p - q
+  Complex value;
+};
+
+constexpr int max_order = 6;
+
+/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline: those over the triangles between
+/// the centre, from which w is taken, and the edges. There w is s times a point of the edge, 0 <= s <= 1, so that each
+/// is the mean of w^p conj(w)^q along the edge times cross(start, end) / (p + q + 2). The Gauss rule is exact for it.
+class RegionIntegrals {
+ public:
+  RegionIntegrals(const std::vector<Complex>& outline, Complex centre) {
+    // Exact to the degree 7.
+    constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
+                                          0.9305681557970263};
+    constexpr std::array<double, 4> weights{0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
+                                            0.17392742256872692};
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Complex start = outline[i] - centre;
+      const Complex end = outline[(i + 1) % outline.size()] - centre;
+      const double weight = cross(start, end);
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Complex w = start + nodes[k] * (end - start);
+        const double square = std::norm(w);
+        Complex power = weights[k] * weight;
+        for (std::size_t harmonic = 0; harmonic < max_order; ++harmonic, power *= w) {
+          Complex term = power;
+          for (std::size_t q = 0; harmonic + 2 * q <= max_order; ++q, term *= square) sums_[harmonic][q] += term;
+        }
+      }
+    }
+  }
+  Complex operator()(int p, int q) const {
+    return sums_[static_cast<std::size_t>(p - q)][static_cast<std::size_t>(q)] / (p + q + 2.0);
+  }
+
+ private:
+  std::array<std::array<Complex, max_order / 2 + 1>, max_order> sums_{};
+};
+
+/// The area of that region, and its first moment.
+std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) {
+  double area = 0;
+  Complex moment = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex start = outline[i];
+    const Complex end = outline[(i + 1) % outline.size()];
+    area += cross(start, end) / 2;
+    moment += cross(start, end) / 6 * (start + end);
+  }
+  return {area, moment};
+}
+
+/// Of the region within an outline, counter-clockwise, so that they do not depend on how the inside is triangulated.
+/// None where it runs round as much backwards.
+std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
+  constexpr std::array<std::array<int, 2>, 8> exponents = {
+      {{2, 0}, {2, 1}, {3, 0}, {3, 1}, {4, 0}, {3, 2}, {4, 1}, {5, 0}}};
+  const auto [area, moment] = area_and_moment(outline);
+  if (!(area > 0)) return {};
+  const RegionIntegrals integrals(outline, moment / area);
+  // E[|w|^n], for odd n a bound by those beside it.
+  std::array<double, max_order + 1> size{};
+  for (int n = 2; n <= max_order; n += 2) {
+    size[static_cast<std::size_t>(n)] = integrals(n / 2, n / 2).real() / area;
+    if (!(size[static_cast<std::size_t>(n)] > 0)) return {};
+  }
+  for (std::size_t n = 3; n < max_order; n += 2) size[n] = std::sqrt(size[n - 1] * size[n + 1]);
+  std::vector<Moment> moments;
+  moments.reserve(exponents.size());
+  for (const auto& [p, q] : exponents) {
+    const double bound = size[static_cast<std::size_t>(p) + static_cast<std::size_t>(q)];
+    moments.push_back({p - q, integrals(p, q) / area / bound});
+  }
+  return moments;
+}
+
+/// The directions of the mirror axes of a map with these moments.
+std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
+  std::vector<Complex> axes;
+  for (const Moment& clear : moments) {
+    if (std::abs(clear.value) < clear_harmonic) continue;
+    for (int k = 0; k < clear.harmonic; ++k) {
+      const Complex axis = std::polar(1.0, (std::arg(clear.value) + k * pi) / clear.harmonic);
+      // conj(axis)^harmonic; std::pow would take a logarithm for each.
+      std::array<Complex, 6> power{1};
+      for (std::size_t n = 1; n < power.size(); ++n) power[n] = power[n - 1] * std::conj(axis);
+      const auto is_odd = [&](const Moment& m) {
+        return std::abs(std::imag(m.value * power[static_cast<std::size_t>(m.harmonic)])) > odd_moment;
+      };
+      const auto is_same = [&](Complex other) { return std::abs(cross(axis, other)) < same_axis; };
+      if (std::any_of(moments.begin(), moments.end(), is_odd)) continue;
+      if (std::none_of(axes.begin(), axes.end(), is_same)) axes.push_back(axis);
+    }
+  }
+  return axes;
+}
+
+/// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that fits `values`
+/// best.
+Complex gradient_of_fit(const ComplexVector& w, const Eigen::VectorXd& mass, const Eigen::VectorXd& values) {
+  const Complex along = (w.array() * (mass.array() * values.array())).sum();
+  const Complex shape = (w.array().square() * mass.array()).sum();
+  // A map that is a line has no gradient across.
+  const double spread = 1 - std::norm(shape);
+  return spread > 1e-12 ? 2.0 * (along - shape * std::conj(along)) / spread : along;
+}
+
+double area_of(const Rectangle& r) { return r.width * r.height; }
+
+/// How much of an outline runs along a direction, asked of as many directions as a round outline has edges.
+class OutlineDirections {
+ public:
+  /// Of a closed polygon.
+  explicit OutlineDirections(const std::vector<Complex>& outline) {
+    std::vector<std::pair<double, double>> edges;
+    edges.reserve(outline.size());
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
+      if (edge != 0.0) edges.emplace_back(side(edge), std::abs(edge));
+    }
+    std::sort(edges.begin(), edges.end());
+    sides_.reserve(edges.size());
+    lengths_.reserve(edges.size() + 1);
+    for (const auto& [place, length] : edges) {
+      sides_.push_back(place);
+      lengths_.push_back(lengths_.back() + length);
+    }
+  }
+  /// Whether enough of it runs along the sides of the rectangle for an eye to see it lean.
+  bool is_straight(const Rectangle& rectangle) const {
+    return length_along(rectangle.direction) >= straight_fraction * lengths_.back();
+  }
+  /// Of directions along and across which clearly more of it runs than in all others together, as of a cross or of a
+  /// letter L, that of most; none for most outlines.
+  std::optional<Complex> main_direction() const {
+    double most = 0;
+    Complex main = 0;
+    for (const double place : sides_) {
+      const Complex direction(1 - place, place);
+      const double length = length_along(direction);
+      if (length <= most) continue;
+      most = length;
+      main = direction;
+    }
+    if (most < main_fraction * lengths_.back()) return std::nullopt;
+    return main / std::abs(main);
+  }
+
+ private:
+  /// Of a line modulo a quarter turn, 0 to 1 as its angle: an angle itself would take an arc tangent for each edge.
+  static double side(Complex line) {
+    double x = line.real();
+    double y = line.imag();
+    if (y < 0 || (y == 0 && x < 0)) std::tie(x, y) = std::pair(-x, -y);
+    if (x <= 0) std::tie(x, y) = std::pair(y, -x);
+    return y / (x + y);
+  }
+  /// Of the edges that run within 3 degrees of a direction or across.
+  double length_along(Complex direction) const {
+    constexpr Complex turn(straight_cosine, straight_sine);
+    const double first = side(direction * std::conj(turn));
+    const double last = side(direction * turn);
+    // Those beyond either end of the quarter turn are at the other one.
+    return first <= last ? length_between(first, last) : length_between(first, 1) + length_between(0, last);
+  }
+  double length_between(double first, double last) const {
+    const auto begin = std::lower_bound(sides_.begin(), sides_.end(), first);
+    const auto end = std::upper_bound(begin, sides_.end(), last);
+    return lengths_[static_cast<std::size_t>(end - sides_.begin())] -
+           lengths_[static_cast<std::size_t>(begin - sides_.begin())];
+  }
+
+  std::vector<double> sides_;         ///< of the edges, ascending
+  std::vector<double> lengths_{0.0};  ///< of all edges before each, and of all
+};
+
+/// Whether clearly more of an outline runs along a direction and across than in all others together.
+bool is_main_direction(const std::vector<Complex>& outline, Complex direction) {
+  double along = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Complex edge = outline[(i + 1) % outline.size()] - outline[i];
+    const double length = std::abs(edge);
+    const double off = std::min(std::abs(dot(direction, edge)), std::abs(cross(direction, edge)));
+    all += length;
+    if (off <= straight_sine * length) along += length;
+  }
+  return along >= main_fraction * all;
+}
+
+double deviation(Complex turned) { return std::abs(std::arg(turned * std::conj(up))); }
+
+/// Keeps the turns that bring `direction` nearest to up, within a tolerance in radians.
+void keep_nearest(std::vector<Complex>& turns, Complex direction, double tolerance) {
+  if (turns.size() < 2) return;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Complex turn : turns) nearest = std::min(nearest, deviation(turn * direction));
+  const auto is_farther = [&](Complex turn) { return deviation(turn * direction) > nearest + tolerance; };
+  turns.erase(std::remove_if(turns.begin(), turns.end(), is_farther), turns.end());
+}
+
+/// The directions of the map that are to point up, the first ones before the others.
+struct Preferences {
+  std::vector<Complex> directions;
+  bool has_height = false;  ///< the first is that in which the third coordinate grows
+};
+
+Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
+                        const Eigen::Ref<const Positions>& positions) {
+  const Eigen::RowVector3d centre = mass.transpose() * positions;
+  std::array<Complex, 3> gradient;
+  double extent = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::VectorXd values = positions.col(k).array() - centre[k];
+    gradient[static_cast<std::size_t>(k)] = gradient_of_fit(w, mass, values);
+    extent += (mass.array() * values.array().square()).sum();
+  }
+  still_working(100 * static_cast<double>(w.size()));
+  const auto& [x, y, z] = gradient;
+  const double steepest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+  const double least = no_gradient * std::sqrt(extent);
+  Preferences result;
+  const auto add = [&](Complex direction, double limit) {
+    if (std::abs(direction) >= limit && std::abs(direction) > least) result.directions.push_back(direction);
+  };
+  // x to the right is i x up.
+  add(z, weak * steepest);
+  result.has_height = !result.directions.empty();
+  add(y, weak * steepest);
+  add(up * x, weak * steepest);
+  // Whatever gradient there is tells all four quarter turns apart, by where it goes up and where to the right.
+  for (const Complex direction : {z, y, up * x, x, up * y, up * z}) add(direction, 0);
+  return result;
+}
+
+}  // namespace
+
+Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, const BoundaryLoop& outer_loop,
+                     const Eigen::Ref<const Positions>& positions) {
+  const Eigen::VectorXd mass = masses(z, energy);
+  const Complex centre = (z.array() * mass.array()).sum();
+  ComplexVector w = z.array() - centre;
+  w /= std::sqrt((w.array().abs2() * mass.array()).sum());
+  std::vector<Complex> boundary;
+  boundary.reserve(outer_loop.size());
+  for (const int vertex : outer_loop) boundary.push_back(w[vertex]);
+  const std::vector<Complex> hull = convex_hull(boundary);
+  const std::vector<Moment> moments = moments_of(boundary);
+  Preferences preferred = preferences(w, mass, positions);
+
+  // Where most of the outline runs along one direction and across, that is upright: not an axis, as of a cross,
+  // between.
+  std::vector<Complex> axes = mirror_axes(moments);
+  const auto likely = std::find_if(axes.begin(), axes.end(), [&](Complex a) { return is_main_direction(boundary, a); });
+  std::optional<OutlineDirections> outline;
+  std::optional<Complex> main_direction;
+  if (likely == axes.end()) {
+    outline.emplace(boundary);
+    main_direction = outline->main_direction();
+  } else {
+    main_direction = *likely;
+  }
+  const auto is_between = [&](Complex direction) {
+    const Complex turn = main_direction ? direction / *main_direction : 1;
+    return std::min(std::abs(turn.real()), std::abs(turn.imag())) > straight_sine;
+  };
+  axes.erase(std::remove_if(axes.begin(), axes.end(), is_between), axes.end());
+  std::vector<Rectangle> rectangles;
+  if (axes.empty()) {
+    rectangles = smallest_rectangles(hull, equal_area);
+    const auto lies_between = [&](const Rectangle& r) { return is_between(r.direction); };
+    const auto straight = [&](const Rectangle& r) { return outline->is_straight(r); };
+    rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), lies_between), rectangles.end());
+    if (rectangles.empty()) {
+      rectangles = {bounding_rectangle(hull, *main_direction)};
+    } else if (!preferred.directions.empty() && std::none_of(rectangles.begin(), rectangles.end(), straight)) {
+      const Complex highest = preferred.directions.front();
+      const Rectangle exact = bounding_rectangle(hull, highest / std::abs(highest));
+      const auto is_smaller = [](const Rectangle& a, const Rectangle& b) { return area_of(a) < area_of(b); };
+      const Rectangle& smallest = *std::min_element(rectangles.begin(), rectangles.end(), is_smaller);
+      if (area_of(exact) <= area_of(smallest) * (1 + larger_box)) rectangles = {exact};
+    }
+  } else {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Complex axis : axes) {
+      rectangles.push_back(bounding_rectangle(hull, axis));
+      smallest = std::min(smallest, area_of(rectangles.back()));
+    }
+    const auto is_larger = [&](const Rectangle& r) { return area_of(r) > smallest * (1 + equal_area); };
+    rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(), is_larger), rectangles.end());
+  }
+  const bool stands_on_axis = axes.size() == 1 && !preferred.has_height;
+
+  std::vector<Complex> turns;
+  for (const Rectangle& rectangle : rectangles) {
+    const Complex lying = std::conj(rectangle.direction);
+    const bool higher = rectangle.height > rectangle.width * (1 + equal_area);
+    const bool wider = rectangle.width > rectangle.height * (1 + equal_area);
+    // Where nothing else tells them apart, higher than wide.
+    const bool may_lie = !stands_on_axis && (!preferred.directions.empty() || !wider);
+    const bool may_stand = stands_on_axis || !preferred.directions.empty() || !higher;
+    if (may_lie) turns.insert(turns.end(), {lying, -lying});
+    if (may_stand) turns.insert(turns.end(), {up * lying, -up * lying});
+  }
+  // The broader end is where the third moments point away from.
+  for (const Moment& m : moments) {
+    if (m.harmonic == 1 && std::abs(m.value) > clear_harmonic) preferred.directions.push_back(m.value);
+  }
+  for (const double tolerance : {equally_near, rounding}) {
+    for (const Complex direction : preferred.directions) keep_nearest(turns, direction, tolerance);
+  }
+  return turns.front();
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,144 @@
+#include "relaxation/boundary_barrier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "geometry/box_tree.h"
+#include "geometry/quadratic_roots.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// D relative to the shortest edge: a corner of three edges that is not sharper than 15 degrees feels no force.
+constexpr double relative_reach = 0.25;
+/// Small, so that contacts hardly bend the map and do not hold it up before they must: over patches of 17 models, grown
+/// at random, 1 left mean QCs of up to 45 where this leaves 1.003.
+constexpr double weight_of_all = 1e-4;
+
+PlaneBox grown(PlaneBox box, double by) {
+  for (int k = 0; k < 2; ++k) {
+    box.low[k] -= by;
+    box.high[k] += by;
+  }
+  return box;
+}
+
+/// Of an edge, seen from a point.
+struct Nearest {
+  double position;  ///< from 0 to 1
+  Complex away;     ///< from there to the point
+  double square;    ///< of its length
+};
+
+Nearest nearest_point(Complex point, Complex from, Complex to) {
+  const Complex side = to - from;
+  const double square = std::norm(side);
+  const double position = square > 0 ? std::clamp(dot(side, point - from) / square, 0.0, 1.0) : 0.0;
+  const Complex away = point - from - position * side;
+  return {position, away, std::norm(away)};
+}
+
+/// When a point that starts at `point` and moves by `moves` meets a segment that moves, too, within one step.
+double time_of_contact(Complex point, Complex moves, Complex a, Complex a_moves, Complex b, Complex b_moves) {
+  // Ends count a little beyond, as rounding may put a point that meets them there.
+  constexpr double beyond = 1e-9;
+  const Complex side = b - a;
+  const Complex side_moves = b_moves - a_moves;
+  const Complex arm = point - a;
+  const Complex arm_moves = moves - a_moves;
+  double first = never;
+  for (const double t : quadratic_roots(cross(side, arm), cross(side, arm_moves) + cross(side_moves, arm),
+                                        cross(side_moves, arm_moves))) {
+    if (!(t >= 0 && t <= 1 && t < first)) continue;
+    const Complex then = side + t * side_moves;
+    const double along = dot(then, arm + t * arm_moves);
+    if (along >= -beyond * std::norm(then) && along <= (1 + beyond) * std::norm(then)) first = t;
+  }
+  return first;
+}
+
+}  // namespace
+
+BoundaryBarrier::BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
+  for (const BoundaryLoop& loop : loops) {
+    const std::size_t n = loop.size();
+    const std::size_t first = edges_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const int from = loop[i];
+      const int to = loop[(i + 1) % n];
+      edges_.push_back({from, to, std::abs(z[to] - z[from])});
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      reach_.push_back(relative_reach * std::min(edges_[first + i].length, edges_[first + (i + n - 1) % n].length));
+    }
+  }
+  weight_ = weight_of_all / static_cast<double>(edges_.size());
+}
+
+std::vector<BoundaryBarrier::Pair> BoundaryBarrier::pairs_near(const ComplexVector& z,
+                                                               const ComplexVector& step) const {
+  std::vector<PlaneBox> ways;
+  ways.reserve(edges_.size());
+  for (const auto& [from, to, length] : edges_) {
+    ways.push_back(PlaneBox::of({z[from], z[to], z[from] + step[from], z[to] + step[to]}));
+  }
+  const BoxTree tree(ways);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const int vertex = edges_[i].from;
+    tree.for_each_meeting(grown(PlaneBox::of({z[vertex], z[vertex] + step[vertex]}), reach_[i]), [&](int k) {
+      const auto& [from, to, length] = edges_[static_cast<std::size_t>(k)];
+      if (from != vertex && to != vertex) {
+        pairs.push_back({vertex, from, to, std::min(reach_[i], relative_reach * length)});
+      }
+      return true;
+    });
+  }
+  return pairs;
+}
+
+double BoundaryBarrier::add(const std::vector<Pair>& pairs, const ComplexVector& z, ComplexVector& gradient) const {
+  double energy = 0;
+  for (const Pair& pair : pairs) {
+    const Nearest nearest = nearest_point(z[pair.vertex], z[pair.from], z[pair.to]);
+    if (nearest.square >= pair.reach * pair.reach) continue;
+    const double distance = std::sqrt(nearest.square);
+    const double excess = pair.reach / distance - 1;
+    energy += weight_ * excess * excess;
+    if (!(distance > 0)) continue;
+    // The nearest point's motion along the edge changes the distance in the second order only.
+    const Complex slope = -2 * weight_ * excess * pair.reach / (nearest.square * distance) * nearest.away;
+    gradient[pair.vertex] += slope;
+    gradient[pair.from] -= (1 - nearest.position) * slope;
+    gradient[pair.to] -= nearest.position * slope;
+  }
+  return std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
+}
+
+void BoundaryBarrier::add_curvature(const std::vector<Pair>& pairs, const ComplexVector& z,
+                                    Eigen::VectorXd& curvature) const {
+  for (const Pair& pair : pairs) {
+    const Nearest nearest = nearest_point(z[pair.vertex], z[pair.from], z[pair.to]);
+    if (nearest.square >= pair.reach * pair.reach || !(nearest.square > 0)) continue;
+    const double ratio = pair.reach / std::sqrt(nearest.square);
+    const double second = 2 * 2 * weight_ * ratio * (3 * ratio - 2) / nearest.square;
+    curvature[pair.vertex] += second;
+    curvature[pair.from] += (1 - nearest.position) * second;
+    curvature[pair.to] += nearest.position * second;
+  }
+}
+
+double BoundaryBarrier::max_step(const std::vector<Pair>& pairs, const ComplexVector& z, const ComplexVector& step) {
+  double first = never;
+  for (const auto& [vertex, from, to, reach] : pairs) {
+    first = std::min(first, time_of_contact(z[vertex], step[vertex], z[from], step[from], z[to], step[to]));
+  }
+  return first;
+}
+
+}  // namespace spectral_conformal

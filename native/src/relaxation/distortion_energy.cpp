@@ -1,0 +1,211 @@
+#include "relaxation/distortion_energy.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "concurrency/listening.h"
+#include "geometry/quadratic_roots.h"
+#include "geometry/signed_area.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Of one element, where a few numbers are computed of it.
+constexpr double energy_nanoseconds = 40;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
+constexpr double isometry = 4;
+
+/// The determinant as DistortionElement::regularization changes it, and the derivative of that.
+struct RegularizedDeterminant {
+  double value;
+  double slope;
+  RegularizedDeterminant(double determinant, double regularization) : value(determinant), slope(1) {
+    if (regularization == 0) return;
+    if (std::isinf(regularization)) {
+      value = infinity;
+      slope = 0;
+      return;
+    }
+    const double root = std::hypot(determinant, regularization);
+    value = determinant > 0 ? 0.5 * (determinant + root) : 0.5 * regularization * regularization / (root - determinant);
+    slope = value / root;
+  }
+};
+
+/// A distortion and its derivatives by half_square and the determinant.
+struct Density {
+  double value;
+  double by_square;
+  double by_determinant;
+};
+
+Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
+  if (std::isinf(element.regularization)) return {2 * j.half_square, 2, 0};
+  const RegularizedDeterminant determinant(j.determinant, element.regularization);
+  const double inverse = 1 / determinant.value;
+  if (measure == DistortionMeasure::conformal) {
+    return {2 * j.half_square * inverse, 2 * inverse, -2 * j.half_square * inverse * inverse * determinant.slope};
+  }
+  const double inverse_square = inverse * inverse;
+  return {2 * j.half_square * (1 + inverse_square), 2 * (1 + inverse_square),
+          -4 * j.half_square * inverse_square * inverse * determinant.slope};
+}
+
+/// The smallest positive root of c0 + c1 t + c2 t^2, or infinity.
+double smallest_positive_root(double c0, double c1, double c2) {
+  double smallest = infinity;
+  for (const double root : quadratic_roots(c0, c1, c2)) {
+    if (root > 0) smallest = std::min(smallest, root);
+  }
+  return smallest;
+}
+
+}  // namespace
+
+MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
+  const auto& [a, b, c] = element.corners;
+  const Complex d1 = z[b] - z[a];
+  const Complex d2 = z[c] - z[a];
+  const double double_area = element.shape.x1 * element.shape.y2;
+  MapJacobian j;
+  j.holomorphic = element.shape.holomorphic_part(d1, d2) / (2 * double_area);
+  j.antiholomorphic = element.shape.antiholomorphic_part(d1, d2) / (2 * double_area);
+  j.half_square = std::norm(j.holomorphic) + std::norm(j.antiholomorphic);
+  // From the edges, not as a difference of squares: the sign is then that of the image's area.
+  j.determinant = cross(d1, d2) / double_area;
+  return j;
+}
+
+DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
+  if (std::isinf(element.regularization)) return {isometry, isometry};
+  const double determinant = RegularizedDeterminant(j.determinant, element.regularization).value;
+  if (measure == DistortionMeasure::conformal) {
+    if (!element.barrier()) {
+      const double both = 4 / determinant * (1 + j.half_square / determinant);
+      return {both, both};
+    }
+    // The second derivatives of 2 (a^2 + b^2) / (a^2 - b^2) by a = |f_z| and b = |f_zbar|. The first one vanishes for
+    // similarities; a fraction of the second, too small to slow the others down, keeps the form definite.
+    constexpr double min_fraction = 1e-3;
+    const double a = std::norm(j.holomorphic);
+    const double b = std::norm(j.antiholomorphic);
+    const double cube = determinant * determinant * determinant;
+    const double antiholomorphic = 8 * a * (a + 3 * b) / cube;
+    return {8 * b * (3 * a + b) / cube + min_fraction * antiholomorphic, antiholomorphic};
+  }
+  const double larger = std::abs(j.holomorphic) + std::abs(j.antiholomorphic);
+  // SLIM's weight (Rabinovich et al. 2017, Table 1): the slope of s^2 + 1 / s^2 over s - 1, halved. Of the two singular
+  // values the smaller one has the larger weight, which majorises.
+  const double inverse = larger / determinant;
+  const double local_global = 1 + inverse * (1 + inverse * (1 + inverse));
+  // It aims at s = 1 in one step, which would compress the neighbours of triangles that are very small in the map until
+  // their barriers cut it short. With this weight such a triangle grows to about 1 + 1 / 0.1 times its size at once.
+  const double growth = 0.1 * (inverse * inverse) * (inverse * inverse);
+  const double both = isometry * std::max(local_global, growth);
+  return {both, both};
+}
+
+double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
+                           const ComplexVector& z, ComplexVector& gradient) {
+  gradient.setZero(z.size());
+  double sum = 0;
+  for (const DistortionElement& element : elements) {
+    const MapJacobian j = jacobian(element, z);
+    if (element.barrier() && !(j.determinant > 0)) return infinity;
+    const Density f = density(element, measure, j);
+    sum += element.weight * f.value;
+    const double scale = element.weight / (element.shape.x1 * element.shape.y2);
+    const Complex g = scale * (f.by_square + f.by_determinant) * j.holomorphic;
+    const Complex h = scale * (f.by_square - f.by_determinant) * j.antiholomorphic;
+    // With p = x2 + i y2, written out: by d1, -i p g + i conj(p) h; by d2, i x1 (g - h).
+    const auto& [x1, x2, y2, clamped] = element.shape;
+    const Complex towards_b(x2 * (g.imag() - h.imag()) + y2 * (g.real() + h.real()),
+                            x2 * (h.real() - g.real()) + y2 * (g.imag() + h.imag()));
+    const Complex towards_c(x1 * (h.imag() - g.imag()), x1 * (g.real() - h.real()));
+    gradient[element.corners[1]] += towards_b;
+    gradient[element.corners[2]] += towards_c;
+    gradient[element.corners[0]] -= towards_b + towards_c;
+  }
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  return sum;
+}
+
+double max_step(const std::vector<DistortionElement>& elements, const ComplexVector& z,
+                const ComplexVector& direction) {
+  double largest = infinity;
+  for (const DistortionElement& element : elements) {
+    const auto& [a, b, c] = element.corners;
+    const Complex d1 = z[b] - z[a];
+    const Complex d2 = z[c] - z[a];
+    if (std::isinf(element.regularization) || !(cross(d1, d2) > 0)) continue;
+    const Complex change1 = direction[b] - direction[a];
+    const Complex change2 = direction[c] - direction[a];
+    const double linear = cross(d1, change2) + cross(change1, d2);
+    largest = std::min(largest, smallest_positive_root(cross(d1, d2), linear, cross(change1, change2)));
+  }
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  return largest;
+}
+
+bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance) {
+  return element.measured && !is_positive(element.corners, z, tolerance);
+}
+
+int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
+                  const FlipTolerance& tolerance) {
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
+    return is_flipped(element, z, tolerance);
+  }));
+}
+
+DistortionElements::DistortionElements(const std::vector<std::array<int, 3>>& triangles,
+                                       const std::vector<TriangleShape>& shapes,
+                                       const std::vector<double>& triangle_weights, std::size_t n_virtual)
+    : triangles_(triangles), shapes_(shapes), triangle_weights_(triangle_weights), n_virtual_(n_virtual) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!shapes[t].clamped) area_ += triangle_weights[t] * shapes[t].area();
+  }
+}
+
+DistortionElement DistortionElements::operator[](std::size_t t) const {
+  // Enough to keep holes from turning inside out, too little for them to take part in the shape of the map.
+  constexpr double virtual_weight = 1e-2;
+  // Relative to the whole: of triangles with sides below 1e-9 of its extent rounding hardly leaves a shape in the map.
+  constexpr double min_area = 1e-18;
+  const TriangleShape& shape = shapes_[t];
+  const bool is_virtual = t + n_virtual_ >= size();
+  const bool is_degenerate = shape.clamped || !(shape.area() > min_area * area_);
+  DistortionElement element{triangles_[t], shape, triangle_weights_[t] * shape.area() / area_,
+                            !is_virtual && !is_degenerate};
+  if (is_degenerate) element.regularization = infinity;
+  if (is_virtual) element.weight *= virtual_weight;
+  return element;
+}
+
+std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
+                                                   const std::vector<TriangleShape>& shapes,
+                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual) {
+  const DistortionElements source(triangles, shapes, triangle_weights, n_virtual);
+  std::vector<DistortionElement> elements;
+  elements.reserve(source.size());
+  for_each_heard(source.size(), energy_nanoseconds, [&](std::size_t t) { elements.push_back(source[t]); });
+  return elements;
+}
+
+double mean_scale_factor(const std::vector<DistortionElement>& elements, const ComplexVector& z) {
+  double logarithms = 0;
+  double weight = 0;
+  for (const DistortionElement& element : elements) {
+    const MapJacobian j = jacobian(element, z);
+    if (!element.measured || !(j.determinant > MapJacobian::min_determinant * j.half_square)) continue;
+    logarithms += element.weight * std::log(j.determinant);
+    weight += element.weight;
+  }
+  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  return weight > 0 ? std::exp(-0.5 * logarithms / weight) : 0;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,50 @@
+#include "relaxation/lbfgs.h"
+
+#include <utility>
+#include <vector>
+
+#include "concurrency/listening.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Of an entry, a scalar product and a sum.
+constexpr double pair_nanoseconds = 4;
+
+}  // namespace
+
+double real_dot(const ComplexVector& a, const ComplexVector& b) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i].real() * b[i].real() + a[i].imag() * b[i].imag();
+  return sum;
+}
+
+void Lbfgs::add(ComplexVector step, ComplexVector gradient_change) {
+  const double curvature = real_dot(step, gradient_change);
+  // Rounding decides on a smaller one.
+  constexpr double min_cosine = 1e-12;
+  if (!(curvature > min_cosine * step.norm() * gradient_change.norm())) return;
+  if (pairs_.size() == capacity) pairs_.pop_front();
+  pairs_.push_back({std::move(step), std::move(gradient_change), curvature});
+}
+
+ComplexVector Lbfgs::descent(const Inverse& inverse, const ComplexVector& gradient) const {
+  ComplexVector remaining = gradient;
+  std::vector<double> projections(pairs_.size());
+  for (std::size_t k = pairs_.size(); k-- > 0;) {
+    projections[k] = real_dot(pairs_[k].step, remaining) / pairs_[k].curvature;
+    remaining -= projections[k] * pairs_[k].gradient_change;
+    still_working(pair_nanoseconds * static_cast<double>(remaining.size()));
+  }
+  ComplexVector direction;
+  inverse(remaining, direction);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const double projection = real_dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
+    direction += (projections[k] - projection) * pairs_[k].step;
+    still_working(pair_nanoseconds * static_cast<double>(direction.size()));
+  }
+  direction = -direction;
+  return direction;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,126 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "meshes.h"
+#include "relaxation/boundary_barrier.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+const std::vector<BoundaryLoop> loops{{0, 1, 2, 3, 4, 5, 6, 7}};
+
+/// A square of side 2, each side of two edges: vertex 1 in the middle of the lower side, 5 of the upper one.
+ComplexVector square() {
+  ComplexVector z(8);
+  z << Complex(0, 0), Complex(1, 0), Complex(2, 0), Complex(2, 1), Complex(2, 2), Complex(1, 2), Complex(0, 2),
+      Complex(0, 1);
+  return z;
+}
+
+/// Vertex 1 somewhere else.
+ComplexVector with_first_at(Complex place) {
+  ComplexVector z = square();
+  z[1] = place;
+  return z;
+}
+
+struct Value {
+  double energy;
+  ComplexVector gradient;
+};
+
+Value at(const BoundaryBarrier& barrier, const ComplexVector& z) {
+  Value value{0, ComplexVector::Zero(z.size())};
+  value.energy = barrier.add(barrier.pairs_near(z, ComplexVector::Zero(z.size())), z, value.gradient);
+  return value;
+}
+
+double max_step(const BoundaryBarrier& barrier, const ComplexVector& z, const ComplexVector& step) {
+  return BoundaryBarrier::max_step(barrier.pairs_near(z, step), z, step);
+}
+
+ComplexVector only_first(Complex step) {
+  ComplexVector steps = ComplexVector::Zero(8);
+  steps[1] = step;
+  return steps;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("boundary_barrier");
+
+TEST_CASE("a boundary that is nowhere near itself has no energy") {
+  const Value value = at(BoundaryBarrier(loops, square()), square());
+  CHECK(value.energy == 0);
+  CHECK(value.gradient.isZero(0));
+}
+
+TEST_CASE("the energy is that of the distance to the edge, and infinite at contact") {
+  const BoundaryBarrier barrier(loops, square());
+  // 0.1 below the edge from (2, 2) to (1, 2); D is 0.25.
+  CHECK(at(barrier, with_first_at({1.5, 1.9})).energy == doctest::Approx(1e-4 / 8 * 1.5 * 1.5));
+  CHECK(at(barrier, with_first_at({1.5, 1.9})).gradient[1].imag() > 0);
+  CHECK(std::isinf(at(barrier, with_first_at({1.5, 2})).energy));
+  CHECK(at(barrier, with_first_at({1.5, 1.7})).energy == 0);
+}
+
+TEST_CASE("the gradient is that of finite differences, and the curvature bounds the second ones") {
+  const BoundaryBarrier barrier(loops, square());
+  // Beside an edge, and beside the vertex between two.
+  for (const Complex place : {Complex(1.4, 1.85), Complex(1.03, 1.9), Complex(1.99, 1.2)}) {
+    const ComplexVector z = with_first_at(place) + 0.01 * random_map(8, 3);
+    const Value value = at(barrier, z);
+    REQUIRE(value.energy > 0);
+    Eigen::VectorXd curvature = Eigen::VectorXd::Zero(8);
+    barrier.add_curvature(barrier.pairs_near(z, ComplexVector::Zero(8)), z, curvature);
+    for (unsigned seed = 1; seed < 20; ++seed) {
+      constexpr double h = 1e-5;
+      const ComplexVector direction = random_map(8, seed);
+      const double forward = at(barrier, z + h * direction).energy;
+      const double backward = at(barrier, z - h * direction).energy;
+      double slope = 0;
+      double bound = 0;
+      for (int v = 0; v < 8; ++v) {
+        slope += std::real(std::conj(direction[v]) * value.gradient[v]);
+        bound += curvature[v] * std::norm(direction[v]);
+      }
+      CHECK((forward - backward) / (2 * h) == doctest::Approx(slope).epsilon(1e-5));
+      CHECK((forward - 2 * value.energy + backward) / (h * h) <= bound * (1 + 1e-4));
+    }
+  }
+}
+
+TEST_CASE("a step is told when the boundary first touches itself, at an edge, at a vertex, and between moving ones") {
+  const BoundaryBarrier barrier(loops, square());
+  CHECK(max_step(barrier, with_first_at({1.5, 0}), only_first({0, 4})) == doctest::Approx(0.5));
+  CHECK(max_step(barrier, square(), only_first({0, 4})) == doctest::Approx(0.5));
+  CHECK(std::isinf(max_step(barrier, square(), only_first({0, 1.9}))));
+  ComplexVector towards_each_other = only_first({0, 2});
+  towards_each_other[4] = towards_each_other[5] = Complex(0, -2);
+  CHECK(max_step(barrier, with_first_at({1.5, 0}), towards_each_other) == doctest::Approx(0.5));
+}
+
+TEST_CASE("a whole that moves, turns or grows does not touch itself") {
+  const BoundaryBarrier barrier(loops, square());
+  const ComplexVector z = with_first_at({1.5, 1.9});
+  for (const Complex factor : {Complex(0, 0), Complex(1, 0), Complex(-0.5, 0.5)}) {
+    CHECK(std::isinf(max_step(barrier, z, factor * z + ComplexVector::Constant(8, Complex(3, 1)))));
+  }
+}
+
+TEST_CASE("loops meet each other, too") {
+  ComplexVector z(12);
+  z << square(), Complex(0.9, 0.9), Complex(0.9, 1.1), Complex(1.1, 1.1), Complex(1.1, 0.9);
+  std::vector<BoundaryLoop> with_hole = loops;
+  with_hole.push_back({8, 9, 10, 11});
+  const BoundaryBarrier barrier(with_hole, z);
+  ComplexVector step = ComplexVector::Zero(12);
+  step.tail(4).setConstant(Complex(2, 0));
+  CHECK(max_step(barrier, z, step) == doctest::Approx(0.45));
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
