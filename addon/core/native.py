@@ -21,8 +21,8 @@ class NativeModuleError(ReadableError, ImportError):
         return texts.no_module(self.__cause__) if self.__cause__ is not None else super().__str__()
 
 
-def spectral_conformal() -> ModuleType:
-    """Return the module `spectral_conformal`.
+def spectral_conformal(part: str = "") -> ModuleType:
+    """Return the module `spectral_conformal`, or a private `part` of it by its name, such as "_measuring".
 
     The zip for Blender 3.4 to 4.1 carries it inside the add-on; an extension's wheel, or pip, installs it at top level.
 
@@ -30,15 +30,20 @@ def spectral_conformal() -> ModuleType:
         NativeModuleError: it is not installed, or made for another platform or Python.
     """
     try:
-        return import_module(_name())
+        return import_module(f"{_name()}.{part}" if part else _name())
     except ImportError as error:
         raise NativeModuleError from error
 
 
-def limit_threads(threads: int) -> None:
-    """Let what this thread asks of the module share at most so many threads; 0 for as many as there are cores.
+def measuring() -> ModuleType:
+    """Return the functions that add-on and batch measure with; raises as `spectral_conformal` does."""
+    return spectral_conformal("_measuring")
 
-    Without the module nothing happens: whoever needs it says so.
+
+def limit_threads(threads: int) -> None:
+    """Limit the threads that the module uses for this thread; 0 for as many as there are cores.
+
+    Without the module nothing happens: the solve that follows raises.
     """
     try:
         spectral_conformal().limit_threads(threads)

@@ -8,34 +8,41 @@ import bpy
 import numpy as np
 
 from .. import compatibility
-from ..core.measure.map_view import MapArrays
+from ..core.mesh.polygon_mesh import PolygonMesh
 from . import image_aspect
-from .read import temporary_mesh
+from .read import read_arrays, temporary_mesh
 
 
 def read_map(
     context: bpy.types.Context,
     shown: bpy.types.Object,
     other_uv: np.ndarray | None = None,
-    before: MapArrays | None = None,
-) -> MapArrays | None:
-    """Read the mesh of an object: in edit mode what is edited, else as the modifiers leave it.
+    before: PolygonMesh | None = None,
+) -> PolygonMesh | None:
+    """Read the mesh of an object, all visible faces: in edit mode what is edited, else as the modifiers leave it.
 
     In edit mode `other_uv`, (C, 2), takes the place of the active UV map. None without faces or without a UV map.
-
-    Given what was read `before`, its face offsets, the very array, are taken for those of now where there are as many
-    faces on the same corners in the same order: that other faces have the same is next to impossible, but can be.
+    Offsets may be those of what was read `before`, as in `read_arrays`.
     """
     if shown.mode != "EDIT":
         evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
         if not isinstance(evaluated, bpy.types.Mesh):
             return None
-        return _arrays(evaluated, False, image_aspect.aspect_in_object_mode(shown), before=before)
+        return _with_map(read_arrays(evaluated, True, before, aspect=image_aspect.aspect_in_object_mode(shown)))
     with temporary_mesh() as copy:
         bm = bmesh.from_edit_mesh(shown.data)
         bm.to_mesh(copy)
-        only_selected = not context.scene.tool_settings.use_uv_select_sync
-        return _arrays(copy, only_selected, image_aspect.aspect(shown, bm), other_uv, before)
+        found = read_arrays(copy, True, before, aspect=image_aspect.aspect(shown, bm))
+        if not context.scene.tool_settings.use_uv_select_sync:
+            found = replace(found, uv_faces=found.selected_faces & compatibility.flags(copy, "polygons", "select"))
+    if other_uv is not None and len(other_uv) == len(found.corner_vertices):
+        # As Blender would store it.
+        found = replace(found, uv=other_uv.astype(np.float32).astype(np.float64))
+    return _with_map(found)
+
+
+def _with_map(found: PolygonMesh) -> PolygonMesh | None:
+    return found if found.uv is not None and len(found.selected_faces) else None
 
 
 def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:
@@ -46,42 +53,13 @@ def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:
     return len(evaluated.polygons) if isinstance(evaluated, bpy.types.Mesh) else 0
 
 
-def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> MapArrays | None:
-    """Read the mesh of an object without its modifiers, all faces as visible ones; None as `read_map` has it."""
+def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> PolygonMesh | None:
+    """Read the mesh of an object without its modifiers, hidden faces too; None as `read_map` has it."""
     if shown.mode == "EDIT":
-        arrays = read_map(context, shown)
+        found = read_map(context, shown)
     else:
-        arrays = _arrays(shown.data, False, image_aspect.aspect_in_object_mode(shown))
-    return arrays and replace(arrays, visible_faces=np.ones_like(arrays.visible_faces))
-
-
-def _arrays(
-    mesh: bpy.types.Mesh,
-    only_selected: bool,
-    aspect: float,
-    other_uv: np.ndarray | None = None,
-    before: MapArrays | None = None,
-) -> MapArrays | None:
-    is_other = other_uv is not None and len(other_uv) == len(mesh.loops)
-    if (mesh.uv_layers.active is None and not is_other) or not len(mesh.polygons):
-        return None
-    visible = ~compatibility.flags(mesh, "polygons", "hide")
-    corner_vertices = compatibility.corner_vertices(mesh)
-    # Blender has no fast way to read offsets: they take as long as all the rest.
-    has_same_faces = (
-        before is not None
-        and len(before.visible_faces) == len(visible)
-        and np.array_equal(before.corner_vertices, corner_vertices)
-    )
-    return MapArrays(
-        positions=compatibility.positions(mesh),
-        face_offsets=before.face_offsets if has_same_faces else compatibility.face_offsets(mesh),
-        corner_vertices=corner_vertices,
-        uv=other_uv.astype(np.float32) if is_other else compatibility.corner_uv(mesh),
-        visible_faces=visible,
-        uv_faces=visible & compatibility.flags(mesh, "polygons", "select") if only_selected else visible,
-        aspect=aspect,
-    )
+        found = _with_map(read_arrays(shown.data, True, aspect=image_aspect.aspect_in_object_mode(shown)))
+    return found and replace(found, selected_faces=np.ones_like(found.selected_faces))
 
 
 def active_face(shown: bpy.types.Object) -> int:

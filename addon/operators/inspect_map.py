@@ -86,7 +86,7 @@ def end_running(context: bpy.types.Context) -> None:
 def _select_island(context: bpy.types.Context, found: FaceBelow, extend: bool) -> None:
     """Select the island of a face, as a step that can be undone."""
     island = found.view.island_of_face
-    faces = {found.shown.data: (island == island[found.face]) & found.view.arrays.visible_faces}
+    faces = {found.shown.data: (island == island[found.face]) & found.view.mesh.selected_faces}
     selection.select_only(context, faces, extend)
     if bpy.ops.ed.undo_push.poll():
         bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)

@@ -16,7 +16,8 @@ import numpy as np
 from .. import editors, names, user_preferences
 from ..core import choices
 from ..core.errors import PrintOnce
-from ..core.measure.map_view import IslandNumbers, MapArrays, MapView, automatic_range, joined_numbers
+from ..core.measure.map_view import IslandNumbers, MapView, automatic_range, joined_numbers
+from ..core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
 from ..core.words import texts
 from ..edit_mesh import read_map
 from . import colored_triangles, legend
@@ -49,7 +50,7 @@ class _ShownMesh:
     def view(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
         """Return what the object shows now; None without faces or a UV map."""
         if self._is_stale:
-            self._read(context, shown, self._view and self._view.arrays)
+            self._read(context, shown, self._view and self._view.mesh)
         return self._view
 
     def confirm(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
@@ -58,7 +59,7 @@ class _ShownMesh:
             self._read(context, shown, None)
         return self._view
 
-    def _read(self, context: bpy.types.Context, shown: bpy.types.Object, before: MapArrays | None) -> None:
+    def _read(self, context: bpy.types.Context, shown: bpy.types.Object, before: PolygonMesh | None) -> None:
         self._is_stale = False
         most = user_preferences.read("overlay_max_faces", user_preferences.MAX_FACES)
         self.is_too_large = read_map.n_faces(context, shown) > most
@@ -69,13 +70,13 @@ class _ShownMesh:
         self._trusts_faces = are_known and arrays.face_offsets is before.face_offsets
         self._show(arrays)
 
-    def _show(self, arrays: MapArrays | None) -> None:
+    def _show(self, arrays: PolygonMesh | None) -> None:
         """Take up what was read, and keep what it does not change."""
         before = self._view
         if arrays is None and before is None:
             return
-        has_mesh = arrays is not None and before is not None and arrays.has_mesh_of(before.arrays)
-        if has_mesh and arrays.has_map_of(before.arrays):
+        has_mesh = arrays is not None and before is not None and arrays.equals(before.mesh, SURFACE)
+        if has_mesh and arrays.equals(before.mesh, MAP):
             return
         self._view = None if arrays is None else MapView(arrays, before if has_mesh else None)
         self._batches.clear()

@@ -90,8 +90,8 @@ def _in_viewport(
 
 def _tree(view: MapView) -> BVHTree:
     if view not in _trees:
-        vertices = view.arrays.corner_vertices.take(view.triangles[0])
-        _trees[view] = BVHTree.FromPolygons(view.arrays.positions.tolist(), vertices.tolist(), all_triangles=True)
+        vertices = view.mesh.corner_vertices.take(view.triangles[0])
+        _trees[view] = BVHTree.FromPolygons(view.mesh.vertices.tolist(), vertices.tolist(), all_triangles=True)
     return _trees[view]
 
 

@@ -100,8 +100,8 @@ def steps():
     yield from drive.until(selected)
     assert selected() == set(np.flatnonzero(view.island_of_face == view.island_of_face[face]))
     # The same in the UV editor.
-    corner = view.arrays.face_offsets[0]
-    middle = view.arrays.uv[corner : view.arrays.face_offsets[1]].mean(axis=0)
+    corner = view.mesh.face_offsets[0]
+    middle = view.mesh.uv[corner : view.mesh.face_offsets[1]].mean(axis=0)
     region = drive.region_of("IMAGE_EDITOR")
     x, y = region.view2d.view_to_region(*map(float, middle), clip=False)
     drive.move_mouse(region.x + x, region.y + y)

@@ -144,7 +144,7 @@ def look_at_two():
     for each, _, view in overlay.views(bpy.context):
         mesh = each.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
         places = np.array([vertex.co for vertex in mesh.vertices], dtype=np.float32)
-        np.testing.assert_array_equal(view.arrays.positions, places)
+        np.testing.assert_array_equal(view.mesh.vertices, places)
     yield
 
 

@@ -13,7 +13,7 @@ from itertools import accumulate
 import numpy as np
 
 from .. import native
-from ..mesh.polygon_mesh import PolygonMesh, next_corner
+from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.joined import numbered_together
 from ..solve.options import Margin
 from ..solve.solution import Solution
@@ -215,7 +215,7 @@ def to_former_area(
 def areas(uv: np.ndarray, chart: np.ndarray, face_offsets: np.ndarray, number: int) -> np.ndarray:
     """Return the area of each of `number` charts, whichever way its faces are wound, (number,)."""
     first, end = face_offsets[:-1], face_offsets[1:]
-    following = next_corner(face_offsets)
+    following = native.measuring().next_corner(face_offsets)
     # Relative to the face's first corner, so that a small face far from the origin keeps its digits.
     local = uv - np.repeat(uv[first], end - first, axis=0)
     cross = local[:, 0] * local[following, 1] - local[:, 1] * local[following, 0]

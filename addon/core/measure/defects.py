@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces of the UV maps of several meshes that lie the wrong way round or on others."""
+"""Islands of the UV maps of several meshes, and the faces that are flipped or overlap others."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,20 +12,22 @@ from ..mesh.polygon_mesh import PolygonMesh
 
 @dataclass(frozen=True)
 class Defects:
-    """The defects of one mesh with F faces, each (F,) bool and False for faces that are not selected.
+    """The defects of one mesh with F faces; False, or -1, for faces that are not selected.
 
     Attributes:
-        flipped: as `spectral_conformal.map_defects` documents.
-        overlapping: as there.
-        not_finite: a UV of the face is infinite or not a number; it is neither of the others.
+        flipped: (F,) bool, as `spectral_conformal.map_defects` documents.
+        overlapping: (F,) bool, as there.
+        not_finite: (F,) bool, a UV of the face is infinite or not a number; it is neither of the others.
+        island_of_face: (F,) int32, counted over all meshes; -1 also for faces that are `not_finite`.
     """
 
     flipped: np.ndarray
     overlapping: np.ndarray
     not_finite: np.ndarray
+    island_of_face: np.ndarray
 
     def chosen(self, flipped: bool, overlapping: bool) -> np.ndarray:
-        """Return the faces with the chosen kinds of defects, (F,) bool. Those without finite UVs are always there."""
+        """Return the faces with the chosen kinds of defects, (F,) bool; those without finite UVs in any case."""
         faces = self.not_finite.copy()
         if flipped:
             faces |= self.flipped
@@ -35,9 +37,9 @@ class Defects:
 
 
 def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
-    """Look for defects in `PolygonMesh.uv`, which must be there, among the selected faces of all meshes.
+    """Find the defects of the selected faces of all meshes, which must have a UV map.
 
-    Islands are parts of one mesh; with `between_islands` they overlap those of the other meshes too.
+    An island is part of one mesh; with `between_islands` it may overlap those of other meshes.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -55,12 +57,15 @@ def find(meshes: Sequence[PolygonMesh], between_islands: bool) -> list[Defects]:
         between_islands=between_islands,
     )
     ends = np.cumsum(face_counts)[:-1]
-    parts = zip(np.split(found.flipped, ends), np.split(found.overlapping, ends), not_finite)
-    return [Defects(*part) for part in parts]
+    flipped, overlapping, islands = (
+        np.split(array, ends) for array in (found.flipped, found.overlapping, found.island_of_face)
+    )
+    return [Defects(*parts) for parts in zip(flipped, overlapping, not_finite, islands)]
 
 
 def _has_corner(mesh: PolygonMesh, corners: np.ndarray) -> np.ndarray:
     """Return which faces have one of the `corners` (C,) bool, (F,) bool."""
     has = np.zeros(len(mesh.selected_faces), dtype=bool)
-    has[mesh.face_of_corner()[corners]] = True
+    if corners.any():
+        has[mesh.face_of_corner()[corners]] = True
     return has

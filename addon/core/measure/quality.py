@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How good the map of several meshes is as a whole, in two numbers."""
+"""How good the map of several meshes is, in two numbers."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
-from ..solve.solution import Solution, are_solved, column_of_all
+from ..solve.solution import Solution
+from .summary import mean_qc
 
 
 @dataclass(frozen=True)
@@ -15,8 +17,8 @@ class MapQuality:
     """Distortion of the faces to unwrap, islands being scaled by their surface area.
 
     Attributes:
-        even: part of the area, 0 to 1, whose linear scale lies within a factor of the median. Faces of islands that
-            could not be solved do not.
+        even: part of the area, 0 to 1, whose linear scale lies within a factor of the median; that of islands that
+            could not be solved does not.
         mean_qc: quasi-conformal distortion averaged over the solved area; NaN where there is none.
     """
 
@@ -25,44 +27,25 @@ class MapQuality:
 
 
 def measure(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], factor: float) -> MapQuality:
-    """Measure the maps that `solve` returned for the selected faces of the meshes."""
-    parts = [_areas(mesh, solution) for mesh, solution in zip(meshes, solutions)]
-    area, image = (np.concatenate(arrays) for arrays in zip(*parts))
-    solved = are_solved(solutions)
-    weights = column_of_all(solutions, "area")[solved]
-    qc = column_of_all(solutions, "mean_qc")[solved]
-    mean_qc = np.average(qc, weights=weights) if weights.sum() > 0.0 else np.nan
-    return MapQuality(_even(area, image, factor), float(mean_qc))
+    """Measure the maps that `solve` returned for the selected faces of the meshes.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    parts = [_areas_and_scales(mesh, solution) for mesh, solution in zip(meshes, solutions)]
+    area, scale = (np.concatenate(arrays) for arrays in zip(*parts))
+    (median,) = native.measuring().area_percentiles(scale, area, (50.0,))
+    # Comparisons with NaN are false.
+    even = np.abs(scale - median) <= np.log2(factor)
+    return MapQuality(float(area[even].sum() / area.sum()) if even.any() else 0.0, mean_qc(solutions))
 
 
-def _even(area: np.ndarray, image: np.ndarray, factor: float) -> float:
-    """Return the part of `area` where the root of `image` / `area` is within `factor` of its median, all (F,)."""
-    mapped = (area > 0.0) & (image > 0.0)
-    if not mapped.any():
-        return 0.0
-    scale = 0.5 * (np.log(image[mapped]) - np.log(area[mapped]))
-    order = np.argsort(scale)
-    below = np.cumsum(area[mapped][order])
-    median = scale[order][np.searchsorted(below, 0.5 * below[-1])]
-    even = np.abs(scale - median) <= np.log(factor)
-    return float(area[mapped][even].sum() / area.sum())
-
-
-def _areas(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Return the area of every selected face, and that of its image, 0 where it was not solved."""
-    uv = np.where(solution.solved_corners[:, None], solution.uv, 0.0)
-    in_space = mesh.vertices[mesh.corner_vertices]
-    in_plane = np.column_stack([uv, np.zeros(len(uv))])
-    return tuple(_polygon_areas(points, mesh)[mesh.selected_faces] for points in (in_space, in_plane))
-
-
-def _polygon_areas(points: np.ndarray, mesh: PolygonMesh) -> np.ndarray:
-    """Return the area of the polygon that the corners (C, 3) of each face make, (F,), 0 where that is not finite."""
-    first = mesh.face_offsets[:-1]
-    following = mesh.next_corner()
-    face = mesh.face_of_corner()
-    with np.errstate(invalid="ignore", over="ignore"):
-        relative = points - points[first][face]
-        normals = 0.5 * np.add.reduceat(np.cross(relative, relative[following]), first)
-        areas = np.linalg.norm(normals, axis=1)
-    return np.where(np.isfinite(areas), areas, 0.0)
+def _areas_and_scales(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+    """Return the area of every face, 0 if not selected, and the binary logarithm of its scale, NaN if not solved."""
+    solved = solution.solved_corners[mesh.face_offsets[:-1]]
+    measured = native.spectral_conformal().face_distortion(
+        mesh.vertices, mesh.face_offsets, mesh.corner_vertices, solution.uv, selected_faces=mesh.selected_faces
+    )
+    # Of positions that are larger than anything that is modeled.
+    area = np.where(np.isfinite(measured.area), measured.area, 0.0)
+    return area, np.where(solved & np.isfinite(measured.log2_scale), measured.log2_scale, np.nan)

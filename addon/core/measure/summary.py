@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import native
 from ..solve.solution import Solution, are_solved, column_of_all
 from ..words.translation import translate
 
@@ -59,6 +60,17 @@ class Summary:
         return any({"mark", "seams"} <= set(reason.lower().split()) for reason in self.failures)
 
 
+def mean_qc(solutions: Sequence[Solution]) -> float:
+    """Return the quasi-conformal distortion averaged over the surface of all solved charts; NaN where there is none.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    solved = are_solved(solutions)
+    qc, area = (column_of_all(solutions, name)[solved] for name in ("mean_qc", "area"))
+    return native.measuring().area_mean(qc, area)
+
+
 def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
 
@@ -70,7 +82,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     messages = of("message")
     return Summary(
         solved=int(np.count_nonzero(solved)),
-        mean_qc=_average(of("mean_qc")[solved], of("area")[solved]),
+        mean_qc=mean_qc(solutions),
         max_qc=max(of("max_qc")[solved].tolist(), default=float("nan")),
         strained=int(np.count_nonzero(of("max_qc")[solved] > STRAINED_QC)),
         flipped=sum(of("flipped")[solved].tolist()),
@@ -88,15 +100,10 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     )
 
 
-def _average(values: np.ndarray, area: np.ndarray) -> float:
-    """Return the mean of `values` (N,) weighted by `area` (N,), NaN without area."""
-    total = sum(area.tolist())
-    return sum((values * (area / total)).tolist()) if total > 0.0 else float("nan")
-
-
 def _mean_qc_change(before: np.ndarray, after: np.ndarray, area: np.ndarray) -> tuple[float, float] | None:
     """Return the mean QC before and after unfolding, weighted by area, of the charts that had a map before."""
     mapped = ~np.isnan(before)
     if not area[mapped].sum() > 0.0:
         return None
-    return _average(before[mapped], area[mapped]), _average(after[mapped], area[mapped])
+    area_mean = native.measuring().area_mean
+    return area_mean(before[mapped], area[mapped]), area_mean(after[mapped], area[mapped])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ._measuring import next_corner
 from ._packing import pack_boxes
 
 # Of the packer, which arranges boxes of other sizes otherwise: the next side may be larger by some part.
@@ -12,13 +13,6 @@ _GROWTH = 1e-3
 _ROUNDS = 64
 # Times the largest box: beyond it nothing is left of the boxes.
 _LARGEST_SPACE = 1e3
-
-
-def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
-    """Return the corner that follows every corner in its face, (C,)."""
-    following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
-    following[face_offsets[1:] - 1] = face_offsets[:-1]
-    return following
 
 
 def map_seams(

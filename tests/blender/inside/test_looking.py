@@ -43,7 +43,7 @@ def of_module(edit_object):
     """What the module says of the map as Blender stores it."""
     arrays = read_map.read_map(bpy.context, edit_object)
     return native.spectral_conformal().face_distortion(
-        arrays.positions, arrays.face_offsets, arrays.corner_vertices, arrays.uv.astype(float)
+        arrays.vertices, arrays.face_offsets, arrays.corner_vertices, arrays.uv.astype(float)
     )
 
 
@@ -74,8 +74,8 @@ def test_hidden_faces_are_not_shown():
     grid = stretched_grid()
     scenes.edit_mesh(grid).faces[0].hide_set(True)
     arrays = read_map.read_map(bpy.context, grid)
-    assert not arrays.visible_faces[0]
-    assert arrays.visible_faces[1:].all()
+    assert not arrays.selected_faces[0]
+    assert arrays.selected_faces[1:].all()
 
 
 def test_offsets_are_read_again_where_the_corners_are_others():
@@ -95,14 +95,14 @@ def test_what_was_taken_for_granted_is_read_again():
     shown = map_overlay._ShownMesh()
     shown.view(bpy.context, grid)
     view = shown.confirm(bpy.context, grid)
-    right = view.arrays
+    right = view.mesh
     # Faces of three and of five corners in place of two of four: the corners are the same.
     wrong = right.face_offsets.copy()
     wrong[1] -= 1
-    view.arrays = dataclasses.replace(right, face_offsets=wrong)
+    view.mesh = dataclasses.replace(right, face_offsets=wrong)
     shown.edited()
-    assert shown.view(bpy.context, grid).arrays.face_offsets is wrong
-    assert np.array_equal(shown.confirm(bpy.context, grid).arrays.face_offsets, right.face_offsets)
+    assert shown.view(bpy.context, grid).mesh.face_offsets is wrong
+    assert np.array_equal(shown.confirm(bpy.context, grid).mesh.face_offsets, right.face_offsets)
 
 
 def test_without_a_map_nothing_is_shown():

@@ -6,25 +6,21 @@ import dataclasses
 import numpy as np
 import pytest
 from spectral_unwrap.core import choices
-from spectral_unwrap.core.measure.map_view import (
-    MapArrays,
-    MapView,
-    automatic_range,
-    joined_numbers,
-    weighted_percentiles,
-)
+from spectral_unwrap.core.measure.map_view import MapView, automatic_range, joined_numbers
+from spectral_unwrap.core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
 from spectral_unwrap.core.words import texts
 
 
 def grid(n=4, scale=(1.0, 1.0)):
     """A flat grid of n x n unit squares; its map is the same, stretched."""
     y, x = np.divmod(np.arange((n + 1) ** 2), n + 1)
-    positions = np.c_[x, y, 0 * x].astype(np.float32)
+    positions = np.c_[x, y, 0 * x].astype(np.float64)
     first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
     corners = np.c_[first, first + 1, first + n + 2, first + n + 1].astype(np.int32).ravel()
     faces = np.ones(n * n, dtype=bool)
-    uv = (positions[corners][:, :2] * scale).astype(np.float32)
-    return MapArrays(positions, np.arange(0, 4 * n * n + 1, 4, dtype=np.int32), corners, uv, faces, faces.copy())
+    uv = positions[corners][:, :2] * scale
+    offsets, seams = np.arange(0, 4 * n * n + 1, 4, dtype=np.int32), np.empty((0, 2), np.int32)
+    return PolygonMesh(positions, offsets, corners, seams, faces, uv, uv_faces=faces.copy())
 
 
 def changed(arrays, **fields):
@@ -57,7 +53,7 @@ def test_flipped_and_overlapping_faces_differ():
 
 def test_buffers_are_those_of_the_visible_faces():
     arrays = grid()
-    arrays.visible_faces[::2] = False
+    arrays.selected_faces[::2] = False
     arrays.uv_faces[:] = np.arange(16) == 3
     view = MapView(arrays)
     positions, (uv, values) = view.triangle_positions(), view.triangle_map(choices.LOOK_ANGLE)
@@ -80,7 +76,7 @@ def test_nothing_that_is_drawn_is_not_a_number():
 
 def test_numbers_of_the_map_and_of_an_island():
     arrays = grid(scale=(2.0, 1.0))
-    arrays.uv[:32] = arrays.positions[arrays.corner_vertices[:32], :2] - 50.0
+    arrays.uv[:32] = arrays.vertices[arrays.corner_vertices[:32], :2] - 50.0
     view = MapView(arrays)
     assert view.numbers().mean_qc == pytest.approx(1.5)
     assert view.numbers().max_qc == pytest.approx(2.0)
@@ -104,31 +100,26 @@ def test_range_follows_most_of_the_surface():
     assert automatic_range([MapView(arrays)], choices.LOOK_ANGLE)[1] == pytest.approx(3.0)
 
 
-def test_percentiles_count_weights():
-    values, weights = np.array([3.0, 1.0, np.nan, 2.0]), np.array([1.0, 8.0, 50.0, 1.0])
-    assert weighted_percentiles(values, weights, (50.0, 85.0, 100.0)) == [1.0, 2.0, 3.0]
-
-
 def test_equal_arrays_are_equal():
     one = grid()
     one.uv[0] = np.nan
     moved = changed(one, uv=one.uv + 1.0)
-    assert one.has_map_of(changed(one, uv=one.uv.copy()))
-    assert one.has_mesh_of(moved)
-    assert not one.has_map_of(moved)
+    assert one.equals(changed(one, uv=one.uv.copy()), MAP)
+    assert one.equals(moved, SURFACE)
+    assert not one.equals(moved, MAP)
     known = MapView(one)
     assert MapView(moved, before=known).triangles is known.triangles
-    hidden = changed(one, visible_faces=~one.visible_faces)
-    assert hidden.has_map_of(one)
-    assert not hidden.has_mesh_of(one)
-    assert not changed(one, positions=one.positions + np.float32(1.0)).has_mesh_of(one)
+    hidden = changed(one, selected_faces=~one.selected_faces)
+    assert hidden.equals(one, MAP)
+    assert not hidden.equals(one, SURFACE)
+    assert not changed(one, vertices=one.vertices + 1.0).equals(one, SURFACE)
 
 
 def test_legend_has_a_line_for_what_there_is():
     numbers = MapView(grid()).numbers()
     lines = texts.legend_numbers("Shown", numbers)
     assert lines == ("Shown: 16 faces", "Angles 1.000 average, 1.000 worst", "Sizes vary by 0.0 %")
-    nothing = MapView(changed(grid(), uv=np.full((64, 2), np.nan, np.float32))).numbers()
+    nothing = MapView(changed(grid(), uv=np.full((64, 2), np.nan))).numbers()
     assert texts.legend_numbers("Shown", nothing) == ("Shown: 16 faces, nothing to measure",)
 
 
@@ -148,7 +139,7 @@ def test_what_an_image_stretches_back_is_not_distorted():
     view = MapView(changed(grid(scale=(0.5, 1.0)), aspect=2.0))
     assert view.qc == pytest.approx(1.0)
     assert view.values(choices.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
-    assert not view.arrays.has_map_of(changed(view.arrays, aspect=1.0))
+    assert not view.mesh.equals(changed(view.mesh, aspect=1.0), MAP)
 
 
 def test_numbers_of_several_maps_are_weighed_by_their_surface():

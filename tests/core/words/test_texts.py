@@ -84,13 +84,14 @@ def test_information_tells_where_to_see_defects(flipped, overlapping, said):
 
 
 def test_selected_defects():
-    first = Defects(np.array([True, True, False]), np.array([False, True, True]), np.array([False, False, False]))
-    second = Defects(np.array([False]), np.array([False]), np.array([True]))
+    one = np.zeros(3, int)
+    first = Defects(np.array([True, True, False]), np.array([False, True, True]), np.array([False, False, False]), one)
+    second = Defects(np.array([False]), np.array([False]), np.array([True]), one[:1])
     both = [first, second]
     said = texts.selected_defects(both, True, True)
     assert said == "Selected 4 faces: 2 flipped, 2 overlapping, 1 with UVs that are not finite"
     assert texts.selected_defects([first], False, True) == "Selected 2 faces: 2 overlapping"
-    none = Defects(*(np.zeros(2, dtype=bool),) * 3)
+    none = Defects(*(np.zeros(2, dtype=bool),) * 3, one[:2])
     assert texts.selected_defects([none], True, True) == "No flipped or overlapping faces, selection unchanged"
     assert texts.selected_defects([none, none], False, True) == "No overlapping faces, selection unchanged"
 

@@ -136,11 +136,11 @@ def summary(count=0, **changed):
 
 
 def numbers(mean_qc=1.5, faces=2):
-    return IslandNumbers(faces, 1, mean_qc, 2.0, 0.5, 0.0, 1, 1)
+    return IslandNumbers(faces, mean_qc, 2.0, 0.5, 1, 1)
 
 
 def defects(flag):
-    return [Defects(*(np.array([flag]),) * 3)]
+    return [Defects(*(np.array([flag]),) * 3, np.zeros(1, int))]
 
 
 LABEL, LOOKS = texts.UNWRAP_LABEL, [identifier for identifier, _, _ in texts.LOOK_ITEMS]

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from .._layout import next_corner
+from .._measuring import area_mean, area_percentiles, next_corner
 from .._quality import face_distortion, face_triangles, map_defects
 from . import welding
 from .mesh import AssetMesh
@@ -19,8 +19,9 @@ _DEGENERATE = 1e-10
 _UNKNOWN = float("nan")
 # Of a quad's larger triangle, the smaller one: below, single precision decides how it is wound.
 _ROUNDING = 1e-4
-# Of the area: what is shown in the range of colours; and the least width of that, so that a good map looks good.
-_SHOWN = 0.98
+# Percentage of the area whose values the range of colors shows; and the least width of that, so that a good map looks
+# good.
+_SHOWN = 98.0
 _LEAST_SHOWN = 0.2
 _COMPARISONS = {
     ast.Eq: operator.eq,
@@ -141,8 +142,8 @@ class Measurement:
         spread = _UNKNOWN
         if self.counted.any():
             density, weight = self._densities(self.counted), self.area[self.counted]
-            average = np.average(density, weights=weight)
-            spread = float(np.sqrt(np.average((density - average) ** 2, weights=weight)) / average)
+            average = area_mean(density, weight)
+            spread = area_mean((density - average) ** 2, weight) ** 0.5 / average
         uv = self.uv[np.repeat(self.has_map, np.diff(self.face_offsets))]
         # Pairs as complex numbers: sorting rows takes ten times as long.
         tiles = np.unique(np.floor(uv - 1e-6 * np.sign(uv)).view(np.complex128))
@@ -171,7 +172,6 @@ class Measurement:
         for faces in np.split(order, np.flatnonzero(np.diff(island[order])) + 1) if len(order) else ():
             counted = faces[self.counted[faces]]
             mean, p99, largest = self._qc(counted)
-            weight = self.area[counted]
             yield IslandReport(
                 mesh=self.names[self.mesh_of_face[faces[0]]],
                 faces=len(faces),
@@ -182,13 +182,13 @@ class Measurement:
                 qc_mean=mean,
                 qc_p99=p99,
                 qc_max=largest,
-                density=float(np.average(self._densities(counted), weights=weight)) if len(counted) else _UNKNOWN,
+                density=area_mean(self._densities(counted), self.area[counted]),
             )
 
     def qc_range(self) -> tuple[float, float]:
         """Return the values to show as the two ends of colours: 1, and what most of the area does not exceed."""
-        end = percentile(self.qc[self.counted], self.area[self.counted], _SHOWN) if self.counted.any() else 1.0
-        return 1.0, max(end, 1.0 + _LEAST_SHOWN)
+        (end,) = area_percentiles(self.qc[self.counted], self.area[self.counted], (_SHOWN,))
+        return 1.0, float(np.fmax(end, 1.0 + _LEAST_SHOWN))
 
     def triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the mapped faces as triangles: UVs (T, 3, 2), and the QC of each (T,)."""
@@ -199,9 +199,8 @@ class Measurement:
     def _qc(self, faces: np.ndarray) -> tuple[float, float, float]:
         """Return mean, 99th percentile and maximum over some faces; not numbers where there are none."""
         qc, weight = self.qc[faces], self.area[faces]
-        if not len(qc):
-            return _UNKNOWN, _UNKNOWN, _UNKNOWN
-        return float(np.average(qc, weights=weight)), percentile(qc, weight, 0.99), float(qc.max())
+        (p99,) = area_percentiles(qc, weight, (99.0,))
+        return area_mean(qc, weight), p99, float(qc.max()) if len(qc) else _UNKNOWN
 
     def _split_flips(self) -> np.ndarray:
         """Return which faces, (F,) bool, are quads whose two triangles from the first corner are wound differently."""
@@ -250,13 +249,6 @@ def map_report(meshes: Sequence[AssetMesh]) -> MapReport:
 def _welded(mesh: AssetMesh) -> np.ndarray:
     """Return the vertex that stands for each: files have one for every normal, which ends no island of a map."""
     return welding.coincident_vertices(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, welding.DISTANCES[0])
-
-
-def percentile(values: np.ndarray, weights: np.ndarray, part: float) -> float:
-    """Return what so large a part of the weights, 0 to 1, does not exceed; all finite and at least one."""
-    order = np.argsort(values)
-    below = np.cumsum(weights[order])
-    return float(values[order][min(int(np.searchsorted(below, part * below[-1])), len(order) - 1)])
 
 
 class Requirement:

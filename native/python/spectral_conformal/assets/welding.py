@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from .._layout import next_corner
+from .._measuring import next_corner
 from .mesh import AssetMesh
 
 Integers = npt.NDArray[np.int64]

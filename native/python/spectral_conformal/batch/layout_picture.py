@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-# Displayed colours from good to bad: those of the add-on's overlay.
-GOOD_TO_BAD = ((0.16, 0.38, 0.85), (0.98, 0.86, 0.25), (0.86, 0.12, 0.10))
+from .._color_ramp import GOOD_TO_BAD, displayed_colors
+
 _BACKGROUND = (30, 30, 34)
 _TILE = (44, 44, 50)
 _INK = (225, 225, 225)
@@ -70,9 +70,7 @@ def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int)
 
 def _colors(values: np.ndarray, low: float, high: float) -> np.ndarray:
     """Return displayed colours, (T, 3) uint8."""
-    place = np.clip((np.nan_to_num(values, nan=high, posinf=high) - low) / (high - low), 0.0, 1.0)
-    channels = [np.interp(place, (0.0, 0.5, 1.0), channel) for channel in zip(*GOOD_TO_BAD)]
-    return np.rint(255.0 * np.stack(channels, axis=1)).astype(np.uint8)
+    return np.rint(255.0 * displayed_colors(values, low, high, GOOD_TO_BAD)).astype(np.uint8)
 
 
 def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:

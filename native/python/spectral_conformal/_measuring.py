@@ -1,0 +1,38 @@
+"""What all measurements of meshes and maps share: averages over the surface, and the corner that follows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+
+def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
+    """Return the corner that follows every corner in its face, (C,)."""
+    following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
+    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    return following
+
+
+def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) -> float:
+    """Return the mean of `values` (N,) over the surface, given the `area` (N,) of each; NaN without area."""
+    total = area.sum()
+    # Dividing first keeps the products in range.
+    return float((values * (area / total)).sum()) if total > 0.0 else float("nan")
+
+
+def area_percentiles(
+    values: npt.NDArray[np.floating], area: npt.NDArray[np.floating], percentages: Sequence[float]
+) -> list[float]:
+    """Return the values that so many percent of the surface do not exceed, given the `area` of each of N values.
+
+    Values that are not finite do not count. NaN where none has an area.
+    """
+    counted = (area > 0.0) & np.isfinite(values)
+    if not counted.any():
+        return [float("nan")] * len(percentages)
+    order = np.argsort(values[counted])
+    below = np.cumsum(area[counted][order])
+    indices = np.searchsorted(below, np.asarray(percentages) / 100.0 * below[-1])
+    return values[counted][order][np.minimum(indices, len(order) - 1)].tolist()
