@@ -24,7 +24,6 @@ def test_reading_makes_nothing_in_the_file(monkeypatch):
     monkeypatch.setattr(compatibility, "bpy", SimpleNamespace(data=SimpleNamespace(temp_data=bpy.data.temp_data)))
     monkeypatch.setattr(read, "bpy", SimpleNamespace(types=bpy.types))
     assert len(read.read_mesh(grid).polygons.selected_faces) == 6
-    assert len(read.read_uv(read.read_mesh(grid))) == 24
 
 
 def test_reading_leaves_the_graph_of_objects_alone():
