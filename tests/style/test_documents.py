@@ -74,45 +74,39 @@ def test_python_in_documents_compiles(document):
 
 
 def module_code():
-    """Return the blocks of docs/scripting.md for the module's functions.
+    """Return the blocks for the module's functions, of docs/scripting.md and then of docs/api.md.
 
     tests/blender/test_scripting.py and tests/module/test_gltf.py run the others.
     """
-    text = (ROOT / "docs" / "scripting.md").read_text(encoding="utf-8")
+    pages = ((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("scripting.md", "api.md"))
     return [
         code
-        for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        for code in re.findall(r"```python\n(.*?)```", "".join(pages), re.DOTALL)
         if not re.search(r"\bbpy\b|\bassets\b", code)
     ]
 
 
-@pytest.mark.parametrize("code", module_code(), ids=lambda code: code.split()[1])
 @pytest.mark.parametrize(
     ("vertices", "faces"), [meshes.saddle_quads(13), meshes.bulge(15, 0.8), meshes.bumpy_disk(300)], ids=len
 )
-def test_code_for_the_module_runs(code, vertices, faces):
+def test_code_for_the_module_runs(vertices, faces):
     _, triangles = control_pictures.triangulated((vertices, faces)) if faces.shape[1] == 4 else (vertices, faces)
-    face_offsets, corner_vertices = meshes.polygons(faces)
-    names = {
-        "vertices": vertices,
-        "triangles": triangles,
-        "face_offsets": face_offsets,
-        "corner_vertices": corner_vertices,
-        "seams": faces[:3, :2],
-    }
-    exec(compile(code, "scripting.md", "exec"), names)
-    for name in ("solution", "result", "lower", "flat", "strict", "even", "grain"):
+    names = {"V": vertices, "F": triangles, "seams": triangles[:3, :2]}
+    for code in module_code():
+        exec(compile(code, "docs", "exec"), names)
+    for name in ("result", "lower", "flat", "pushed", "even", "grain"):
         uv = names[name].uv
         assert np.isfinite(uv).all(), name
         assert np.ptp(uv, axis=0).min() > 0.1, name
     assert names["seams"].shape[1:] == (2,)
+    assert np.array_equal(names["vmapping"][names["faces"]], triangles)
     assert names["lower"].polish_steps
     assert 1 < names["measured"].mean_qc < 1.2
-    assert names["defects"].overlapping.shape == (len(faces),)
+    assert names["defects"].overlapping.shape == (len(triangles),)
 
 
 def test_code_for_the_module_is_there():
-    assert len(module_code()) == 1
+    assert len(module_code()) == 2
 
 
 @pytest.mark.parametrize("example", control_pictures.EXAMPLES, ids=lambda example: example.name)
