@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """UV coordinates into edit-mode meshes."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import compress
 
 import bmesh
@@ -41,6 +41,24 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: b
             loop[layer].uv = next(points)
     if update:
         bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
+
+
+def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:
+    """Write the map of every mesh as `write_uv` does, into a new UV map if it has none.
+
+    Where that is interrupted, also from the keyboard, everything is as before.
+    """
+    added = [ensure_uv_map(edit_mesh.mesh) for edit_mesh in edit_meshes]
+    try:
+        for edit_mesh, uv, of_mesh in zip(edit_meshes, maps, corners):
+            write_uv(edit_mesh, uv, of_mesh)
+    except BaseException:
+        for edit_mesh, of_mesh, is_new in zip(edit_meshes, corners, added):
+            if is_new:
+                edit_mesh.mesh.uv_layers.remove(edit_mesh.mesh.uv_layers.active)
+            else:
+                write_uv(edit_mesh, edit_mesh.polygons.uv, of_mesh)
+        raise
 
 
 def _points(uv: np.ndarray) -> Iterator[tuple[float, float]]:

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ..core.mesh.charts import faces_of_charts_at
-from ..unwrapping import island_list, steps
+from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import last_settings
 
 
@@ -29,6 +29,5 @@ def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarr
             visible = edit_mesh.polygons.selected_faces
             visible &= faces_of_charts_at(edit_mesh.polygons, visible, changed[edit_mesh.mesh])
     solutions = steps.solve(edit_meshes, settings)
-    outcome = steps.write(settings, edit_meshes, solutions)
-    island_list.show(edit_meshes, solutions, steps.reports(outcome, time.perf_counter() - start), others_stay=True)
-    return outcome.summary.solved > 0
+    written = steps.write(settings, edit_meshes, solutions)
+    return outcome.finish(written, time.perf_counter() - start, others_stay=True).is_solved

@@ -16,7 +16,7 @@ from ..core.solve.solution import Solution, solve_all
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
-from ..unwrapping import island_list, seams, steps
+from ..unwrapping import outcome, seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
 from .job_operator import Done, Job, JobOperator
@@ -152,17 +152,15 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         Raises:
             MarginError: the margin is not finite; nothing changed.
         """
-        outcome = None
+        written = None
         if solutions is None:
             seams.mark(target, cuts)
         else:
-            outcome = seams.write(context, target, cuts, solutions, following.not_following)
+            written = seams.write(context, target, cuts, solutions, following.not_following)
         self.report({"INFO"}, texts.marked(len(cuts.cuts), length_text(context, cuts.length)))
         self._report_refused(target, cuts)
-        if outcome is not None:
-            reports = steps.reports(outcome, time.perf_counter() - start)
-            island_list.show(target.edit_meshes, solutions, reports)
-            for level, text in reports:
+        if written is not None:
+            for level, text in outcome.finish(written, time.perf_counter() - start).reports:
                 self.report({level}, text)
         return {"FINISHED"}
 

@@ -11,7 +11,7 @@ from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..live import following
 from ..ui import unwrap_settings
-from ..unwrapping import island_list, steps
+from ..unwrapping import outcome, steps
 from ..unwrapping.last_settings import settings_of
 from .job_operator import Job, JobOperator
 from .unwrap_properties import UnwrapProperties
@@ -50,11 +50,8 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
             if edit_meshes is None:
                 self.report({"WARNING"}, translate(texts.MESHES_CHANGED))
                 return {"CANCELLED"}
-        outcome = steps.write(settings, edit_meshes, done.result, following.not_following)
-        reports = steps.reports(outcome, time.perf_counter() - start)
-        if all_visible:
-            reports.insert(0, ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL)))
-        island_list.show(edit_meshes, done.result, reports)
-        for level, text in reports:
+        written = steps.write(settings, edit_meshes, done.result, following.not_following)
+        result = outcome.finish(written, time.perf_counter() - start, all_visible)
+        for level, text in result.reports:
             self.report({level}, text)
-        return {"FINISHED"} if outcome.summary.solved else {"CANCELLED"}
+        return {"FINISHED"} if result.is_solved else {"CANCELLED"}

@@ -15,7 +15,7 @@ from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh
 from . import steps
-from .steps import Outcome, WhileWriting
+from .steps import WhileWriting, Written
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def write(
     cuts: Suggestion,
     solutions: Sequence[Solution],
     while_writing: WhileWriting = nullcontext,
-) -> Outcome:
+) -> Written:
     """Mark the cuts and write the solutions of what `read_cut_open` returned for them.
 
     Raises:

@@ -17,6 +17,7 @@ from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.joined import numbered_together
 from ..solve.options import Margin
 from ..solve.solution import Solution
+from .obstacles import face_boxes, place_beside
 from .packing import pack
 
 # Gap between charts that are placed without a margin, relative to the mean chart size.
@@ -275,10 +276,12 @@ class Placement:
     Attributes:
         uv: one (C, 2) float64 array per mesh, meaningful at its solved corners.
         without_bounds: number of charts that could not be kept in place because they had no extent before.
+        left_tile: whether packed charts lie in another tile, as faces that stay leave too little room.
     """
 
     uv: list[np.ndarray]
     without_bounds: int = 0
+    left_tile: bool = False
 
 
 def place(
@@ -294,7 +297,7 @@ def place(
     `keep_in_place` every other chart goes into the bounding box that it had in `PolygonMesh.uv`. Otherwise, and for
     charts without a former extent, the charts are packed into the unit square, to a common scale, each as the solver
     turned it: upright. With `may_turn` those that are higher than wide lie. Without a `margin` there are gaps between
-    them.
+    them; with one they keep off the faces of failed charts, which stay.
 
     Raises:
         MarginError: the margin is not finite.
@@ -317,7 +320,27 @@ def place(
     # The tile is a square in the coordinates of each mesh's image.
     if any(mesh.aspect != 1.0 for mesh in meshes):
         uv = np.concatenate([mesh.from_isotropic_uv(part) for mesh, part in zip(meshes, _split(uv, corner_counts))])
-    return Placement(_split(side_by_side(uv, chart, margin), corner_counts), without_bounds)
+    maps = _split(side_by_side(uv, chart, margin), corner_counts)
+    left_tile = margin is not None and _keep_off_failed(meshes, solutions, maps)
+    return Placement(maps, without_bounds, left_tile)
+
+
+def _keep_off_failed(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], maps: Sequence[np.ndarray]) -> bool:
+    """Move the charts without pins in the `maps` off the faces of failed charts; return whether they left the tile."""
+    staying = [
+        face_boxes(mesh, mesh.uv, solution.failed_faces)
+        for mesh, solution in zip(meshes, solutions)
+        if solution.has_failures and mesh.uv is not None
+    ]
+    if not any(map(len, staying)):
+        return False
+    movable = [solution.solved_corners & ~solution.pinned_corners for solution in solutions]
+    # Charts are made of whole faces.
+    boxes = [face_boxes(mesh, uv, corners[mesh.face_offsets[:-1]]) for mesh, uv, corners in zip(meshes, maps, movable)]
+    scale, offset = place_beside(np.concatenate(boxes), staying)
+    for uv, corners in zip(maps, movable):
+        uv[corners] = uv[corners] * scale + offset
+    return bool(offset.max() >= 1.0)
 
 
 def _split(values: np.ndarray, counts: Sequence[int]) -> list[np.ndarray]:

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What became of an unwrap: remembered for later, listed island by island, and told to the user."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..core.measure.summary import Summary, summarize
+from ..core.solve.options import Settings
+from ..core.solve.solution import Solution
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..edit_mesh.read import EditMesh
+from . import island_list, last_result
+from .steps import Written
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Whether any island was solved, and what to tell the user as (level, text) pairs.
+
+    Blender shows the last one in the status bar, all of them in the Info editor: what asks for something comes last.
+    """
+
+    is_solved: bool
+    reports: Sequence[tuple[str, str]]
+
+
+def finish(written: Written, seconds: float, all_visible: bool = False, others_stay: bool = False) -> Outcome:
+    """Remember an unwrap that took so many `seconds`, list its islands, and return what to tell of it.
+
+    Args:
+        written: what was written.
+        seconds: the time that the unwrap took.
+        all_visible: whether all visible faces were unwrapped because none was selected.
+        others_stay: whether islands of other faces stay in the list.
+    """
+    edit_meshes, solutions = written.edit_meshes, written.solutions
+    summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
+    pairs = (
+        ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
+        ("INFO", texts.repairs(summary)),
+        ("INFO", texts.unfolded(summary)),
+        ("INFO", texts.pinned(summary)),
+        ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
+        *(("INFO", note) for note in _notes(edit_meshes, written.settings)),
+        *(("WARNING", warning) for warning in _warnings(summary, edit_meshes, written.settings, solutions)),
+        ("WARNING", translate(texts.PACKED_BESIDE_FAILED) if written.placement.left_tile else ""),
+        ("WARNING", texts.without_bounds(written.placement.without_bounds)),
+        ("WARNING", texts.failures(summary)),
+    )
+    reports = [(level, text) for level, text in pairs if text]
+    last_result.remember(edit_meshes, solutions)
+    island_list.show(edit_meshes, solutions, reports, others_stay)
+    return Outcome(summary.solved > 0, reports)
+
+
+def _warnings(
+    summary: Summary, edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]
+) -> tuple[str, ...]:
+    """Return which islands need seams, and what extenders and stretching could not do."""
+    warnings = [
+        # What is stretched on request is so everywhere.
+        texts.strained(summary) if settings.options.stretch == 1.0 else "",
+        texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
+        texts.too_small(sum(solution.too_small_faces for solution in solutions)),
+        texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
+        texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
+    ]
+    if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
+        warnings.append(translate(texts.NO_ACTIVE_EDGE))
+    return tuple(filter(None, warnings))
+
+
+def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:
+    """Return what Blender's own Unwrap would report about the objects."""
+    worlds = [edit_mesh.edit_object.matrix_world for edit_mesh in edit_meshes]
+    scales = [tuple(world.to_3x3().col[axis].length for axis in range(3)) for world in worlds]
+    notes = [texts.object_scale(scales, [world.is_negative for world in worlds])]
+    if settings.use_subsurf and all(edit_mesh.subdivision is None for edit_mesh in edit_meshes):
+        notes.append(translate(texts.NO_LEADING_SUBSURF))
+    return tuple(filter(None, notes))
