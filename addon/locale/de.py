@@ -8,41 +8,37 @@ TEXTS = {
         "Das Mesh mit geringer Winkelverzerrung und ohne Pins abwickeln"
     ),
     "Select Failed Islands": "Fehlgeschlagene Inseln auswählen",
-    "Select the visible faces of the islands that Spectral Unwrap could not solve when they were unwrapped last": (
-        "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ beim letzten Abwickeln nicht lösen "
-        "konnte"
+    "Select the visible faces of the islands that the last Spectral Unwrap could not solve": (
+        "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ zuletzt nicht lösen konnte"
     ),
     "Select Flipped and Overlapping": "Umgedrehte und überlappende auswählen",
-    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map": (
-        "Die sichtbaren Flächen auswählen, deren UVs in der aktiven UV-Map verkehrt herum oder auf denen anderer "
-        "Flächen liegen"
+    "Select the visible faces that are flipped or overlap others in the active UV map": (
+        "Die sichtbaren Flächen auswählen, die in der aktiven UV-Map umgedreht sind oder andere überlappen"
     ),
     "Suggest Seams": "Nähte vorschlagen",
-    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
-    "visible ones if none is selected; then unwrap again": (
-        "Auf den ausgewählten Flächen, oder auf allen sichtbaren, wenn keine ausgewählt ist, die Nähte markieren, "
-        "die die Verzerrung am meisten senken und geschlossene Meshes öffnen; danach neu abwickeln"
+    "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
+    "selection, on all visible ones; then unwrap": (
+        "Auf den ausgewählten Flächen, ohne Auswahl auf allen sichtbaren, die Nähte markieren, die die Verzerrung "
+        "am meisten senken und geschlossene Meshes öffnen; danach abwickeln"
     ),
     "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
-    "Let islands follow while their pins are moved or their extenders change, and unwrap again when seams are "
-    "changed": (
-        "Inseln folgen, während ihre Pins bewegt oder ihre Extender geändert werden, und werden neu abgewickelt, "
-        "wenn sich Nähte ändern"
+    "Let islands follow moved pins and changed extenders, and unwrap again when seams change": (
+        "Inseln folgen bewegten Pins und geänderten Extendern; bei geänderten Nähten wird neu abgewickelt"
     ),
     "Extender": "Extender",
     "Select": "Auswählen",
     "Remove": "Entfernen",
     "Add Extender": "Extender hinzufügen",
-    "Add forces that push pairs of selected vertices apart in the map, or pull them together": (
-        "Kräfte hinzufügen, die Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"
+    "Push pairs of selected vertices apart in the map, or pull them together": (
+        "Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"
     ),
     "Remove Extender": "Extender entfernen",
     "Remove the active extender": "Den aktiven Extender entfernen",
     "Remove Broken": "Defekte entfernen",
-    "Remove all extenders with a vertex that is gone": "Alle Extender entfernen, denen ein Punkt fehlt",
+    "Remove all extenders that lost a vertex": "Alle Extender entfernen, denen ein Punkt fehlt",
     "Adjust Extender": "Extender anpassen",
-    "Change the strength of the active extender by dragging, while its island follows": (
-        "Die Stärke des aktiven Extenders durch Ziehen ändern, während seine Insel folgt"
+    "Drag to change the strength of the active extender; its island follows": (
+        "Durch Ziehen die Stärke des aktiven Extenders ändern; seine Insel folgt"
     ),
     "Select Extender Vertices": "Punkte des Extenders auswählen",
     "Select the two vertices of the active extender": "Die beiden Punkte des aktiven Extenders auswählen",
@@ -54,24 +50,22 @@ TEXTS = {
     "Last Result": "Letztes Ergebnis",
     "Clear Selected": "Naht löschen",
     "From Islands": "Aus Inseln",
-    "Nothing was unwrapped yet": "Noch wurde nichts abgewickelt",
+    "Nothing unwrapped yet": "Noch nichts abgewickelt",
     "Select Island": "Insel auswählen",
     "Select Most Distorted": "Am stärksten verzerrte auswählen",
     "Select the visible faces that the active UV map distorts most": (
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map am stärksten verzerrt"
     ),
     "Inspect Map": "UV-Map untersuchen",
-    "Show the numbers of the face below the mouse; a click selects its island": (
+    "Show the numbers of the face under the mouse; click to select its island": (
         "Die Werte der Fläche unter der Maus anzeigen; ein Klick wählt ihre Insel aus"
     ),
     "Click: Select island   Shift click: Add it   Esc or right click: End": (
         "Klick: Insel auswählen   Umschalt+Klick: Hinzufügen   Esc oder Rechtsklick: Beenden"
     ),
     "Store as Attribute": "Als Attribut speichern",
-    "Write what the UV map does to every face into an attribute of the mesh, for rendering, geometry nodes and "
-    "scripts": (
-        "Was die UV-Map mit jeder Fläche macht, in ein Attribut des Meshs schreiben, für Rendering, Geometry Nodes "
-        "und Skripte"
+    "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts": (
+        "Die Verzerrung jeder Fläche als Attribut des Meshs speichern, für Rendering, Geometry Nodes und Skripte"
     ),
     "Extenders": "Extender",
     "Add to Active": "Mit dem aktiven verbinden",
@@ -86,8 +80,8 @@ TEXTS = {
     "Placement": "Platzierung",
     "Where the unwrapped islands go": "Wohin die abgewickelten Inseln kommen",
     "Turn to Pack": "Zum Packen drehen",
-    "Lay islands that are higher than wide on their side to pack them; otherwise all stand upright": (
-        "Inseln, die höher als breit sind, zum Packen auf die Seite legen; sonst stehen alle aufrecht"
+    "Lay tall islands on their side for packing; otherwise all islands stand upright": (
+        "Hohe Inseln zum Packen auf die Seite legen; sonst stehen alle Inseln aufrecht"
     ),
     "Fill Holes": "Löcher füllen",
     "Virtually fill holes in mesh before unwrapping, to better avoid overlaps and preserve symmetry": (
@@ -99,187 +93,177 @@ TEXTS = {
         "Löcher offen halten; 1 behandelt sie wie die äußere Begrenzung"
     ),
     "Automatic Holes": "Automatische Löcher",
-    "Keep the holes of an island from shrinking where that lowers its distortion; a Hole Rigidity above 0 takes the "
-    "place of this": (
-        "Die Löcher einer Insel nicht schrumpfen lassen, wo das ihre Verzerrung senkt; eine „Steifheit der Löcher“ "
-        "über 0 tritt an die Stelle davon"
+    "Keep the holes of an island from shrinking where that lowers its distortion; Hole Rigidity above 0 "
+    "overrides this": (
+        "Die Löcher einer Insel am Schrumpfen hindern, wo das ihre Verzerrung senkt; eine „Steifheit der Löcher“ "
+        "über 0 hat Vorrang"
     ),
     "Angle to Area": "Winkel zu Fläche",
-    "0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even": (
-        "0 erhält Winkel, sodass Größen schwanken; gegen 1 werden Winkel zugunsten gleichmäßiger Größen aufgegeben"
+    "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles": (
+        "0 erhält Winkel, und Größen schwanken; 1 erhält gleichmäßige Größen auf Kosten der Winkel"
     ),
     "No Flip": "Umdrehen verhindern",
-    "Leave no flipped faces, and no island that covers itself: unfold and move apart what is, at some cost in "
-    "angles. Islands where that is not enough get another map, which takes longer": (
-        "Keine umgedrehten Flächen und keine Insel übrig lassen, die sich selbst überdeckt: solche werden auf Kosten "
-        "der Winkel entfaltet und auseinandergeschoben. Inseln, bei denen das nicht reicht, werden auf andere Weise "
-        "abgewickelt, was länger dauert"
+    "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take longer": (
+        "Umgedrehte Flächen und Inseln, die sich selbst überlappen, auf Kosten der Winkel entfalten; bei "
+        "schwierigen Inseln dauert das länger"
     ),
     "Polish": "Nachbessern",
-    "Lower the angle distortion further by a few steps from the spectral map": (
-        "Die Winkelverzerrung ausgehend vom spektralen Ergebnis in einigen Schritten weiter senken"
-    ),
+    "Lower the angle distortion further in a few steps": ("Die Winkelverzerrung in einigen Schritten weiter senken"),
     "Edge Stretch": "Kantenstreckung",
-    "How much longer the islands get along the direction of the active edge than across it": (
-        "Wie viel länger die Inseln in Richtung der aktiven Kante werden als quer dazu"
+    "How much longer islands become along the active edge than across it": (
+        "Wie viel länger Inseln entlang der aktiven Kante werden als quer dazu"
     ),
-    "Show the settings that are seldom changed": "Die Einstellungen anzeigen, die selten geändert werden",
+    "Show rarely used settings": "Selten benutzte Einstellungen anzeigen",
     "Use Subdivision Surface": "Unterteilungsoberfläche verwenden",
     "Map UVs taking vertex position after Subdivision Surface modifier has been applied": (
         "UVs nach den Punktpositionen erzeugen, die der Modifikator „Oberflächenunterteilung“ ergibt"
     ),
     "Soft Pins": "Weiche Pins",
-    "Let pinned UVs attract the islands of the spectral method instead of holding them": (
-        "Gepinnte UVs ziehen die Inseln der spektralen Methode an, statt sie festzuhalten"
+    "Let pinned UVs attract islands instead of holding them; Spectral method only": (
+        "Gepinnte UVs ziehen Inseln an, statt sie festzuhalten; nur bei der Methode „Spektral“"
     ),
     "Strength": "Stärke",
-    "How strongly soft pins attract, 1000 nearly as if they were held": (
-        "Wie stark weiche Pins anziehen, bei 1000 beinahe, als hielten sie fest"
+    "How strongly soft pins attract; 1000 comes close to hard pins": (
+        "Wie stark weiche Pins anziehen; 1000 kommt festen Pins nahe"
     ),
     "Correct Aspect": "Seitenverhältnis korrigieren",
     "Map UVs taking image aspect ratio into account": (
         "UVs unter Berücksichtigung des Seitenverhältnisses des Bildes erzeugen"
     ),
     "Margin Method": "Randmethode",
-    "What the margin is measured by": "Woran der Rand gemessen wird",
+    "How the margin is measured": "Wie der Rand gemessen wird",
     "Margin": "Rand",
     "Space between islands": "Abstand zwischen Inseln",
     # Settings of Suggest Seams.
     "Size Variation": "Größenschwankung",
-    "Factor within which the scale of 95 % of the surface is to lie; a larger one takes fewer seams": (
-        "Faktor, innerhalb dessen der Maßstab von 95 % der Oberfläche liegen soll; ein größerer kommt mit weniger "
-        "Nähten aus"
+    "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams": (
+        "Erlaubte Größenunterschiede auf 95 % der Oberfläche, als Faktor; ein höherer braucht weniger Nähte"
     ),
     "Angle Distortion": "Winkelverzerrung",
-    "Mean quasi-conformal distortion that is not to be exceeded, 1 where all angles are kept; a larger one takes "
-    "fewer seams on coarse meshes": (
-        "Mittlere quasikonforme Verzerrung, die nicht überschritten werden soll, 1, wo alle Winkel erhalten bleiben; "
-        "eine größere kommt auf groben Meshes mit weniger Nähten aus"
+    "Stretching allowed; higher needs fewer seams. 1 keeps all angles, 1.1 lets them be off by 10 % on average": (
+        "Erlaubte Streckung; eine höhere braucht weniger Nähte. 1 erhält alle Winkel, bei 1.1 weichen sie im "
+        "Mittel um 10 % ab"
     ),
     "Keep Front Clear": "Vorderseite freihalten",
-    "How far seams go out of the way of faces that look to the front (the object's -Y), 0 where any side will do": (
-        "Wie weit Nähte Flächen ausweichen, die nach vorn zeigen (-Y des Objekts), 0, wenn jede Seite recht ist"
+    "How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike": (
+        "Wie weit Nähte Flächen ausweichen, die nach vorn zeigen (-Y des Objekts); bei 0 sind alle Seiten gleich"
     ),
     "Vertex Group": "Punktgruppe",
-    "Painted weights that say where seams are to go or to stay away from; none if empty": (
-        "Gemalte Gewichte, die sagen, wo Nähte verlaufen oder wo sie nicht verlaufen sollen; keine, wenn leer"
+    "Vertex group whose painted weights attract seams or keep them away": (
+        "Punktgruppe, deren gemalte Gewichte Nähte anziehen oder fernhalten"
     ),
     "Group Means": "Bedeutung der Gruppe",
-    "What the weights of the vertex group are for": "Wofür die Gewichte der Punktgruppe stehen",
+    "Whether the weights attract seams or keep them away": "Ob die Gewichte Nähte anziehen oder fernhalten",
     "No Seams Here": "Hier keine Nähte",
-    "The larger the weight, the longer the way round that a seam takes": (
-        "Je größer das Gewicht, desto weiter der Umweg, den eine Naht nimmt"
-    ),
+    "Seams make a detour around high weights": ("Nähte machen um hohe Gewichte einen Umweg"),
     "Seams Here": "Hier Nähte",
-    "The larger the weight, the rather a seam goes there": "Je größer das Gewicht, desto eher verläuft dort eine Naht",
+    "Seams prefer high weights": "Nähte verlaufen lieber bei hohen Gewichten",
     "Maximum Length": "Höchstlänge",
-    "Limit of the length of all new seams of a mesh, without the object's scale, 0 for none; cuts that closed "
-    "islands and handles need are made in any case": (
-        "Grenze für die Länge aller neuen Nähte eines Meshs, ohne die Skalierung des Objekts, 0 für keine; Schnitte, "
-        "die geschlossene Inseln und Henkel brauchen, werden in jedem Fall gemacht"
+    "Limit on the total length of new seams of a mesh, ignoring the object's scale; 0 for no limit. Cuts that "
+    "open closed islands and handles are always made": (
+        "Grenze für die Gesamtlänge neuer Nähte eines Meshs, ohne die Skalierung des Objekts; 0 für keine. "
+        "Schnitte, die geschlossene Inseln und Henkel öffnen, werden immer gemacht"
     ),
     "Cuts": "Schnitte",
-    "Number of the suggested cuts to mark, the most useful first, 0 for all": (
-        "Wie viele der vorgeschlagenen Schnitte markiert werden, die nützlichsten zuerst, 0 für alle"
+    "Number of suggested cuts to mark, most useful first; 0 for all": (
+        "Wie viele der vorgeschlagenen Schnitte markiert werden, die nützlichsten zuerst; 0 für alle"
     ),
-    "Unwrap the faces afterwards, with the settings with which Spectral Unwrap was used last": (
-        "Die Flächen danach abwickeln, mit den zuletzt für „Spektral abwickeln“ benutzten Einstellungen"
+    "Then unwrap the faces with the last settings of Spectral Unwrap": (
+        "Die Flächen danach mit den letzten Einstellungen von „Spektral abwickeln“ abwickeln"
     ),
     # Settings of the operators that select and store.
     "Flipped": "Umgedreht",
-    "Select faces that lie the other way round than most of their island": (
-        "Flächen auswählen, die andersherum liegen als der größte Teil ihrer Insel"
+    "Select faces that are flipped relative to the rest of their island": (
+        "Flächen auswählen, die gegenüber dem Rest ihrer Insel umgedreht sind"
     ),
     "Overlapping": "Überlappend",
-    "Select faces that cover part of another face of their island": (
-        "Flächen auswählen, die einen Teil einer anderen Fläche ihrer Insel überdecken"
+    "Select faces that overlap another face of their island": (
+        "Flächen auswählen, die eine andere Fläche ihrer Insel überlappen"
     ),
     "Between Islands": "Zwischen Inseln",
-    "Also select faces that cover part of another island, of any mesh in edit mode": (
-        "Auch Flächen auswählen, die einen Teil einer anderen Insel überdecken, bei allen Meshes im Bearbeitungsmodus"
+    "Also select faces that overlap another island, of any mesh in edit mode": (
+        "Auch Flächen auswählen, die eine andere Insel überlappen, bei allen Meshes im Bearbeitungsmodus"
     ),
     "Extend": "Erweitern",
     "Add to the selection instead of replacing it": "Zur Auswahl hinzufügen, statt sie zu ersetzen",
     "Islands": "Inseln",
-    "The islands of the last result, the worst first": "Die Inseln des letzten Ergebnisses, die schlechtesten zuerst",
+    "Islands of the last result, worst first": "Die Inseln des letzten Ergebnisses, die schlechtesten zuerst",
     "Island": "Insel",
     "Click an island to select its faces": "Eine Insel anklicken, um ihre Flächen auszuwählen",
     "By": "Nach",
-    "What faces are compared by": "Wonach Flächen verglichen werden",
-    "Faces whose angles are farthest from those on the surface": (
-        "Flächen, deren Winkel am weitesten von denen auf der Oberfläche abweichen"
-    ),
+    "How faces are ranked": "Wonach Flächen geordnet werden",
+    "Faces whose angles are off most": ("Flächen, deren Winkel am weitesten abweichen"),
     "Size": "Größe",
-    "Faces whose size in the map is farthest from that of most of the surface": (
-        "Flächen, deren Größe in der UV-Map am weitesten von der des größten Teils der Oberfläche abweicht"
+    "Faces whose size in the map differs most from the median": (
+        "Flächen, deren Größe in der UV-Map am weitesten vom Median abweicht"
     ),
     "Amount": "Menge",
-    "How much of the surface to select, the worst faces first": (
-        "Wie viel der Oberfläche ausgewählt wird, die schlechtesten Flächen zuerst"
+    "Share of the surface to select, worst faces first": (
+        "Anteil der Oberfläche, der ausgewählt wird, die schlechtesten Flächen zuerst"
     ),
     "Above Limit": "Über Grenzwert",
-    "Select all that is worse than a limit, however much that is": (
-        "Alles auswählen, was schlechter als ein Grenzwert ist, gleich wie viel das ist"
+    "Select everything beyond a limit instead of a share of the surface": (
+        "Alles jenseits eines Grenzwerts auswählen statt eines Anteils der Oberfläche"
     ),
     "Limit": "Grenzwert",
-    "Angle distortion, 1 where angles are kept; or how many times larger or smaller than most faces are": (
-        "Winkelverzerrung, 1, wo Winkel erhalten bleiben; oder um welchen Faktor größer oder kleiner als die meisten "
-        "Flächen"
+    "Angle distortion, 1.1 for angles off by 10 %; or the factor by which sizes differ from the median": (
+        "Winkelverzerrung, 1.1 für Winkel, die um 10 % abweichen; oder der Faktor, um den Größen vom Median abweichen"
     ),
     "Whole Islands": "Ganze Inseln",
-    "Compare islands instead of faces, by their average": "Inseln nach ihrem Durchschnitt vergleichen statt Flächen",
+    "Rank islands by their average instead of faces": "Inseln nach ihrem Durchschnitt ordnen statt Flächen",
     "Store": "Speichern",
-    "What to write": "Was geschrieben wird",
+    "What to store": "Was gespeichert wird",
     "As Colors": "Als Farben",
-    "Write the colors of the overlay to the corners of the faces, instead of one number per face": (
-        "Die Farben des Overlays an die Ecken der Flächen schreiben, statt einer Zahl je Fläche"
+    "Store the colors of the overlay at face corners instead of one number per face": (
+        "Die Farben des Overlays an den Ecken der Flächen speichern statt einer Zahl je Fläche"
     ),
     # The overlay that shows the map, and its colours.
     "UV Map Overlay": "UV-Map-Overlay",
     "Show UV Map": "UV-Map anzeigen",
-    "Colour the faces by what the active UV map does to them, in the 3D viewport and in the UV editor": (
-        "Die Flächen im 3D-Ansichtsfenster und im UV-Editor danach färben, was die aktive UV-Map mit ihnen macht"
+    "Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor": (
+        "Die Flächen im 3D-Ansichtsfenster und im UV-Editor nach der Güte der aktiven UV-Map färben"
     ),
     "Show": "Anzeigen",
-    "What the colours stand for": "Wofür die Farben stehen",
-    "Own Range": "Eigener Bereich",
-    "Set the values of the two ends of the colours by hand; otherwise they follow the map": (
-        "Die Werte der beiden Enden der Farbskala von Hand festlegen; sonst richten sie sich nach der UV-Map"
+    "What the colors show": "Was die Farben zeigen",
+    "Custom Range": "Eigener Bereich",
+    "Set the values at both ends of the colors; otherwise they follow the map": (
+        "Die Werte an beiden Enden der Farbskala festlegen; sonst richten sie sich nach der UV-Map"
     ),
     "Low": "Niedrig",
-    "Value at the lower end of the colours": "Wert am unteren Ende der Farbskala",
+    "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %": (
+        "Wert am unteren Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % abweichen"
+    ),
     "High": "Hoch",
-    "Value at the upper end of the colours": "Wert am oberen Ende der Farbskala",
+    "Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %": (
+        "Wert am oberen Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % abweichen"
+    ),
     "Opacity": "Deckkraft",
-    "How much the colours hide of what is below them": "Wie viel die Farben von dem verdecken, was darunter liegt",
+    "Opacity of the colors": "Deckkraft der Farben",
     "Image Size": "Bildgröße",
-    "Pixels along one side of the image that the texel density is stated for": (
-        "Pixel entlang einer Seite des Bildes, für das die Texeldichte angegeben wird"
+    "Pixels along one side of the image, for the texel density": (
+        "Pixel entlang einer Seite des Bildes, für die Texeldichte"
     ),
     "Squares": "Quadrate",
-    "Squares of the checker along one side of a UV tile": (
-        "Quadrate des Schachbretts entlang einer Seite einer UV-Kachel"
-    ),
+    "Checker squares along one side of a UV tile": ("Quadrate des Schachbretts entlang einer Seite einer UV-Kachel"),
     "Legend": "Legende",
-    "Show what the colours mean, and the numbers of the map": (
+    "Show what the colors mean, and the numbers of the map": (
         "Die Bedeutung der Farben und die Werte der UV-Map anzeigen"
     ),
-    "Spectral Unwrap Begins With": "„Spektral abwickeln“ beginnt mit",
+    "Spectral Unwrap Defaults": "Voreinstellungen für „Spektral abwickeln“",
     "Limits": "Grenzen",
     "Solver": "Löser",
-    "{name}, OpenBLAS's kernels for {kernel}": "{name}, OpenBLAS mit den Kernen für {kernel}",
+    "{name}, OpenBLAS kernels for {kernel}": "{name}, OpenBLAS mit den Kernen für {kernel}",
     "Threads": "Threads",
-    "How many processor cores a solve may use at once, 0 for all; the map is the same": (
-        "Wie viele Prozessorkerne eine Lösung gleichzeitig nutzen darf, 0 für alle; die Map ist dieselbe"
+    "Processor cores to use; 0 for all. The map does not depend on it": (
+        "Zu nutzende Prozessorkerne; 0 für alle. Die UV-Map hängt nicht davon ab"
     ),
     "Overlay: Faces": "Overlay: Flächen",
-    "Meshes with more faces are not colored, since the overlay follows every edit": (
+    "Meshes with more faces are not colored, because the overlay follows every edit": (
         "Meshes mit mehr Flächen werden nicht gefärbt, da das Overlay jeder Bearbeitung folgt"
     ),
     "Live Unwrap: Faces": "Echtzeit: Flächen",
-    "Meshes with more faces are left alone by Live Spectral Unwrap, which cannot be canceled while it solves": (
-        "Meshes mit mehr Flächen werden beim Abwickeln in Echtzeit nicht beachtet, das sich nicht abbrechen lässt, "
-        "während es rechnet"
+    "Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled": (
+        "„Spektral abwickeln in Echtzeit“ lässt Meshes mit mehr Flächen aus, denn es lässt sich nicht abbrechen"
     ),
     "Too many faces to color:": "Zu viele Flächen zum Färben:",
     "The add-on's preferences set the limit": "Grenze: Einstellungen des Add-ons",
@@ -288,35 +272,31 @@ TEXTS = {
     "Angles Kept": "Winkel erhalten",
     "Color of faces whose angles are kept": "Farbe von Flächen, deren Winkel erhalten bleiben",
     "Between": "Dazwischen",
-    "Color of faces in the middle of the range": "Farbe von Flächen in der Mitte des Bereichs",
+    "Color of the middle of the range": "Farbe der Mitte des Bereichs",
     "Angles Distorted": "Winkel verzerrt",
-    "Color of faces at the end of the range and beyond": "Farbe von Flächen am Ende des Bereichs und darüber hinaus",
+    "Color of the end of the range and beyond": "Farbe vom Ende des Bereichs an",
     "Small": "Klein",
-    "Color of faces that are smaller in the map than most": (
+    "Color of faces smaller in the map than most": (
         "Farbe von Flächen, die in der UV-Map kleiner sind als die meisten"
     ),
     "Even": "Gleichmäßig",
-    "Color of faces of the size of most": "Farbe von Flächen, die so groß sind wie die meisten",
+    "Color of faces of median size": "Farbe von Flächen mittlerer Größe",
     "Large": "Groß",
-    "Color of faces that are larger in the map than most": (
-        "Farbe von Flächen, die in der UV-Map größer sind als die meisten"
-    ),
+    "Color of faces larger in the map than most": ("Farbe von Flächen, die in der UV-Map größer sind als die meisten"),
     # Extenders.
     "Pairs": "Paare",
-    "Which vertices make a pair": "Welche Punkte ein Paar bilden",
+    "Which vertices form pairs": "Welche Punkte Paare bilden",
     "Above 0 pushes apart, below 0 pulls together; 1 is moderate": (
         "Über 0 drückt auseinander, unter 0 zieht zusammen; 1 ist mäßig"
     ),
     "Index": "Index",
     "Position in the list, -1 for the active extender": "Position in der Liste, -1 für den aktiven Extender",
     "Broken": "Defekt",
-    "Remove all extenders with a vertex that is gone instead": (
-        "Stattdessen alle Extender entfernen, denen ein Punkt fehlt"
-    ),
+    "Instead remove all extenders that lost a vertex": ("Stattdessen alle Extender entfernen, denen ein Punkt fehlt"),
     "Name": "Name",
     "Name of the extender": "Name des Extenders",
     "Use": "Verwenden",
-    "Let the extender act on the next unwrap": "Den Extender auf das nächste Abwickeln wirken lassen",
+    "Use the extender in the next unwrap": "Den Extender beim nächsten Abwickeln verwenden",
     "First Vertex": "Erster Punkt",
     "Identifier of its first vertex": "Kennung seines ersten Punktes",
     "Second Vertex": "Zweiter Punkt",
@@ -324,8 +304,8 @@ TEXTS = {
     "Active Extender": "Aktiver Extender",
     "The extender chosen in the panel": "Der im Panel gewählte Extender",
     # What enumerations offer.
-    "Least angle distortion with the whole boundary free; no pins": (
-        "Geringste Winkelverzerrung bei ganz freier Begrenzung; ohne Pins"
+    "Least angle distortion, with a free boundary and without pins": (
+        "Geringste Winkelverzerrung, mit freier Begrenzung und ohne Pins"
     ),
     "Least Squares": "Kleinste Quadrate",
     "Least squares conformal map, pinned at the two boundary vertices farthest apart": (
@@ -335,15 +315,15 @@ TEXTS = {
     "Uniform": "Einheitlich",
     "Every triangle counts by its area": "Jedes Dreieck zählt nach seinem Flächeninhalt",
     "Inverse Area": "Inverser Flächeninhalt",
-    "Every triangle counts the same, for irregularly sampled meshes": (
-        "Jedes Dreieck zählt gleich viel, für unregelmäßig unterteilte Meshes"
+    "Every triangle counts the same; for unevenly divided meshes": (
+        "Jedes Dreieck zählt gleich viel; für ungleichmäßig unterteilte Meshes"
     ),
     "Length": "Länge",
-    "Weigh boundary vertices by the length of their boundary edges, whatever the sampling": (
-        "Punkte der Begrenzung nach der Länge ihrer Begrenzungskanten gewichten, gleich wie fein sie unterteilt ist"
+    "Weight boundary vertices by the length of their boundary edges": (
+        "Punkte der Begrenzung nach der Länge ihrer Begrenzungskanten gewichten"
     ),
     "Vertex": "Punkt",
-    "Weigh all boundary vertices equally, as in the original paper": (
+    "Weight all boundary vertices equally, as in the original paper": (
         "Alle Punkte der Begrenzung gleich gewichten, wie in der ursprünglichen Veröffentlichung"
     ),
     "Scaled": "Skaliert",
@@ -352,53 +332,48 @@ TEXTS = {
     "Just add the margin, ignoring any UV scale": "Den Rand nur hinzufügen, ohne auf den Maßstab der UVs zu achten",
     "Fraction": "Bruchteil",
     "Specify a precise fraction of final UV output": "Einen genauen Bruchteil des fertigen UV-Layouts angeben",
-    "How far angles are from those on the surface: 1 where they are kept": (
-        "Wie weit Winkel von denen auf der Oberfläche abweichen: 1, wo sie erhalten bleiben"
-    ),
-    "How much larger or smaller faces are in the map than in the middle of it, beside the surface": (
-        "Wie viel größer oder kleiner Flächen in der UV-Map im Verhältnis zur Oberfläche sind als in deren Mittel"
+    "How far angles are off; 0 % where they are kept": ("Wie weit Winkel abweichen; 0 %, wo sie erhalten bleiben"),
+    "Size in the map relative to the surface, compared with the median": (
+        "Größe in der UV-Map im Verhältnis zur Oberfläche, verglichen mit dem Median"
     ),
     "Texel Density": "Texeldichte",
-    "Pixels of the image along one unit of length on the surface": (
-        "Pixel des Bildes entlang einer Längeneinheit auf der Oberfläche"
-    ),
+    "Image pixels per unit of length on the surface": ("Bildpixel je Längeneinheit auf der Oberfläche"),
     "Flipped and Overlapping": "Umgedreht und überlappend",
-    "Faces that lie the wrong way round, or cover others of their island": (
-        "Flächen, die verkehrt herum liegen oder andere ihrer Insel überdecken"
+    "Faces that are flipped or overlap others of their island": (
+        "Flächen, die umgedreht sind oder andere ihrer Insel überlappen"
     ),
     "Checker": "Schachbrett",
-    "Squares of the UV map on the surface, without touching materials": (
-        "Quadrate der UV-Map auf der Oberfläche, ohne Materialien anzurühren"
+    "Checker squares on the surface; materials stay as they are": (
+        "Schachbrett auf der Oberfläche; Materialien bleiben, wie sie sind"
     ),
     "Pack": "Packen",
-    "Scale islands by their surface area and pack them into the UV tile, upright": (
+    "Scale islands by their surface area and pack them upright into the UV tile": (
         "Inseln nach ihrem Flächeninhalt skalieren und aufrecht in die UV-Kachel packen"
     ),
     "Keep in Place": "An Ort und Stelle",
-    "Fit every island into the bounding box that it had before, turned as it was": (
-        "Jede Insel in den Hüllquader einpassen, den sie vorher hatte, und so gedreht, wie sie war"
+    "Fit every island into its former bounding box, in its former orientation": (
+        "Jede Insel in ihren früheren Hüllquader einpassen, in ihrer früheren Ausrichtung"
     ),
     "In Order": "Der Reihe nach",
-    "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
-    "on, in the order in which they were selected": (
-        "Die beiden ausgewählten Punkte verbinden, oder bei mehreren den ersten mit dem zweiten, den dritten mit dem "
-        "vierten und so weiter, in der Reihenfolge, in der sie ausgewählt wurden"
+    "Connect the selected vertices in pairs, in the order of selection: the first with the second, the third "
+    "with the fourth, and so on": (
+        "Die ausgewählten Punkte paarweise in der Reihenfolge ihrer Auswahl verbinden: den ersten mit dem "
+        "zweiten, den dritten mit dem vierten und so weiter"
     ),
     "To Active": "Mit dem aktiven",
-    "Connect every selected vertex with the active one, which was selected last": (
-        "Jeden ausgewählten Punkt mit dem aktiven verbinden, der zuletzt ausgewählt wurde"
+    "Connect every selected vertex with the active one, selected last": (
+        "Jeden ausgewählten Punkt mit dem aktiven verbinden, dem zuletzt ausgewählten"
     ),
     # What is said of a selection, and why something cannot be done.
-    "Select two vertices, or several, one after the other": "Zwei Punkte auswählen, oder mehrere nacheinander",
-    "Select the vertices to connect, last the one to connect them with": (
+    "Select two or more vertices, one after the other": "Zwei oder mehr Punkte nacheinander auswählen",
+    "Select the vertices to connect, and last the one to connect them with": (
         "Die zu verbindenden Punkte auswählen, zuletzt den, mit dem sie verbunden werden sollen"
     ),
-    "No vertex is active; select the one to connect the others with last, with Shift and click": (
-        "Kein Punkt ist aktiv; den Punkt, mit dem die anderen verbunden werden sollen, zuletzt mit Umschalt+Klick "
-        "auswählen"
+    "No vertex is active; Shift-click the one to connect the others with": (
+        "Kein Punkt ist aktiv; den Punkt mit Umschalt+Klick auswählen, mit dem die anderen verbunden werden sollen"
     ),
-    "The extender has no effect: its vertices lie in no common island; remove the seams between them": (
-        "Der Extender wirkt nicht: seine Punkte liegen in keiner gemeinsamen Insel; die Nähte dazwischen entfernen"
+    "The extender has no effect: its vertices lie in different islands; remove the seams between them": (
+        "Der Extender wirkt nicht: seine Punkte liegen in verschiedenen Inseln; die Nähte dazwischen entfernen"
     ),
     "The extender has no effect: pins hold its island; unpin it or use soft pins": (
         "Der Extender wirkt nicht: Pins halten seine Insel fest; sie lösen oder weiche Pins verwenden"
@@ -406,37 +381,35 @@ TEXTS = {
     "Subdivision Surface modifier needs to be first to work with unwrap": (
         "Der Modifikator „Oberflächenunterteilung“ muss an erster Stelle stehen, um beim Abwickeln zu wirken"
     ),
-    "Nothing was stretched: there is no active edge; click the edge along which to stretch last": (
-        "Nichts wurde gestreckt: es gibt keine aktive Kante; die Kante, in deren Richtung gestreckt werden soll, "
-        "zuletzt anklicken"
+    "Nothing was stretched: no edge is active; click the edge to stretch along": (
+        "Nichts wurde gestreckt: keine Kante ist aktiv; die Kante anklicken, entlang der gestreckt werden soll"
     ),
-    "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it": (
-        "Beim Anpassen gilt das Mesh ohne seinen Modifikator „Oberflächenunterteilung“; neu abwickeln, um ihn zu "
-        "beachten"
+    "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it": (
+        "Anpassen berücksichtigt den Modifikator „Oberflächenunterteilung“ nicht; dafür neu abwickeln"
     ),
-    "Extenders act with the Spectral method only; unwrap with it": (
+    "Extenders work with the Spectral method only; unwrap with it": (
         "Extender wirken nur bei der Methode „Spektral“; mit dieser abwickeln"
     ),
     "Nothing is selected; select the vertices to connect, one after the other": (
         "Nichts ist ausgewählt; die zu verbindenden Punkte nacheinander auswählen"
     ),
     "The strength must be a number, not nan": "Die Stärke muss eine Zahl sein, nicht nan",
-    "Not enough memory to let the map follow; close other programs, or add seams": (
-        "Zu wenig Speicher, um die UV-Map folgen zu lassen; andere Programme schließen oder Nähte hinzufügen"
+    "Not enough memory to update the map; close other programs, or add seams": (
+        "Zu wenig Speicher, um die UV-Map zu aktualisieren; andere Programme schließen oder Nähte hinzufügen"
     ),
-    "Not enough memory for it; close other programs, select fewer faces, or add seams": (
-        "Zu wenig Speicher dafür; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
+    "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
+        "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
-    "No such extender; choose one in the list": "Diesen Extender gibt es nicht; einen in der Liste wählen",
+    "This extender does not exist; choose one in the list": "Diesen Extender gibt es nicht; einen in der Liste wählen",
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau   Oder eine Zahl tippen"
     ),
     "No faces selected": "Keine Flächen ausgewählt",
-    "The meshes changed while they were solved, so nothing was written; unwrap again": (
+    "The meshes changed during the solve, so nothing was written; unwrap again": (
         "Die Meshes haben sich während der Berechnung geändert, darum wurde nichts geschrieben; neu abwickeln"
     ),
-    "Nothing is selected, so all visible faces are unwrapped": (
-        "Nichts ist ausgewählt, darum werden alle sichtbaren Flächen abgewickelt"
+    "Nothing was selected, so all visible faces were unwrapped": (
+        "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen abgewickelt"
     ),
     "No visible faces to cut": "Keine sichtbaren Flächen zum Aufschneiden",
     "The meshes changed meanwhile, so nothing was marked; suggest seams again": (
@@ -447,20 +420,19 @@ TEXTS = {
         "Zu wenig Speicher, darum wurde nichts geändert; andere Programme schließen, weniger Flächen auswählen oder "
         "die Unterteilungsstufen senken"
     ),
-    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it": (
-        "Fehlgeschlagene Inseln lassen zu wenig Platz in der UV-Kachel, darum wurden die anderen in eine Kachel "
-        "daneben gepackt"
+    "Failed islands leave too little room in the UV tile, so the others were packed beside it": (
+        "Fehlgeschlagene Inseln lassen zu wenig Platz in der UV-Kachel, darum wurden die anderen daneben gepackt"
     ),
-    "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first": (
-        "Von diesen Meshes ist kein Abwickeln bekannt und darum auch nichts Fehlgeschlagenes; zuerst abwickeln"
+    "These meshes have not been unwrapped since the file was opened; unwrap first": (
+        "Diese Meshes wurden seit dem Öffnen der Datei nicht abgewickelt; zuerst abwickeln"
     ),
     "Nothing to look for: turn on Flipped or Overlapping": (
         "Nichts zu suchen: „Umgedreht“ oder „Überlappend“ einschalten"
     ),
-    "There is no UV map to look at; unwrap first": "Es gibt keine UV-Map zum Ansehen; zuerst abwickeln",
+    "There is no UV map; unwrap first": "Es gibt keine UV-Map; zuerst abwickeln",
     # How islands with pins were solved: goes into the sentence on them.
     "pinned least squares (LSCM)": "der Methode der kleinsten Quadrate mit festen Pins (LSCM)",
-    "the spectral method, pins attracting softly": "der spektralen Methode mit weich anziehenden Pins",
+    "the spectral method with soft pins": "der spektralen Methode mit weichen Pins",
     # Numbers with what they count, and sentences with numbers.
     "{n} cut": "{n} Schnitt",
     "{n} cuts": "{n} Schnitte",
@@ -471,18 +443,18 @@ TEXTS = {
     "{n} island": "{n} Insel",
     "{n} islands": "{n} Inseln",
     "{operator} is running; Esc cancels it": "„{operator}“ läuft; Esc bricht ab",
-    "{operator}: Cancelled": "{operator}: Abgebrochen",
+    "{operator}: Canceled": "{operator}: Abgebrochen",
     "{operator}: {percent} %   Esc: Cancel": "{operator}: {percent} %   Esc: Abbrechen",
     "{operator}: {percent} % {phase}   Esc: Cancel": "{operator}: {percent} % {phase}   Esc: Abbrechen",
     "{operator}: {percent} % ({phase})": "{operator}: {percent} % ({phase})",
     "{operator} could not follow: {problem}": "„{operator}“ konnte nicht folgen: {problem}",
     "{name} could not be drawn: {problem}": "„{name}“ konnte nicht gezeichnet werden: {problem}",
-    "Unwrapped {islands}: angle distortion beyond measure, as faces shrink to nothing": (
-        "{islands} abgewickelt: Winkelverzerrung nicht messbar, da Flächen verschwinden"
+    "Unwrapped {islands}: angles off beyond measure, because faces shrink to nothing": (
+        "{islands} abgewickelt: Winkelabweichung nicht messbar, da Flächen verschwinden"
     ),
     "{operator} finds where to cut": "{operator} findet Schnitte dafür",
-    "Unwrapped {islands}: angle distortion {mean} average, {worst} worst": (
-        "{islands} abgewickelt: Winkelverzerrung im Mittel {mean}, höchstens {worst}"
+    "Unwrapped {islands}: angles off by {mean} on average, {worst} at worst": (
+        "{islands} abgewickelt: Winkel weichen im Mittel um {mean} ab, höchstens um {worst}"
     ),
     "{seconds} s": "{seconds} s",
     "no flipped faces": "keine umgedrehten Flächen",
@@ -493,11 +465,11 @@ TEXTS = {
     "{faces} (see {operator})": "{faces} (siehe „{operator}“)",
     # The legend and the list of islands.
     "{factor} x": "{factor} x",
-    "sound": "in Ordnung",
+    "good": "gut",
     "overlapping": "überlappend",
     "flipped": "umgedreht",
     "{name}: {faces}, nothing to measure": "{name}: {faces}, nichts zu messen",
-    "Angles {mean} average, {worst} worst": "Winkel im Mittel {mean}, höchstens {worst}",
+    "Angles off by {mean} on average, {worst} at worst": "Winkel weichen im Mittel um {mean} ab, höchstens um {worst}",
     "{name}: {faces}": "{name}: {faces}",
     "Sizes vary by {percent} %": "Größen schwanken um {percent} %",
     "{flipped} flipped, {overlapping} overlapping": "{flipped} umgedreht, {overlapping} überlappend",
@@ -505,45 +477,43 @@ TEXTS = {
     "{n} flipped": "{n} umgedreht",
     "{n} overlap": "{n} überlappen",
     "Not unwrapped   {n} f.": "Nicht abgewickelt   {n} Fl.",
-    "The faces of this island have changed since; unwrap again": (
-        "Die Flächen dieser Insel haben sich seither geändert; neu abwickeln"
+    "The faces of this island have changed; unwrap again": (
+        "Die Flächen dieser Insel haben sich geändert; neu abwickeln"
     ),
     "Selected {faces}": "{faces} ausgewählt",
-    "{name}: angles {qc}": "{name}: Winkel {qc}",
+    "{name}: angles off by {qc}": "{name}: Winkel weichen um {qc} ab",
     "Size {size}, {density} px per unit": "Größe {size}, {density} px je Einheit",
     "Flipped and overlapping": "Umgedreht und überlappend",
     "Stored as {name}": "Als {name} gespeichert",
     "{percent} %": "{percent} %",
     "Shown": "Angezeigt",
     "Active island": "Aktive Insel",
-    "Below the mouse": "Unter der Maus",
+    "Under the mouse": "Unter der Maus",
     # What is said of an unwrap.
     "{n} flipped triangle unfolded": "{n} umgedrehtes Dreieck entfaltet",
     "{n} flipped triangles unfolded": "{n} umgedrehte Dreiecke entfaltet",
-    "{n} island needed the slower fallback map": "{n} Insel musste auf die langsamere andere Weise abgewickelt werden",
-    "{n} islands needed the slower fallback map": (
-        "{n} Inseln mussten auf die langsamere andere Weise abgewickelt werden"
-    ),
+    "{n} island needed the slower method": "{n} Insel brauchte die langsamere Methode",
+    "{n} islands needed the slower method": ("{n} Inseln brauchten die langsamere Methode"),
     "No Flip: {changes}": "Umdrehen verhindern: {changes}",
-    "No Flip: {changes}; their angle distortion {before} before, {after} after": (
-        "Umdrehen verhindern: {changes}; Winkelverzerrung dort vorher {before}, nachher {after}"
+    "No Flip: {changes}; angles there off by {after} on average, {before} before": (
+        "Umdrehen verhindern: {changes}; Winkel weichen dort im Mittel um {after} ab, vorher um {before}"
     ),
-    "{n} island has faces stretched to more than twice their width, {worst} at worst; add seams there": (
-        "{n} Insel hat Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens {worst}; dort "
-        "Nähte hinzufügen"
+    "{n} island has faces stretched to more than twice their width, {worst} times at worst; add seams there": (
+        "{n} Insel hat Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens auf das "
+        "{worst}-Fache; dort Nähte hinzufügen"
     ),
-    "{n} islands have faces stretched to more than twice their width, {worst} at worst; add seams there": (
-        "{n} Inseln haben Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens {worst}; "
-        "dort Nähte hinzufügen"
+    "{n} islands have faces stretched to more than twice their width, {worst} times at worst; add seams there": (
+        "{n} Inseln haben Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens auf "
+        "das {worst}-Fache; dort Nähte hinzufügen"
     ),
-    "{n} face shrinks below what Blender's UV coordinates resolve; add seams that make the island flatter, or raise "
+    "{n} face is too small for the precision of Blender's UVs; add seams that flatten its island, or raise "
     "Angle to Area": (
-        "{n} Fläche schrumpft unter das, was Blenders UV-Koordinaten auflösen; Nähte hinzufügen, die die Insel "
-        "flacher machen, oder „Winkel zu Fläche“ erhöhen"
+        "{n} Fläche ist zu klein für die Genauigkeit von Blenders UVs; Nähte hinzufügen, die ihre Insel flacher "
+        "machen, oder „Winkel zu Fläche“ erhöhen"
     ),
-    "{n} faces shrink below what Blender's UV coordinates resolve; add seams that make the island flatter, or raise "
-    "Angle to Area": (
-        "{n} Flächen schrumpfen unter das, was Blenders UV-Koordinaten auflösen; Nähte hinzufügen, die die Insel "
+    "{n} faces are too small for the precision of Blender's UVs; add seams that flatten their islands, or "
+    "raise Angle to Area": (
+        "{n} Flächen sind zu klein für die Genauigkeit von Blenders UVs; Nähte hinzufügen, die ihre Inseln "
         "flacher machen, oder „Winkel zu Fläche“ erhöhen"
     ),
     "{failed} of {islands} failed, UVs unchanged: {reasons}": (
@@ -565,33 +535,33 @@ TEXTS = {
         "Das Objekt ist negativ skaliert; abgewickelt wird das Mesh ohne Spiegelung"
     ),
     # Extenders.
-    "Skipped {n} extender whose vertex is gone: {names}": "{n} Extender übersprungen, dem ein Punkt fehlt: {names}",
-    "Skipped {n} extenders whose vertex is gone: {names}": "{n} Extender übersprungen, denen ein Punkt fehlt: {names}",
-    "Skipped {n} extender whose strength is no number that it can have: {names}": (
-        "{n} Extender übersprungen, dessen Stärke kein zulässiger Wert ist: {names}"
+    "Skipped {n} extender that lost a vertex: {names}": "{n} Extender übersprungen, dem ein Punkt fehlt: {names}",
+    "Skipped {n} extenders that lost a vertex: {names}": "{n} Extender übersprungen, denen ein Punkt fehlt: {names}",
+    "Skipped {n} extender with an invalid strength: {names}": (
+        "{n} Extender mit unzulässiger Stärke übersprungen: {names}"
     ),
-    "Skipped {n} extenders whose strength is no number that it can have: {names}": (
-        "{n} Extender übersprungen, deren Stärke kein zulässiger Wert ist: {names}"
+    "Skipped {n} extenders with an invalid strength: {names}": (
+        "{n} Extender mit unzulässiger Stärke übersprungen: {names}"
     ),
-    "{name} is broken: a vertex of it is gone; remove it and add another": (
-        "{name} ist defekt: ein Punkt davon fehlt; entfernen und einen anderen hinzufügen"
+    "{name} lost a vertex; remove it and add another": (
+        "{name} fehlt ein Punkt; entfernen und einen anderen hinzufügen"
     ),
     "{operator}: strength {strength}   {note}": "{operator}: Stärke {strength}   {note}",
     "Removed broken extenders: {n}": "Defekte Extender entfernt: {n}",
-    "{name} is broken: {n} of its vertices gone; remove it": "{name} ist defekt: fehlende Punkte: {n}; entfernen",
+    "{name} lost vertices: {n}; remove it": "{name} fehlen Punkte: {n}; entfernen",
     "{name} has hidden vertices: {n}; reveal them to select them": (
         "{name} hat verborgene Punkte: {n}; einblenden, um sie auszuwählen"
     ),
     "Added {extenders}": "{extenders} hinzugefügt",
-    "Added {extenders}, which will act on the next unwrap; {operator} acts at once": (
-        "{extenders} hinzugefügt, mit Wirkung auf das nächste Abwickeln; „{operator}“ wirkt sofort"
+    "Added {extenders} for the next unwrap; {operator} acts at once": (
+        "{extenders} für das nächste Abwickeln hinzugefügt; „{operator}“ wirkt sofort"
     ),
-    "Pairs that have an extender already: {n}": "Paare, die schon einen Extender haben: {n}",
-    "{n} extender had no effect: both vertices must lie in one unwrapped island, which pins must not hold": (
+    "Pairs that already have an extender: {n}": "Paare, die schon einen Extender haben: {n}",
+    "{n} extender had no effect: both vertices must lie in the same unwrapped island, without pins that hold it": (
         "{n} Extender hatte keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die keine Pins "
         "festhalten"
     ),
-    "{n} extenders had no effect: both vertices must lie in one unwrapped island, which pins must not hold": (
+    "{n} extenders had no effect: both vertices must lie in the same unwrapped island, without pins that hold it": (
         "{n} Extender hatten keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die keine Pins "
         "festhalten"
     ),
@@ -600,8 +570,8 @@ TEXTS = {
     "{n} failed island": "{n} fehlgeschlagenen Insel",
     "{n} failed islands": "{n} fehlgeschlagenen Inseln",
     "Selected {faces} of {islands}": "{faces} von {islands} ausgewählt",
-    "Faces were added, removed or reordered since the last unwrap of {names}; unwrap again": (
-        "Seit dem letzten Abwickeln von {names} wurden Flächen hinzugefügt, entfernt oder umgeordnet; neu abwickeln"
+    "The faces of {names} have changed since the last unwrap; unwrap again": (
+        "Die Flächen von {names} haben sich seit dem letzten Abwickeln geändert; neu abwickeln"
     ),
     "No flipped or overlapping faces, selection unchanged": (
         "Keine umgedrehten oder überlappenden Flächen, Auswahl unverändert"
@@ -609,17 +579,16 @@ TEXTS = {
     "No flipped faces, selection unchanged": "Keine umgedrehten Flächen, Auswahl unverändert",
     "No overlapping faces, selection unchanged": "Keine überlappenden Flächen, Auswahl unverändert",
     "{n} overlapping": "{n} überlappend",
-    "{n} with UVs that are not finite": "{n} mit nicht endlichen UVs",
+    "{n} with invalid UVs": "{n} mit ungültigen UVs",
     "Selected {faces}: {kinds}": "{faces} ausgewählt: {kinds}",
     # Suggested seams.
-    "Marked {cuts} of length {length}": "{cuts} der Länge {length} markiert",
-    "No seams to suggest: the islands are even enough already, or no cut makes them better, or none within the "
-    "length": (
-        "Keine Nähte vorzuschlagen: die Inseln sind schon gleichmäßig genug, oder kein Schnitt macht sie besser, "
-        "oder keiner innerhalb der Länge"
+    "Marked {cuts}, length {length}": "{cuts} markiert, Länge {length}",
+    "No seams to suggest: the islands are good enough, or no cut within the length limit improves them": (
+        "Keine Nähte vorzuschlagen: die Inseln sind gut genug, oder kein Schnitt innerhalb der Höchstlänge "
+        "verbessert sie"
     ),
-    "No seams to suggest: the islands are even enough already, or no cut makes them better": (
-        "Keine Nähte vorzuschlagen: die Inseln sind schon gleichmäßig genug, oder kein Schnitt macht sie besser"
+    "No seams to suggest: the islands are good enough, or no cut improves them": (
+        "Keine Nähte vorzuschlagen: die Inseln sind gut genug, oder kein Schnitt verbessert sie"
     ),
     "No seams suggested for {meshes}": "Keine Nähte vorgeschlagen für {meshes}",
     "{cuts}, length {length}": "{cuts}, Länge {length}",
@@ -631,30 +600,29 @@ TEXTS = {
     "{percent} of the surface within {factor} times the median scale (now {now})": (
         "{percent} der Oberfläche innerhalb des Faktors {factor} um den mittleren Maßstab (jetzt {now})"
     ),
-    "{percent} of the surface within {factor} times the median scale, angle distortion {qc} (now {now})": (
-        "{percent} der Oberfläche innerhalb des Faktors {factor} um den mittleren Maßstab, Winkelverzerrung {qc} "
-        "(jetzt {now})"
-    ),
+    "angles off by {mean} on average": "Winkel weichen im Mittel um {mean} ab",
+    "angles off by {mean} on average (now {now})": "Winkel weichen im Mittel um {mean} ab (jetzt {now})",
+    "beyond measure": "mehr, als sich messen lässt",
     # What does not run.
-    "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made for this "
-    "platform and this version of Blender ({reason})": (
+    "The compiled module spectral_conformal cannot be imported; install the Spectral Unwrap package for this "
+    "platform and Blender version ({reason})": (
         "Das kompilierte Modul spectral_conformal lässt sich nicht importieren; das Paket von Spectral Unwrap für "
         "dieses System und diese Version von Blender installieren ({reason})"
     ),
     "The margin must be a number, not {margin}": "Der Rand muss eine Zahl sein, nicht {margin}",
     "Extender without a name": "Extender ohne Namen",
-    "{n} vertices are selected, {unordered} of them in no order; select them one after the other with Shift and "
-    "click, or use {operator}": (
+    "{n} vertices are selected, {unordered} of them without an order; Shift-click them one after the other, "
+    "or use {operator}": (
         "{n} Punkte sind ausgewählt, davon ohne Reihenfolge: {unordered}; sie nacheinander mit Umschalt+Klick "
         "auswählen oder „{operator}“ benutzen"
     ),
     "{n} vertices are selected, so one has no partner; select an even number": (
         "{n} Punkte sind ausgewählt, darum hat einer keinen Partner; eine gerade Anzahl auswählen"
     ),
-    "{n} island had no UV bounds to keep and was laid out in the unit square": (
-        "{n} Insel hatte keinen UV-Bereich zum Beibehalten und wurde ins Einheitsquadrat gelegt"
+    "{n} island had no former bounds and was packed into the UV tile": (
+        "{n} Insel hatte keinen früheren UV-Bereich und wurde in die UV-Kachel gepackt"
     ),
-    "{n} islands had no UV bounds to keep and were laid out side by side in the unit square": (
-        "{n} Inseln hatten keinen UV-Bereich zum Beibehalten und wurden nebeneinander ins Einheitsquadrat gelegt"
+    "{n} islands had no former bounds and were packed into the UV tile": (
+        "{n} Inseln hatten keinen früheren UV-Bereich und wurden in die UV-Kachel gepackt"
     ),
 }

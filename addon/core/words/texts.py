@@ -30,33 +30,27 @@ if TYPE_CHECKING:
 UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
 SELECT_FAILED_LABEL = "Select Failed Islands"
-SELECT_FAILED_DESCRIPTION = (
-    "Select the visible faces of the islands that Spectral Unwrap could not solve when they were unwrapped last"
-)
+SELECT_FAILED_DESCRIPTION = "Select the visible faces of the islands that the last Spectral Unwrap could not solve"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
-SELECT_DEFECTS_DESCRIPTION = (
-    "Select the visible faces whose UVs lie the wrong way round or on those of other faces, in the active UV map"
-)
+SELECT_DEFECTS_DESCRIPTION = "Select the visible faces that are flipped or overlap others in the active UV map"
 SUGGEST_SEAMS_LABEL = "Suggest Seams"
 SUGGEST_SEAMS_DESCRIPTION = (
-    "Mark seams that lower the distortion of the map most, and open closed meshes, on the selected faces, or on all "
-    "visible ones if none is selected; then unwrap again"
+    "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
+    "selection, on all visible ones; then unwrap"
 )
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
-LIVE_UNWRAP_DESCRIPTION = (
-    "Let islands follow while their pins are moved or their extenders change, and unwrap again when seams are changed"
-)
+LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins and changed extenders, and unwrap again when seams change"
 EXTENDER_NAME = "Extender"
 SELECT_LABEL = "Select"
 REMOVE_LABEL = "Remove"
 ADD_EXTENDER_LABEL = "Add Extender"
-ADD_EXTENDER_DESCRIPTION = "Add forces that push pairs of selected vertices apart in the map, or pull them together"
+ADD_EXTENDER_DESCRIPTION = "Push pairs of selected vertices apart in the map, or pull them together"
 REMOVE_EXTENDER_LABEL = "Remove Extender"
 REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
 REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
-REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders with a vertex that is gone"
+REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders that lost a vertex"
 ADJUST_EXTENDER_LABEL = "Adjust Extender"
-ADJUST_EXTENDER_DESCRIPTION = "Change the strength of the active extender by dragging, while its island follows"
+ADJUST_EXTENDER_DESCRIPTION = "Drag to change the strength of the active extender; its island follows"
 SELECT_EXTENDER_LABEL = "Select Extender Vertices"
 SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
 SIDEBAR_TAB = "Spectral"
@@ -67,17 +61,15 @@ ADVANCED_LABEL = "Advanced"
 RESULT_LABEL = "Last Result"
 CLEAR_SEAMS_LABEL = "Clear Selected"
 SEAMS_FROM_ISLANDS_LABEL = "From Islands"
-NO_RESULT_LABEL = "Nothing was unwrapped yet"
+NO_RESULT_LABEL = "Nothing unwrapped yet"
 SELECT_ISLAND_LABEL = "Select Island"
 SELECT_DISTORTED_LABEL = "Select Most Distorted"
 SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
 INSPECT_LABEL = "Inspect Map"
-INSPECT_DESCRIPTION = "Show the numbers of the face below the mouse; a click selects its island"
+INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
 STORE_LABEL = "Store as Attribute"
-STORE_DESCRIPTION = (
-    "Write what the UV map does to every face into an attribute of the mesh, for rendering, geometry nodes and scripts"
-)
+STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Extenders"
 ADD_TO_ACTIVE_LABEL = "Add to Active"
@@ -90,7 +82,7 @@ BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary 
 PLACEMENT_PROPERTY = {"name": "Placement", "description": "Where the unwrapped islands go"}
 TURN_TO_PACK_PROPERTY = {
     "name": "Turn to Pack",
-    "description": "Lay islands that are higher than wide on their side to pack them; otherwise all stand upright",
+    "description": "Lay tall islands on their side for packing; otherwise all islands stand upright",
 }
 FILL_HOLES_PROPERTY = {
     "name": "Fill Holes",
@@ -103,179 +95,181 @@ HOLE_RIGIDITY_PROPERTY = {
 AUTOMATIC_HOLES_PROPERTY = {
     "name": "Automatic Holes",
     "description": (
-        "Keep the holes of an island from shrinking where that lowers its distortion; a Hole Rigidity above 0 "
-        "takes the place of this"
+        "Keep the holes of an island from shrinking where that lowers its distortion; Hole Rigidity above 0 "
+        "overrides this"
     ),
 }
 AREA_BLEND_PROPERTY = {
     "name": "Angle to Area",
-    "description": "0 keeps angles, so that sizes vary; towards 1 angles are given up to keep sizes even",
+    "description": "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles",
 }
 FOLD_FREE_PROPERTY = {
     "name": "No Flip",
     "description": (
-        "Leave no flipped faces, and no island that covers itself: unfold and move apart what is, at some cost in "
-        "angles. Islands where that is not enough get another map, which takes longer"
+        "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take "
+        "longer"
     ),
 }
 POLISH_PROPERTY = {
     "name": "Polish",
-    "description": "Lower the angle distortion further by a few steps from the spectral map",
+    "description": "Lower the angle distortion further in a few steps",
 }
 STRETCH_PROPERTY = {
     "name": "Edge Stretch",
-    "description": "How much longer the islands get along the direction of the active edge than across it",
+    "description": "How much longer islands become along the active edge than across it",
 }
-SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show the settings that are seldom changed"}
+SHOW_ADVANCED_PROPERTY = {"name": ADVANCED_LABEL, "description": "Show rarely used settings"}
 USE_SUBSURF_DATA_PROPERTY = {
     "name": "Use Subdivision Surface",
     "description": "Map UVs taking vertex position after Subdivision Surface modifier has been applied",
 }
 SOFT_PINS_PROPERTY = {
     "name": "Soft Pins",
-    "description": "Let pinned UVs attract the islands of the spectral method instead of holding them",
+    "description": "Let pinned UVs attract islands instead of holding them; Spectral method only",
 }
 SOFT_PIN_STRENGTH_PROPERTY = {
     "name": "Strength",
-    "description": "How strongly soft pins attract, 1000 nearly as if they were held",
+    "description": "How strongly soft pins attract; 1000 comes close to hard pins",
 }
 CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
-MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "What the margin is measured by"}
+MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "How the margin is measured"}
 MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
 SIZE_VARIATION_PROPERTY = {
     "name": "Size Variation",
-    "description": "Factor within which the scale of 95 % of the surface is to lie; a larger one takes fewer seams",
+    "description": "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
 }
 ANGLE_DISTORTION_PROPERTY = {
     "name": "Angle Distortion",
     "description": (
-        "Mean quasi-conformal distortion that is not to be exceeded, 1 where all angles are kept; a larger "
-        "one takes fewer seams on coarse meshes"
+        "Stretching allowed; higher needs fewer seams. 1 keeps all angles, 1.1 lets them be off by 10 % on average"
     ),
 }
 FRONT_PROPERTY = {
     "name": "Keep Front Clear",
-    "description": (
-        "How far seams go out of the way of faces that look to the front (the object's -Y), 0 where any side will do"
-    ),
+    "description": ("How far seams keep away from faces toward the front (the object's -Y); 0 treats all sides alike"),
 }
 SEAM_GROUP_PROPERTY = {
     "name": "Vertex Group",
-    "description": "Painted weights that say where seams are to go or to stay away from; none if empty",
+    "description": "Vertex group whose painted weights attract seams or keep them away",
 }
-SEAM_GROUP_USE_PROPERTY = {"name": "Group Means", "description": "What the weights of the vertex group are for"}
+SEAM_GROUP_USE_PROPERTY = {"name": "Group Means", "description": "Whether the weights attract seams or keep them away"}
 SEAM_GROUP_USES = (
-    ("AVOID", "No Seams Here", "The larger the weight, the longer the way round that a seam takes"),
-    ("PREFER", "Seams Here", "The larger the weight, the rather a seam goes there"),
+    ("AVOID", "No Seams Here", "Seams make a detour around high weights"),
+    ("PREFER", "Seams Here", "Seams prefer high weights"),
 )
 MAX_LENGTH_PROPERTY = {
     "name": "Maximum Length",
     "description": (
-        "Limit of the length of all new seams of a mesh, without the object's scale, 0 for none; cuts that "
-        "closed islands and handles need are made in any case"
+        "Limit on the total length of new seams of a mesh, ignoring the object's scale; 0 for no limit. Cuts that "
+        "open closed islands and handles are always made"
     ),
 }
 CUTS_PROPERTY = {
     "name": "Cuts",
-    "description": "Number of the suggested cuts to mark, the most useful first, 0 for all",
+    "description": "Number of suggested cuts to mark, most useful first; 0 for all",
 }
 UNWRAP_PROPERTY = {
     "name": "Unwrap",
-    "description": "Unwrap the faces afterwards, with the settings with which Spectral Unwrap was used last",
+    "description": "Then unwrap the faces with the last settings of Spectral Unwrap",
 }
 FLIPPED_PROPERTY = {
     "name": "Flipped",
-    "description": "Select faces that lie the other way round than most of their island",
+    "description": "Select faces that are flipped relative to the rest of their island",
 }
 OVERLAPPING_PROPERTY = {
     "name": "Overlapping",
-    "description": "Select faces that cover part of another face of their island",
+    "description": "Select faces that overlap another face of their island",
 }
 BETWEEN_ISLANDS_PROPERTY = {
     "name": "Between Islands",
-    "description": "Also select faces that cover part of another island, of any mesh in edit mode",
+    "description": "Also select faces that overlap another island, of any mesh in edit mode",
 }
 EXTEND_PROPERTY = {"name": "Extend", "description": "Add to the selection instead of replacing it"}
 
-ISLANDS_PROPERTY = {"name": "Islands", "description": "The islands of the last result, the worst first"}
+ISLANDS_PROPERTY = {"name": "Islands", "description": "Islands of the last result, worst first"}
 ACTIVE_ISLAND_PROPERTY = {"name": "Island", "description": "Click an island to select its faces"}
-MEASURE_PROPERTY = {"name": "By", "description": "What faces are compared by"}
+MEASURE_PROPERTY = {"name": "By", "description": "How faces are ranked"}
 MEASURE_ITEMS = (
-    ("ANGLE", "Angle Distortion", "Faces whose angles are farthest from those on the surface"),
-    ("SIZE", "Size", "Faces whose size in the map is farthest from that of most of the surface"),
+    ("ANGLE", "Angle Distortion", "Faces whose angles are off most"),
+    ("SIZE", "Size", "Faces whose size in the map differs most from the median"),
 )
-AMOUNT_PROPERTY = {"name": "Amount", "description": "How much of the surface to select, the worst faces first"}
+AMOUNT_PROPERTY = {"name": "Amount", "description": "Share of the surface to select, worst faces first"}
 USE_LIMIT_PROPERTY = {
     "name": "Above Limit",
-    "description": "Select all that is worse than a limit, however much that is",
+    "description": "Select everything beyond a limit instead of a share of the surface",
 }
 LIMIT_PROPERTY = {
     "name": "Limit",
-    "description": "Angle distortion, 1 where angles are kept; or how many times larger or smaller than most faces are",
+    "description": "Angle distortion, 1.1 for angles off by 10 %; or the factor by which sizes differ from the median",
 }
-WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Compare islands instead of faces, by their average"}
-STORED_PROPERTY = {"name": "Store", "description": "What to write"}
+WHOLE_ISLANDS_PROPERTY = {"name": "Whole Islands", "description": "Rank islands by their average instead of faces"}
+STORED_PROPERTY = {"name": "Store", "description": "What to store"}
 AS_COLORS_PROPERTY = {
     "name": "As Colors",
-    "description": "Write the colors of the overlay to the corners of the faces, instead of one number per face",
+    "description": "Store the colors of the overlay at face corners instead of one number per face",
 }
 # The properties of the overlay that shows the map.
 MAP_OVERLAY_LABEL = "UV Map Overlay"
 SHOW_MAP_PROPERTY = {
     "name": "Show UV Map",
-    "description": "Colour the faces by what the active UV map does to them, in the 3D viewport and in the UV editor",
+    "description": "Color the faces by the quality of the active UV map, in the 3D viewport and the UV editor",
 }
-LOOK_PROPERTY = {"name": "Show", "description": "What the colours stand for"}
+LOOK_PROPERTY = {"name": "Show", "description": "What the colors show"}
 USE_RANGE_PROPERTY = {
-    "name": "Own Range",
-    "description": "Set the values of the two ends of the colours by hand; otherwise they follow the map",
+    "name": "Custom Range",
+    "description": "Set the values at both ends of the colors; otherwise they follow the map",
 }
-RANGE_LOW_PROPERTY = {"name": "Low", "description": "Value at the lower end of the colours"}
-RANGE_HIGH_PROPERTY = {"name": "High", "description": "Value at the upper end of the colours"}
-OPACITY_PROPERTY = {"name": "Opacity", "description": "How much the colours hide of what is below them"}
+RANGE_LOW_PROPERTY = {
+    "name": "Low",
+    "description": ("Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %"),
+}
+RANGE_HIGH_PROPERTY = {
+    "name": "High",
+    "description": ("Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %"),
+}
+OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
 IMAGE_SIZE_PROPERTY = {
     "name": "Image Size",
-    "description": "Pixels along one side of the image that the texel density is stated for",
+    "description": "Pixels along one side of the image, for the texel density",
 }
-CHECKS_PROPERTY = {"name": "Squares", "description": "Squares of the checker along one side of a UV tile"}
-LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colours mean, and the numbers of the map"}
+CHECKS_PROPERTY = {"name": "Squares", "description": "Checker squares along one side of a UV tile"}
+LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colors mean, and the numbers of the map"}
 
-DEFAULTS_LABEL = "Spectral Unwrap Begins With"
+DEFAULTS_LABEL = "Spectral Unwrap Defaults"
 LIMITS_LABEL = "Limits"
 SOLVER_LABEL = "Solver"
 THREADS_PROPERTY = {
     "name": "Threads",
-    "description": "How many processor cores a solve may use at once, 0 for all; the map is the same",
+    "description": "Processor cores to use; 0 for all. The map does not depend on it",
 }
 OVERLAY_MAX_FACES_PROPERTY = {
     "name": "Overlay: Faces",
-    "description": "Meshes with more faces are not colored, since the overlay follows every edit",
+    "description": "Meshes with more faces are not colored, because the overlay follows every edit",
 }
 LIVE_MAX_FACES_PROPERTY = {
     "name": "Live Unwrap: Faces",
-    "description": "Meshes with more faces are left alone by Live Spectral Unwrap, which cannot be canceled while it "
-    "solves",
+    "description": "Live Spectral Unwrap skips meshes with more faces, because it cannot be canceled",
 }
 TOO_MANY_FACES_TO_COLOR = "Too many faces to color:"
 LIMIT_IN_PREFERENCES = "The add-on's preferences set the limit"
 TOO_MANY_FACES_TO_FOLLOW = "Too many faces to follow"
 OVERLAY_COLORS_LABEL = "Colors of the UV Map Overlay"
 ANGLE_LOW_PROPERTY = {"name": "Angles Kept", "description": "Color of faces whose angles are kept"}
-ANGLE_MIDDLE_PROPERTY = {"name": "Between", "description": "Color of faces in the middle of the range"}
-ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of faces at the end of the range and beyond"}
-SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces that are smaller in the map than most"}
-SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of the size of most"}
-SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces that are larger in the map than most"}
-PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices make a pair"}
+ANGLE_MIDDLE_PROPERTY = {"name": "Between", "description": "Color of the middle of the range"}
+ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of the end of the range and beyond"}
+SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces smaller in the map than most"}
+SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of median size"}
+SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces larger in the map than most"}
+PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices form pairs"}
 STRENGTH_PROPERTY = {
     "name": "Strength",
     "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
 }
 INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active extender"}
-BROKEN_PROPERTY = {"name": "Broken", "description": "Remove all extenders with a vertex that is gone instead"}
+BROKEN_PROPERTY = {"name": "Broken", "description": "Instead remove all extenders that lost a vertex"}
 # The same of the properties of an extender, and of a mesh that has extenders.
 EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name of the extender"}
-EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Let the extender act on the next unwrap"}
+EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use the extender in the next unwrap"}
 FIRST_VERTEX_PROPERTY = {"name": "First Vertex", "description": "Identifier of its first vertex"}
 SECOND_VERTEX_PROPERTY = {"name": "Second Vertex", "description": "Identifier of its second vertex"}
 ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The extender chosen in the panel"}
@@ -283,16 +277,16 @@ ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The exten
 # Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
 # spectral_conformal.unwrap.
 METHOD_ITEMS = (
-    ("SPECTRAL", "Spectral", "Least angle distortion with the whole boundary free; no pins"),
+    ("SPECTRAL", "Spectral", "Least angle distortion, with a free boundary and without pins"),
     ("LSCM", "Least Squares", "Least squares conformal map, pinned at the two boundary vertices farthest apart"),
 )
 WEIGHTS_ITEMS = (
     ("UNIFORM", "Uniform", "Every triangle counts by its area"),
-    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same, for irregularly sampled meshes"),
+    ("INVERSE_AREA", "Inverse Area", "Every triangle counts the same; for unevenly divided meshes"),
 )
 BOUNDARY_ITEMS = (
-    ("LENGTH", "Length", "Weigh boundary vertices by the length of their boundary edges, whatever the sampling"),
-    ("VERTEX", "Vertex", "Weigh all boundary vertices equally, as in the original paper"),
+    ("LENGTH", "Length", "Weight boundary vertices by the length of their boundary edges"),
+    ("VERTEX", "Vertex", "Weight all boundary vertices equally, as in the original paper"),
 )
 MARGIN_METHOD_ITEMS = (
     ("SCALED", "Scaled", "Use scale of existing UVs to multiply margin"),
@@ -300,76 +294,74 @@ MARGIN_METHOD_ITEMS = (
     ("FRACTION", "Fraction", "Specify a precise fraction of final UV output"),
 )
 LOOK_ITEMS = (
-    (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are from those on the surface: 1 where they are kept"),
+    (choices.LOOK_ANGLE, "Angle Distortion", "How far angles are off; 0 % where they are kept"),
     (
         choices.LOOK_SIZE,
         "Size",
-        "How much larger or smaller faces are in the map than in the middle of it, beside the surface",
+        "Size in the map relative to the surface, compared with the median",
     ),
-    (choices.LOOK_DENSITY, "Texel Density", "Pixels of the image along one unit of length on the surface"),
+    (choices.LOOK_DENSITY, "Texel Density", "Image pixels per unit of length on the surface"),
     (
         choices.LOOK_DEFECTS,
         "Flipped and Overlapping",
-        "Faces that lie the wrong way round, or cover others of their island",
+        "Faces that are flipped or overlap others of their island",
     ),
-    (choices.LOOK_CHECKER, "Checker", "Squares of the UV map on the surface, without touching materials"),
+    (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
 )
 # A checker is no value.
 STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != choices.LOOK_CHECKER)
 PLACEMENT_ITEMS = (
-    (choices.PACK, "Pack", "Scale islands by their surface area and pack them into the UV tile, upright"),
-    (choices.KEEP, "Keep in Place", "Fit every island into the bounding box that it had before, turned as it was"),
+    (choices.PACK, "Pack", "Scale islands by their surface area and pack them upright into the UV tile"),
+    (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
 )
 EXTENDER_PAIRS_ITEMS = (
     (
         choices.PAIRS_IN_ORDER,
         "In Order",
-        "Connect the two selected vertices, or of several the first with the second, the third with the fourth and so "
-        "on, in the order in which they were selected",
+        (
+            "Connect the selected vertices in pairs, in the order of selection: the first with the second, the third "
+            "with the fourth, and so on"
+        ),
     ),
     (
         choices.PAIRS_TO_ACTIVE,
         "To Active",
-        "Connect every selected vertex with the active one, which was selected last",
+        "Connect every selected vertex with the active one, selected last",
     ),
 )
 
-SELECT_PAIR = "Select two vertices, or several, one after the other"
-SELECT_WITH_ACTIVE = "Select the vertices to connect, last the one to connect them with"
-NO_ACTIVE_VERTEX = "No vertex is active; select the one to connect the others with last, with Shift and click"
-NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in no common island; remove the seams between them"
+SELECT_PAIR = "Select two or more vertices, one after the other"
+SELECT_WITH_ACTIVE = "Select the vertices to connect, and last the one to connect them with"
+NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
+NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in different islands; remove the seams between them"
 HELD_BY_PINS = "The extender has no effect: pins hold its island; unpin it or use soft pins"
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
-NO_ACTIVE_EDGE = "Nothing was stretched: there is no active edge; click the edge along which to stretch last"
-ADJUSTED_WITHOUT_SUBSURF = (
-    "Adjusting looks at the mesh without its Subdivision Surface modifier; unwrap again to heed it"
-)
-EXTENDERS_NEED_SPECTRAL = "Extenders act with the Spectral method only; unwrap with it"
+NO_ACTIVE_EDGE = "Nothing was stretched: no edge is active; click the edge to stretch along"
+ADJUSTED_WITHOUT_SUBSURF = "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it"
+EXTENDERS_NEED_SPECTRAL = "Extenders work with the Spectral method only; unwrap with it"
 NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
 STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
-OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to let the map follow; close other programs, or add seams"
-TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for it; close other programs, select fewer faces, or add seams"
-NO_SUCH_EXTENDER = "No such extender; choose one in the list"
+OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
+TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
+NO_SUCH_EXTENDER = "This extender does not exist; choose one in the list"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "No faces selected"
-MESHES_CHANGED = "The meshes changed while they were solved, so nothing was written; unwrap again"
-NOTHING_SELECTED_MEANS_ALL = "Nothing is selected, so all visible faces are unwrapped"
+MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
+NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 OUT_OF_MEMORY = (
     "Not enough memory, so nothing was changed; close other programs, select fewer faces, or lower the subdivision "
     "levels"
 )
-PACKED_BESIDE_FAILED = (
-    "Failed islands leave too little room in the UV tile, so the others were packed into a tile beside it"
-)
-NO_RESULT_REMEMBERED = "No unwrap of these meshes is remembered, so none is known to have failed; unwrap first"
+PACKED_BESIDE_FAILED = "Failed islands leave too little room in the UV tile, so the others were packed beside it"
+NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
-NO_UV_MAP = "There is no UV map to look at; unwrap first"
+NO_UV_MAP = "There is no UV map; unwrap first"
 # Differences of scale that Blender's own Unwrap passes over.
 _EVEN_SCALE = 1e-4
-_PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method, pins attracting softly"}
+_PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method with soft pins"}
 # Numbers with what they count: for one, and for any other number.
 _CUTS = ("{n} cut", "{n} cuts")
 _EXTENDERS = ("{n} extender", "{n} extenders")
@@ -384,7 +376,7 @@ def is_running(label: str) -> str:
 
 def cancelled(label: str) -> str:
     """Return what the operator with this label says when it is cancelled."""
-    return translate("{operator}: Cancelled").format(operator=translate(label))
+    return translate("{operator}: Canceled").format(operator=translate(label))
 
 
 def progress(label: str, percent: int, phase: str) -> str:
@@ -418,12 +410,12 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
 
     `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
     """
-    unwrapped = translate("Unwrapped {islands}: angle distortion {mean} average, {worst} worst")
+    unwrapped = translate("Unwrapped {islands}: angles off by {mean} on average, {worst} at worst")
     if math.isinf(summary.mean_qc):
-        unwrapped = translate("Unwrapped {islands}: angle distortion beyond measure, as faces shrink to nothing")
+        unwrapped = translate("Unwrapped {islands}: angles off beyond measure, because faces shrink to nothing")
     parts = [
         unwrapped.format(
-            islands=_count(summary.solved, _ISLANDS), mean=_qc(summary.mean_qc), worst=_qc(summary.max_qc)
+            islands=_count(summary.solved, _ISLANDS), mean=_angles(summary.mean_qc), worst=_angles(summary.max_qc)
         ),
         _defects(summary.flipped, summary.overlapping, where_to_see),
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
@@ -449,15 +441,17 @@ def look(kind: str) -> str:
 
 def look_value(kind: str, value: float) -> str:
     """Return a value of what the overlay shows, as the legend has it."""
+    if kind == choices.LOOK_ANGLE:
+        return _angles(value)
     if kind == choices.LOOK_SIZE:
         return translate("{factor} x").format(factor=format(2.0**value, ".2f"))
-    return format(value, ".3g" if kind == choices.LOOK_DENSITY else ".2f")
+    return format(value, ".3g")
 
 
 def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
     """Return what stands at the lower end, the middle and the upper end of the legend's colours."""
     if kind == choices.LOOK_DEFECTS:
-        return (translate("sound"), translate("overlapping"), translate("flipped"))
+        return (translate("good"), translate("overlapping"), translate("flipped"))
     return tuple(look_value(kind, value) for value in (low, middle, high))
 
 
@@ -469,12 +463,12 @@ def too_many_faces(meshes: Sequence[str]) -> list[str]:
 def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
     """Return the lines that the legend has on the part of the map with this label."""
     name, faces = translate(label), _count(numbers.faces, _FACES)
-    if numbers.mean_qc != numbers.mean_qc:
+    if math.isnan(numbers.mean_qc):
         return (translate("{name}: {faces}, nothing to measure").format(name=name, faces=faces),)
-    angles = translate("Angles {mean} average, {worst} worst")
+    angles = translate("Angles off by {mean} on average, {worst} at worst")
     lines = [
         translate("{name}: {faces}").format(name=name, faces=faces),
-        angles.format(mean=_qc(numbers.mean_qc), worst=_qc(numbers.max_qc)),
+        angles.format(mean=_angles(numbers.mean_qc), worst=_angles(numbers.max_qc)),
         translate("Sizes vary by {percent} %").format(percent=_spread(numbers)),
     ]
     if numbers.flipped or numbers.overlapping:
@@ -490,7 +484,7 @@ def _spread(numbers: IslandNumbers) -> str:
 
 def island_row(faces: int, mean_qc: float, max_qc: float, flipped: int, overlapping: int) -> str:
     """Return the line of an island in the list of the last result."""
-    parts = [" / ".join((format(mean_qc, ".3f"), _qc(max_qc))), translate("{n} f.").format(n=faces)]
+    parts = [" / ".join((_angles(mean_qc), _angles(max_qc))), translate("{n} f.").format(n=faces)]
     if flipped:
         parts.append(translate("{n} flipped").format(n=flipped))
     if overlapping:
@@ -503,7 +497,7 @@ def island_failed(faces: int) -> str:
     return translate("Not unwrapped   {n} f.").format(n=faces)
 
 
-ISLAND_GONE = "The faces of this island have changed since; unwrap again"
+ISLAND_GONE = "The faces of this island have changed; unwrap again"
 
 
 def selected_worst(faces: int) -> str:
@@ -515,7 +509,7 @@ def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, ove
     """Return the lines that the legend has on the face below the mouse; `density` is in pixels per unit of length."""
     size = translate("Size {size}, {density} px per unit")
     lines = [
-        translate("{name}: angles {qc}").format(name=translate(LEGEND_FACE), qc=_qc(qc)),
+        translate("{name}: angles off by {qc}").format(name=translate(LEGEND_FACE), qc=_angles(qc)),
         size.format(size=look_value(choices.LOOK_SIZE, log2_size), density=look_value(choices.LOOK_DENSITY, density)),
     ]
     if flipped and overlapping:
@@ -532,7 +526,7 @@ def stored(name: str) -> str:
 
 LEGEND_MESH = "Shown"
 LEGEND_ISLAND = "Active island"
-LEGEND_FACE = "Below the mouse"
+LEGEND_FACE = "Under the mouse"
 
 
 def unfolded(summary: Summary) -> str:
@@ -542,7 +536,7 @@ def unfolded(summary: Summary) -> str:
         forms = ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")
         parts.append(_count(summary.unfolded, forms))
     if summary.embedded:
-        forms = ("{n} island needed the slower fallback map", "{n} islands needed the slower fallback map")
+        forms = ("{n} island needed the slower method", "{n} islands needed the slower method")
         parts.append(_count(summary.embedded, forms))
     if not parts:
         return ""
@@ -550,8 +544,8 @@ def unfolded(summary: Summary) -> str:
     if summary.mean_qc_change is None:
         return translate("No Flip: {changes}").format(changes=changes)
     before, after = summary.mean_qc_change
-    sentence = translate("No Flip: {changes}; their angle distortion {before} before, {after} after")
-    return sentence.format(changes=changes, before=_qc(before), after=_qc(after))
+    sentence = translate("No Flip: {changes}; angles there off by {after} on average, {before} before")
+    return sentence.format(changes=changes, before=_angles(before), after=_angles(after))
 
 
 def strained(summary: Summary) -> str:
@@ -559,10 +553,10 @@ def strained(summary: Summary) -> str:
     if not summary.strained:
         return ""
     forms = (
-        "{n} island has faces stretched to more than twice their width, {worst} at worst; add seams there",
-        "{n} islands have faces stretched to more than twice their width, {worst} at worst; add seams there",
+        "{n} island has faces stretched to more than twice their width, {worst} times at worst; add seams there",
+        "{n} islands have faces stretched to more than twice their width, {worst} times at worst; add seams there",
     )
-    return _count(summary.strained, forms, worst=_qc(summary.max_qc))
+    return _count(summary.strained, forms, worst=format(summary.max_qc, ".3g"))
 
 
 def too_small(faces: int) -> str:
@@ -570,10 +564,14 @@ def too_small(faces: int) -> str:
     if not faces:
         return ""
     forms = (
-        "{n} face shrinks below what Blender's UV coordinates resolve; add seams that make the island flatter, or "
-        "raise Angle to Area",
-        "{n} faces shrink below what Blender's UV coordinates resolve; add seams that make the island flatter, or "
-        "raise Angle to Area",
+        (
+            "{n} face is too small for the precision of Blender's UVs; add seams that flatten its island, or raise "
+            "Angle to Area"
+        ),
+        (
+            "{n} faces are too small for the precision of Blender's UVs; add seams that flatten their islands, or "
+            "raise Angle to Area"
+        ),
     )
     return _count(faces, forms)
 
@@ -628,8 +626,8 @@ def broken_extenders(names: Sequence[str]) -> str:
     if not names:
         return ""
     forms = (
-        "Skipped {n} extender whose vertex is gone: {names}",
-        "Skipped {n} extenders whose vertex is gone: {names}",
+        "Skipped {n} extender that lost a vertex: {names}",
+        "Skipped {n} extenders that lost a vertex: {names}",
     )
     return _count(len(names), forms, names=", ".join(names))
 
@@ -639,15 +637,15 @@ def extenders_without_strength(names: Sequence[str]) -> str:
     if not names:
         return ""
     forms = (
-        "Skipped {n} extender whose strength is no number that it can have: {names}",
-        "Skipped {n} extenders whose strength is no number that it can have: {names}",
+        "Skipped {n} extender with an invalid strength: {names}",
+        "Skipped {n} extenders with an invalid strength: {names}",
     )
     return _count(len(names), forms, names=", ".join(names))
 
 
 def broken_extender(name: str) -> str:
     """Return why an extender that lacks a vertex cannot be adjusted."""
-    return translate("{name} is broken: a vertex of it is gone; remove it and add another").format(name=name)
+    return translate("{name} lost a vertex; remove it and add another").format(name=name)
 
 
 def adjusting(strength: str, note: str) -> str:
@@ -663,7 +661,7 @@ def removed_broken(count: int) -> str:
 
 def broken_extender_selected(name: str, gone: int) -> str:
     """Return the warning that an extender lacks vertices that were to be selected."""
-    return translate("{name} is broken: {n} of its vertices gone; remove it").format(name=name, n=gone)
+    return translate("{name} lost vertices: {n}; remove it").format(name=name, n=gone)
 
 
 def hidden_vertices(name: str, hidden: int) -> str:
@@ -677,10 +675,10 @@ def added_extenders(count: int, existing: int, follows: bool) -> str:
     if count and follows:
         parts.append(translate("Added {extenders}").format(extenders=extenders))
     elif count:
-        sentence = translate("Added {extenders}, which will act on the next unwrap; {operator} acts at once")
+        sentence = translate("Added {extenders} for the next unwrap; {operator} acts at once")
         parts.append(sentence.format(extenders=extenders, operator=translate(ADJUST_EXTENDER_LABEL)))
     if existing:
-        parts.append(translate("Pairs that have an extender already: {n}").format(n=existing))
+        parts.append(translate("Pairs that already have an extender: {n}").format(n=existing))
     return ". ".join(parts)
 
 
@@ -689,8 +687,8 @@ def unused_extenders(count: int) -> str:
     if count == 0:
         return ""
     forms = (
-        "{n} extender had no effect: both vertices must lie in one unwrapped island, which pins must not hold",
-        "{n} extenders had no effect: both vertices must lie in one unwrapped island, which pins must not hold",
+        "{n} extender had no effect: both vertices must lie in the same unwrapped island, without pins that hold it",
+        "{n} extenders had no effect: both vertices must lie in the same unwrapped island, without pins that hold it",
     )
     return _count(count, forms)
 
@@ -705,7 +703,7 @@ def selected_failed(islands: int, faces: int) -> str:
 
 def changed_since_unwrapped(names: Sequence[str]) -> str:
     """Return the warning for meshes that have other faces than when they were unwrapped."""
-    sentence = translate("Faces were added, removed or reordered since the last unwrap of {names}; unwrap again")
+    sentence = translate("The faces of {names} have changed since the last unwrap; unwrap again")
     return sentence.format(names=", ".join(names))
 
 
@@ -721,7 +719,7 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
     kinds = (
         ("{n} flipped", sum(int(found.flipped.sum()) for found in defects) if flipped else 0),
         ("{n} overlapping", sum(int(found.overlapping.sum()) for found in defects) if overlapping else 0),
-        ("{n} with UVs that are not finite", sum(int(found.not_finite.sum()) for found in defects)),
+        ("{n} with invalid UVs", sum(int(found.not_finite.sum()) for found in defects)),
     )
     counts = ", ".join(translate(text).format(n=count) for text, count in kinds if count)
     return translate("Selected {faces}: {kinds}").format(faces=_count(total, _FACES), kinds=counts)
@@ -729,17 +727,16 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
 
 def marked(count: int, length: str) -> str:
     """Return what Suggest Seams says once `count` cuts are marked, of a length that is given with its unit."""
-    return translate("Marked {cuts} of length {length}").format(cuts=_count(count, _CUTS), length=length)
+    return translate("Marked {cuts}, length {length}").format(cuts=_count(count, _CUTS), length=length)
 
 
 def nothing_to_suggest(is_limited: bool) -> str:
     """Return the sentence for no suggested seams; `is_limited` where the user gave a greatest length."""
     if is_limited:
         return translate(
-            "No seams to suggest: the islands are even enough already, or no cut makes them better, or none within "
-            "the length"
+            "No seams to suggest: the islands are good enough, or no cut within the length limit improves them"
         )
-    return translate("No seams to suggest: the islands are even enough already, or no cut makes them better")
+    return translate("No seams to suggest: the islands are good enough, or no cut improves them")
 
 
 def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
@@ -768,16 +765,15 @@ def preview_status(known: str) -> str:
 
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
     """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
-    now = [_percent(before.even)]
-    if before.mean_qc == before.mean_qc:
-        now.append(_qc(before.mean_qc))
-    fields = {"percent": _percent(after.even), "factor": format(factor, ".3g"), "now": ", ".join(now)}
-    if after.mean_qc != after.mean_qc:
-        return translate("{percent} of the surface within {factor} times the median scale (now {now})").format(**fields)
-    sentence = translate(
-        "{percent} of the surface within {factor} times the median scale, angle distortion {qc} (now {now})"
-    )
-    return sentence.format(qc=_qc(after.mean_qc), **fields)
+    even = translate("{percent} of the surface within {factor} times the median scale (now {now})")
+    parts = [even.format(percent=_percent(after.even), factor=format(factor, ".3g"), now=_percent(before.even))]
+    if not math.isnan(after.mean_qc):
+        if math.isnan(before.mean_qc):
+            angles = translate("angles off by {mean} on average")
+        else:
+            angles = translate("angles off by {mean} on average (now {now})")
+        parts.append(angles.format(mean=_angles(after.mean_qc), now=_angles(before.mean_qc)))
+    return ", ".join(parts)
 
 
 def _percent(part: float) -> str:
@@ -788,8 +784,8 @@ def _percent(part: float) -> str:
 def no_module(reason: object) -> str:
     """Return what to do where the compiled module cannot be imported."""
     sentence = translate(
-        "The compiled module spectral_conformal cannot be imported; install the package of Spectral Unwrap made for "
-        "this platform and this version of Blender ({reason})"
+        "The compiled module spectral_conformal cannot be imported; install the Spectral Unwrap package for this "
+        "platform and Blender version ({reason})"
     )
     return sentence.format(reason=reason)
 
@@ -798,7 +794,7 @@ def solver(factorization: str, kernel: str) -> str:
     """Return what maps are solved with; `kernel` is the processor whose kernels OpenBLAS runs, empty without it."""
     if not kernel:
         return factorization
-    return translate("{name}, OpenBLAS's kernels for {kernel}").format(name=factorization, kernel=kernel)
+    return translate("{name}, OpenBLAS kernels for {kernel}").format(name=factorization, kernel=kernel)
 
 
 def no_margin(margin: float) -> str:
@@ -814,8 +810,8 @@ def unnamed_extender() -> str:
 def without_order(selected: int, ordered: int) -> str:
     """Return what to do where the order of only some of the selected vertices is known."""
     sentence = translate(
-        "{n} vertices are selected, {unordered} of them in no order; select them one after the other with Shift and "
-        "click, or use {operator}"
+        "{n} vertices are selected, {unordered} of them without an order; Shift-click them one after the other, "
+        "or use {operator}"
     )
     return sentence.format(n=selected, unordered=selected - ordered, operator=translate(ADD_TO_ACTIVE_LABEL))
 
@@ -830,8 +826,8 @@ def without_bounds(count: int) -> str:
     if count == 0:
         return ""
     forms = (
-        "{n} island had no UV bounds to keep and was laid out in the unit square",
-        "{n} islands had no UV bounds to keep and were laid out side by side in the unit square",
+        "{n} island had no former bounds and was packed into the UV tile",
+        "{n} islands had no former bounds and were packed into the UV tile",
     )
     return _count(count, forms)
 
@@ -849,8 +845,12 @@ def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
     return translate(forms[0] if number == 1 else forms[1]).format(n=number, **fields)
 
 
-def _qc(value: float) -> str:
-    """Return a distortion as artists read it: 1.003 is not 1.00, and of large ones no digit counts but the first."""
-    if value < 1.1:
-        return format(value, ".3f")
-    return format(value, ".2f" if value < 100.0 else ".3g")
+def _angles(qc: float) -> str:
+    """Return by how many percent angles are off, given the quasi-conformal distortion, 1 where they are kept."""
+    if math.isinf(qc):
+        return translate("beyond measure")
+    percent = 100.0 * (qc - 1.0)
+    # Of large numbers only the first digits matter.
+    return translate("{percent} %").format(
+        percent=format(percent, ".1f" if percent < 10.0 else ".0f" if percent < 1000.0 else ".3g")
+    )

@@ -56,7 +56,7 @@ def test_no_face_is_flipped_in_the_uv_map_and_the_cost_is_told(reports):
         assert signed_areas(made).min() > 0
         texts = [text for _, text in reports()]
         (told,) = [text for text in texts if text.startswith("No Flip: ")]
-        assert re.search(r"their angle distortion \S+ before, \S+ after$", told)
+        assert re.search(r"angles there off by \S+ % on average, \S+ % before$", told)
         assert any("; no flipped faces" in text for text in texts)
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects.remove(made)
@@ -78,12 +78,12 @@ def test_faces_below_single_precision_are_told(reports):
     scenes.edit(short)
     reports()
     bpy.ops.uv.spectral_unwrap()
-    assert not any("below what Blender's" in text for _, text in reports())
+    assert not any("too small for the precision" in text for _, text in reports())
     bpy.ops.object.mode_set(mode="OBJECT")
     scenes.edit(long)
     bpy.ops.uv.spectral_unwrap()
     (warning,) = [text for level, text in reports() if level == "Warning"]
-    count = int(re.match(r"(\d+) faces shrink below what Blender's UV coordinates resolve", warning)[1])
+    count = int(re.match(r"(\d+) faces are too small for the precision", warning)[1])
     # As many as have no area in what was written, up to a factor.
     uv = scenes.read_uv(long)
     ends = np.cumsum([0] + [len(face.vertices) for face in long.data.polygons])[:-1]

@@ -453,7 +453,7 @@ def test_without_live_unwrapping_an_added_extender_says_when_it_acts(reports):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     ((level, text),) = reports()
     assert level == "Info"
-    assert text.startswith("Added 1 extender, which will act on the next unwrap")
+    assert text.startswith("Added 1 extender for the next unwrap")
 
 
 def test_added_changed_and_removed_extenders_are_followed(reports):
@@ -499,7 +499,7 @@ def test_an_extender_that_cannot_be_followed_is_added_with_a_warning(reports):
     add_extender(grid, 0, 8)
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     (warning,) = [text for level, text in reports() if level == "Warning"]
-    assert "no common island" in warning
+    assert "different islands" in warning
     assert len(grid.data.spectral_extenders) == 1
 
 

@@ -99,11 +99,11 @@ def test_damaged_extenders(name):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("strength NaN", "Skipped 1 extender whose strength is no number that it can have: Whole"),
-        ("strength beyond its limit", "Skipped 1 extender whose strength is no number that it can have: Whole"),
-        ("one vertex twice", "Skipped 1 extender whose vertex is gone: Whole"),
-        ("huge identifiers", "Skipped 1 extender whose vertex is gone: Whole"),
-        ("nothing inside", "Skipped 1 extender whose vertex is gone: Extender without a name"),
+        ("strength NaN", "Skipped 1 extender with an invalid strength: Whole"),
+        ("strength beyond its limit", "Skipped 1 extender with an invalid strength: Whole"),
+        ("one vertex twice", "Skipped 1 extender that lost a vertex: Whole"),
+        ("huge identifiers", "Skipped 1 extender that lost a vertex: Whole"),
+        ("nothing inside", "Skipped 1 extender that lost a vertex: Extender without a name"),
     ],
 )
 def test_damaged_extenders_are_named(name, message, reports):

@@ -103,7 +103,7 @@ def test_keep_in_place_without_former_bounds_says_so(reports, uv_map):
     assert bpy.ops.uv.spectral_unwrap(placement="KEEP") == {"FINISHED"}
     assert (
         "Warning",
-        "6 islands had no UV bounds to keep and were laid out side by side in the unit square",
+        "6 islands had no former bounds and were packed into the UV tile",
     ) in reports()
     faces = scenes.read_uv(cube).reshape(6, 4, 2)
     assert faces.min() >= 0.0

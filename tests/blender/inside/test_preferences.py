@@ -125,7 +125,7 @@ def test_preferences_say_for_which_processor_the_solver_works(preferences, monke
     native = importlib.import_module(f"{ADDON}.core.native")
     build = native.spectral_conformal().build_info()
     assert build["kernel"]
-    assert f"{build['factorization']}, OpenBLAS's kernels for {build['kernel']}" in drawn(preferences)
+    assert f"{build['factorization']}, OpenBLAS kernels for {build['kernel']}" in drawn(preferences)
     only_eigen = types.SimpleNamespace(build_info=lambda: {"factorization": "Eigen 3.4.0", "blas": "", "kernel": ""})
     monkeypatch.setattr(native, "spectral_conformal", lambda: only_eigen)
     assert "Eigen 3.4.0" in drawn(preferences)

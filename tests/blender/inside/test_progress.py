@@ -91,7 +91,7 @@ def test_cancelled_solve_changes_nothing(key, monkeypatch):
     waiting = jobs.unwrap(monkeypatch)
     solve = waiting.worker
     assert waiting.send(key) == {"CANCELLED"}
-    assert waiting.reported == [("INFO", "Spectral Unwrap: Cancelled")]
+    assert waiting.reported == [("INFO", "Spectral Unwrap: Canceled")]
     assert waiting.left_nothing()
     assert solve.wait(60.0)
     np.testing.assert_array_equal(scenes.read_uv(grid), before)

@@ -18,7 +18,7 @@ def test_solved_islands_are_counted_and_measured(reports):
     ((level, text),) = reports()
     assert level == "Info"
     assert re.fullmatch(
-        r"Unwrapped 6 islands: angle distortion 1\.000 average, 1\.000 worst; no flipped faces; \d+\.\d\d s", text
+        r"Unwrapped 6 islands: angles off by 0\.0 % on average, 0\.0 % at worst; no flipped faces; \d+\.\d\d s", text
     )
 
 
@@ -77,7 +77,7 @@ def test_nothing_selected_means_all_that_is_visible(reports):
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     (level, text), (_, result) = reports()
-    assert (level, text) == ("Info", "Nothing is selected, so all visible faces are unwrapped")
+    assert (level, text) == ("Info", "Nothing was selected, so all visible faces were unwrapped")
     assert result.startswith("Unwrapped 1 island")
     changed = (scenes.read_uv(grid) != before).any(axis=1)
     assert not changed[:4].any()

@@ -133,7 +133,7 @@ def test_without_uv_map(reports):
     scenes.edit(edited)
     reports()
     assert bpy.ops.uv.spectral_select_defects() == {"CANCELLED"}
-    assert reports() == [("Warning", "There is no UV map to look at; unwrap first")]
+    assert reports() == [("Warning", "There is no UV map; unwrap first")]
 
 
 def test_faces_whose_uvs_are_not_finite_are_selected(reports):
@@ -143,7 +143,7 @@ def test_faces_whose_uvs_are_not_finite_are_selected(reports):
     scenes.write_uv(edited, uv)
     reports()
     assert bpy.ops.uv.spectral_select_defects(overlapping=False) == {"FINISHED"}
-    assert reports() == [("Info", "Selected 3 faces: 2 flipped, 1 with UVs that are not finite")]
+    assert reports() == [("Info", "Selected 3 faces: 2 flipped, 1 with invalid UVs")]
     assert selected_faces(edited) == [0, 3, 4]
 
 

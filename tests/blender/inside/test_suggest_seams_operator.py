@@ -331,7 +331,7 @@ def test_islands_that_no_seam_helps_are_told_and_the_others_served(reports):
     assert all(min(edge) >= 8 for edge in seams(solid))
     # What fails has UVs all over the tile.
     beside, failed = texts(reports, "Warning")
-    assert "tile beside it" in beside
+    assert "packed beside it" in beside
     assert failed.startswith("1 of ")
     assert "not finite" in failed
     assert np.isfinite(scenes.read_uv(solid)).all()
@@ -437,7 +437,8 @@ def test_preview_changes_nothing_and_tells_what_to_expect(previewed):
     np.testing.assert_array_equal(scenes.read_uv(head), uv)
     total = preview.choice.count
     assert f"Suggest Seams: {total} cuts, length " in preview.status[-1]
-    assert "of the surface within 2 times the median scale, angle distortion 1.0" in preview.status[-1]
+    assert "of the surface within 2 times the median scale (now " in preview.status[-1]
+    assert " %), angles off by " in preview.status[-1]
 
 
 @pytest.mark.parametrize(
@@ -482,7 +483,7 @@ def test_applying_marks_what_is_shown(previewed):
     assert not np.array_equal(mapped, uv)
     assert preview.status[-1] is None
     assert preview.timers == []
-    assert preview.reported[0][1].startswith(f"Marked {count} cuts of length ")
+    assert preview.reported[0][1].startswith(f"Marked {count} cuts, length ")
     # The same as without a window.
     for edge in scenes.edit_mesh(head).edges:
         edge.seam = False

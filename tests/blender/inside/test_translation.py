@@ -49,10 +49,10 @@ def test_reports_come_in_the_language_of_the_user(in_german, capfd):
     printed = _unwrap_mirrored_cube(capfd)
     if in_german:
         assert REPORT in printed
-        assert "6 Inseln abgewickelt: Winkelverzerrung im Mittel 1.000, höchstens 1.000; keine umgedrehten" in printed
+        assert "6 Inseln abgewickelt: Winkel weichen im Mittel um 0.0 % ab, höchstens um 0.0 %; keine" in printed
     else:
         assert SCALE in printed
-        assert "Unwrapped 6 islands: angle distortion 1.000 average, 1.000 worst; no flipped faces" in printed
+        assert "Unwrapped 6 islands: angles off by 0.0 % on average, 0.0 % at worst; no flipped faces" in printed
 
 
 def test_constants_in_reports_do_too(in_german, capfd):
@@ -71,7 +71,7 @@ def test_labels_come_in_the_language_of_the_user(in_german):
     panel = bpy.app.translations.pgettext_iface(texts.EXTENDERS_LABEL)
     if in_german:
         assert (item, operator, panel) == ("Schachbrett", "Nähte vorschlagen", "Extender")
-        assert description == "Quadrate der UV-Map auf der Oberfläche, ohne Materialien anzurühren"
+        assert description == "Schachbrett auf der Oberfläche; Materialien bleiben, wie sie sind"
     else:
         assert (item, operator, panel) == ("Checker", "Suggest Seams", "Extenders")
 
@@ -85,7 +85,7 @@ def test_switched_off_reports_stay_english(in_german, capfd):
 
 def test_language_is_asked_for_when_something_is_said(capfd):
     translation.use(lambda text: text.replace("Unwrapped", "Flattened"))
-    assert "Flattened 6 islands: angle distortion" in _unwrap_mirrored_cube(capfd)
+    assert "Flattened 6 islands: angles off by" in _unwrap_mirrored_cube(capfd)
 
 
 def test_translations_come_and_go_with_the_add_on(in_german):

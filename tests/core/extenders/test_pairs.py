@@ -64,8 +64,8 @@ def test_several_vertices_pair_up_in_order():
 @pytest.mark.parametrize(
     ("selected", "ordered", "words"),
     [
-        ([], [], "two vertices"),
-        ([1], [1], "two vertices"),
+        ([], [], "two or more vertices"),
+        ([1], [1], "two or more vertices"),
         ([1, 2, 3], [3, 1, 2], "even"),
         ([1, 2, 3, 4], [4, 1], "order"),
     ],

@@ -130,7 +130,7 @@ def broken_bundle(tmp_path, monkeypatch):
 
 def test_missing_module_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "spectral_conformal", None)
-    with pytest.raises(native.NativeModuleError, match="install the package of Spectral Unwrap made for this platform"):
+    with pytest.raises(native.NativeModuleError, match="install the Spectral Unwrap package for this platform"):
         native.spectral_conformal()
 
 

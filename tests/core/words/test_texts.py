@@ -65,9 +65,9 @@ def test_mean_does_not_overflow(area):
 
 def test_information():
     one = texts.information(summary(solved(1.0, 1.01, 1.5)), 0.257, "Select")
-    assert one == "Unwrapped 1 island: angle distortion 1.010 average, 1.50 worst; no flipped faces; 0.26 s"
+    assert one == "Unwrapped 1 island: angles off by 1.0 % on average, 50 % at worst; no flipped faces; 0.26 s"
     two = texts.information(summary(solved(), solved(1.0, 1.0, 12345.6)), 12.0, "Select")
-    assert two == "Unwrapped 2 islands: angle distortion 1.000 average, 1.23e+04 worst; no flipped faces; 12.00 s"
+    assert two == "Unwrapped 2 islands: angles off by 0.0 % on average, 1.23e+06 % at worst; no flipped faces; 12.00 s"
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_selected_defects():
     second = Defects(np.array([False]), np.array([False]), np.array([True]), one[:1])
     both = [first, second]
     said = texts.selected_defects(both, True, True)
-    assert said == "Selected 4 faces: 2 flipped, 2 overlapping, 1 with UVs that are not finite"
+    assert said == "Selected 4 faces: 2 flipped, 2 overlapping, 1 with invalid UVs"
     assert texts.selected_defects([first], False, True) == "Selected 2 faces: 2 overlapping"
     none = Defects(*(np.zeros(2, dtype=bool),) * 3, one[:2])
     assert texts.selected_defects([none], True, True) == "No flipped or overlapping faces, selection unchanged"
@@ -104,11 +104,11 @@ def test_unfolding_tells_what_it_cost():
         chart.message = "what the module says"
     result = summary(unfolded, replaced, without_map, solved())
     assert texts.unfolded(result) == (
-        "No Flip: 6 flipped triangles unfolded, 2 islands needed the slower fallback map; "
-        "their angle distortion 1.10 before, 1.31 after"
+        "No Flip: 6 flipped triangles unfolded, 2 islands needed the slower method; "
+        "angles there off by 31 % on average, 10 % before"
     )
     assert texts.repairs(result) == ""
-    assert texts.unfolded(summary(without_map)).endswith("needed the slower fallback map")
+    assert texts.unfolded(summary(without_map)).endswith("needed the slower method")
     assert texts.unfolded(summary(solved())) == ""
 
 
@@ -122,8 +122,8 @@ def test_what_could_not_be_unfolded_is_reported_as_a_fallback_that_failed():
 
 def test_faces_below_single_precision():
     assert texts.too_small(0) == ""
-    assert texts.too_small(1).startswith("1 face shrinks below")
-    assert texts.too_small(12).startswith("12 faces shrink below")
+    assert texts.too_small(1).startswith("1 face is too small for")
+    assert texts.too_small(12).startswith("12 faces are too small for")
 
 
 def test_no_failures_no_warning():
@@ -150,7 +150,7 @@ def test_pins_tell_how_islands_were_solved():
     charts = [solved(method="lscm", n_pins=2), solved(method="lscm", n_pins=5), solved()]
     assert texts.pinned(summary(*charts)) == "2 islands with pins: solved by pinned least squares (LSCM)"
     soft = texts.pinned(summary(solved(n_pins=3)))
-    assert soft == "1 island with pins: solved by the spectral method, pins attracting softly"
+    assert soft == "1 island with pins: solved by the spectral method with soft pins"
 
 
 def test_object_scale_is_told_as_blender_does():
@@ -170,8 +170,8 @@ def test_refused_meshes_are_named():
 
 
 def test_marked_cuts():
-    assert texts.marked(1, "2 m") == "Marked 1 cut of length 2 m"
-    assert texts.marked(3, "7.5") == "Marked 3 cuts of length 7.5"
+    assert texts.marked(1, "2 m") == "Marked 1 cut, length 2 m"
+    assert texts.marked(3, "7.5") == "Marked 3 cuts, length 7.5"
 
 
 def test_nothing_to_suggest_names_the_limit_if_there_is_one():
@@ -192,9 +192,11 @@ def test_preview_of_cuts():
 def test_expected_gain():
     nan = float("nan")
     gain = texts.expected(MapQuality(0.0, nan), MapQuality(0.9999, 1.0271), 2.0)
-    assert gain == "99 % of the surface within 2 times the median scale, angle distortion 1.027 (now 0 %)"
+    assert gain == "99 % of the surface within 2 times the median scale (now 0 %), angles off by 2.7 % on average"
     gain = texts.expected(MapQuality(0.5, 1.5), MapQuality(1.0, 1.0), 1.25)
-    assert gain == "100 % of the surface within 1.25 times the median scale, angle distortion 1.000 (now 50 %, 1.50)"
+    assert gain == (
+        "100 % of the surface within 1.25 times the median scale (now 50 %), angles off by 0.0 % on average (now 50 %)"
+    )
 
 
 def test_extenders_without_a_strength_are_named():
@@ -216,7 +218,7 @@ def test_where_seams_are_missing_suggest_seams_is_named():
 
 def test_what_is_infinite_is_said_in_words():
     text = texts.information(summary(solved(mean_qc=float("inf"), max_qc=float("inf"))), 0.5, "There")
-    assert text.startswith("Unwrapped 1 island: angle distortion beyond measure, as faces shrink to nothing; ")
+    assert text.startswith("Unwrapped 1 island: angles off beyond measure, because faces shrink to nothing; ")
 
 
 @pytest.mark.parametrize(("worst", "said"), [((1.9, 1.2), False), ((12.4, 1.2), True)])
