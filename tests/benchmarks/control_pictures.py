@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw for the guide what each option does to the map of one mesh, and print what is said of it there.
+"""Draw for the guide what each option does to the map of one mesh, and print its numbers for docs/benchmarks.md.
 
     build/venv/bin/python -m tests.benchmarks.control_pictures [folder]
 
@@ -141,9 +141,9 @@ EXAMPLES = (
         graded_saddle,
         {"Uniform": {}, "Inverse Area": {"weights": "inverse_area"}},
         "log2_scale",
-        "**Weights.** A saddle whose faces get narrower towards one side. *Uniform* shrinks that side; with "
-        "*Inverse Area* the spread of the sizes (standard deviation of log2 of the scale) falls from {0.spread:.2f} "
-        "to {1.spread:.2f}, while mean QC goes from {0.mean_qc:.3f} to {1.mean_qc:.3f}.",
+        "**Weights.** A saddle whose faces get narrower toward one side. *Uniform* shrinks that side; with *Inverse "
+        "Area* the spread of the sizes falls from {0.spread:.2f} to {1.spread:.2f}, while mean QC goes from "
+        "{0.mean_qc:.3f} to {1.mean_qc:.3f}.",
     ),
     Example(
         "boundary",
@@ -284,7 +284,7 @@ def _length(points: np.ndarray) -> float:
 
 
 def main() -> None:
-    """Draw all pictures and print what the guide says of them."""
+    """Draw all pictures and print what docs/benchmarks.md says of them."""
     folder = Path(sys.argv[1]) if sys.argv[1:] else IMAGES
     for example in EXAMPLES:
         maps = example.maps()

@@ -110,11 +110,16 @@ def test_code_for_the_module_is_there():
 
 
 @pytest.mark.parametrize("example", control_pictures.EXAMPLES, ids=lambda example: example.name)
-def test_the_guide_has_each_picture_with_the_numbers_of_today(example):
-    guide = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
-    assert example.written(example.maps()) in " ".join(guide.split())
+def test_each_picture_of_the_guide_has_the_numbers_of_today_among_the_benchmarks(example):
+    guide, numbers = ((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("guide.md", "benchmarks.md"))
+    assert example.written(example.maps()) in " ".join(numbers.split())
     assert f"![{example.shown}](images/{example.name}.png)" in guide
     assert (control_pictures.IMAGES / f"{example.name}.png").stat().st_size < 60_000
+
+
+def test_the_guide_has_no_statistics():
+    guide = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
+    assert not re.search(r"tests\.benchmarks|\bQC\b|standard deviation|\d\.\d{3}", guide)
 
 
 @pytest.mark.parametrize("figure", paper_figures.FIGURES, ids=lambda figure: figure.name)
