@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The part of the add-on that knows nothing of Blender: NumPy arrays in, NumPy arrays and sentences out."""
+"""The part of the add-on without Blender: NumPy arrays in, NumPy arrays and sentences out."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes in edit mode: to arrays, back to UVs, their selection, Blender's packer."""
+"""Meshes in edit mode: read to arrays, write UVs and attributes, select."""

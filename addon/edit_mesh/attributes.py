@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values of faces and colours of their corners into attributes of a mesh, in edit mode or not."""
+"""Write values of faces and colors of corners to attributes of a mesh, in edit mode or not."""
 
 import bmesh
 import bpy
@@ -7,7 +7,7 @@ import numpy as np
 
 
 def store_face_values(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
-    """Write a number per face, (F,), into the attribute of this name, which is made anew."""
+    """Write a number per face, (F,), to the attribute of this name, replacing it."""
     if not mesh.is_editmode:
         _new_attribute(mesh, name, "FLOAT", "FACE").foreach_set("value", values.astype(np.float32))
         return
@@ -19,7 +19,7 @@ def store_face_values(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> No
 
 
 def store_corner_colors(mesh: bpy.types.Mesh, name: str, colors: np.ndarray) -> None:
-    """Write a linear colour per face, (F, 4), to its corners, into the colour attribute of this name, made anew."""
+    """Write a linear color per face, (F, 4), to its corners in the color attribute of this name, replacing it."""
     sizes = np.empty(len(mesh.polygons), dtype=np.int32)
     if not mesh.is_editmode:
         mesh.polygons.foreach_get("loop_total", sizes)

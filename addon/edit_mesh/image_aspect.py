@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The image that the active face shows, of which Blender's Correct Aspect takes the aspect."""
+"""The aspect of the image of the active face, for Correct Aspect as in Blender."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ def aspect(edit_object: bpy.types.Object, bm: BMesh) -> float:
 
 
 def aspect_in_object_mode(shown: bpy.types.Object) -> float:
-    """Return the same of an object whose mesh is not in edit mode."""
+    """Return the same for an object that is not in edit mode."""
     polygons = shown.data.polygons
     return _of_slot(shown, polygons[polygons.active].material_index) if 0 <= polygons.active < len(polygons) else 1.0
 
@@ -42,7 +42,7 @@ def _active_face(bm: BMesh) -> BMFace | None:
 
 
 def _active_image(tree: bpy.types.NodeTree) -> bpy.types.Image | None:
-    """Return the image of the active texture node, else of the one shown in texture display, else of any."""
+    """Return the image of the active texture node, else of the displayed one, else of any."""
     nodes = [node for node in tree.nodes if node.type in _IMAGE_NODES]
     active = [node for node in nodes if node == tree.nodes.active]
     shown = [node for node in nodes if getattr(node, "show_texture", False)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edit-mode meshes, and their UVs, to arrays."""
+"""Read meshes to arrays."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -20,10 +20,10 @@ from . import image_aspect, subsurf
 
 @dataclass
 class EditMesh:
-    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is to be solved in its stead.
+    """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
 
-    `broken_extenders` are the names of those that lack a vertex, `extenders_without_strength` of those whose strength
-    is no number within its limit.
+    `broken_extenders` are the names of those that lost a vertex, `extenders_without_strength` of those with an invalid
+    strength.
     """
 
     edit_object: bpy.types.Object
@@ -76,7 +76,7 @@ def _read(
     correct_aspect: bool,
     use_subsurf: bool,
 ) -> EditMesh:
-    """Read one of `read_meshes`, by a `copy` that may hold anything before."""
+    """Read one of `read_meshes`; `copy` is overwritten."""
     mesh = edit_object.data
     bm = bmesh.from_edit_mesh(mesh)
     bm.to_mesh(copy)
@@ -99,13 +99,13 @@ def _read(
 
 @contextmanager
 def temporary_mesh() -> Iterator[bpy.types.Mesh]:
-    """Yield a mesh of no file to copy edit meshes to: reading arrays takes a fifth of the time of bmesh elements."""
+    """Yield a mesh outside the file to copy edit meshes to: arrays are read five times as fast as bmesh elements."""
     with compatibility.data_of_no_file() as data:
         yield data.meshes.new(names.TEMPORARY_MESH)
 
 
 def _active_edge(bm: BMesh) -> np.ndarray | None:
-    """Return the direction of the active edge, (3,); None without one that has a length."""
+    """Return the direction of the active edge, (3,); None if there is none or it has no length."""
     active = bm.select_history.active
     if not isinstance(active, BMEdge):
         return None
@@ -115,13 +115,13 @@ def _active_edge(bm: BMesh) -> np.ndarray | None:
 
 
 def _restrict_to_selected_uvs(polygons: PolygonMesh, pinned: np.ndarray, selected_corners: np.ndarray) -> None:
-    """Leave only faces with a selected UV to unwrap, and add the UVs that are not selected to the `pinned` ones."""
+    """Select only faces with a selected UV, and pin their unselected UVs."""
     polygons.selected_faces[:] &= np.logical_or.reduceat(selected_corners, polygons.face_offsets[:-1])
     pinned |= ~selected_corners
 
 
 def _subdivide(bm: BMesh, edit_object: bpy.types.Object, polygons: PolygonMesh) -> Subdivision | None:
-    """Subdivide the mesh of `polygons`; None if the object's modifiers do not ask for it."""
+    """Subdivide the mesh of `polygons`; None if the object has no leading Subdivision Surface modifier."""
     modifier = subsurf.leading_modifier(edit_object)
     if modifier is None or not polygons.selected_faces.any():
         return None
@@ -135,10 +135,10 @@ def read_arrays(
     before: PolygonMesh | None = None,
     **others: Any,  # noqa: ANN401 - further fields
 ) -> PolygonMesh:
-    """Read a mesh that is not in edit mode; selected are its selected visible faces, or `all_visible` ones.
+    """Read a mesh that is not in edit mode, with its selected visible faces or `all_visible` ones.
 
-    Given what was read `before`, its face offsets, the very array, are taken for those of now where there are as many
-    faces on the same corners in the same order: that other faces have the same is next to impossible, but can be.
+    The face offsets read `before` are reused if there are as many faces with the same corners in the same order; that
+    other faces match is very unlikely, but possible.
     """
     seams = compatibility.flags(mesh, "edges", "use_seam")
     visible = ~compatibility.flags(mesh, "polygons", "hide")

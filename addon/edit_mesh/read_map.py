@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes and their active UV maps to arrays, as often as they are drawn."""
+"""Read meshes and their UV maps to show them."""
 
 from dataclasses import replace
 
@@ -19,10 +19,10 @@ def read_map(
     other_uv: np.ndarray | None = None,
     before: PolygonMesh | None = None,
 ) -> PolygonMesh | None:
-    """Read the mesh of an object, all visible faces: in edit mode what is edited, else as the modifiers leave it.
+    """Read the visible faces of an object's mesh: in edit mode the edited mesh, else with its modifiers.
 
-    In edit mode `other_uv`, (C, 2), takes the place of the active UV map. None without faces or without a UV map.
-    Offsets may be those of what was read `before`, as in `read_arrays`.
+    In edit mode `other_uv`, (C, 2), replaces the active UV map. None without faces or without a UV map. `before` is as
+    in `read_arrays`.
     """
     if shown.mode != "EDIT":
         evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
@@ -46,7 +46,7 @@ def _with_map(found: PolygonMesh) -> PolygonMesh | None:
 
 
 def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:
-    """Return how many faces `read_map` would read."""
+    """Return the number of faces that `read_map` would read."""
     if shown.mode == "EDIT":
         return len(bmesh.from_edit_mesh(shown.data).faces)
     evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
@@ -54,7 +54,7 @@ def n_faces(context: bpy.types.Context, shown: bpy.types.Object) -> int:
 
 
 def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> PolygonMesh | None:
-    """Read the mesh of an object without its modifiers, hidden faces too; None as `read_map` has it."""
+    """Read the mesh of an object without its modifiers, hidden faces included; None as in `read_map`."""
     if shown.mode == "EDIT":
         found = read_map(context, shown)
     else:

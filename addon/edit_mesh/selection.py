@@ -16,8 +16,8 @@ from .. import compatibility
 def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:
     """Make these faces, one (F,) bool per mesh, the whole selection of all meshes in edit mode, and of their UVs.
 
-    With `extend` they are added to the selection. Switches to face selection: neighbours on two sides of a seam share
-    vertices and edges.
+    With `extend` they are added to the selection. Switches to face selection, because neighbors on two sides of a seam
+    share vertices and edges.
     """
     context.tool_settings.mesh_select_mode = (False, False, True)
     for edit_object in context.objects_in_mode_unique_data:
@@ -40,10 +40,10 @@ def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.nd
 
 
 def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:
-    """Select these faces as `select_only` does, but in the UV editor without sync selection their UVs only.
+    """Select these faces as `select_only` does, but in the UV editor without sync selection only their UVs.
 
-    There the selected faces of the mesh are those that the editor shows; they stay. UVs of their neighbours at the same
-    place are selected too where the editor's sticky selection asks for that, so that moving them tears nothing.
+    There the selected faces of the mesh are those that the editor shows; they stay selected. With sticky selection, UVs
+    of neighbors at the same position are selected, too, so that moving them tears nothing.
     """
     if not selects_uvs(context):
         select_only(context, faces, extend)
@@ -64,7 +64,7 @@ def select_shown(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.n
 
 
 def _stuck_corners(bm: BMesh, layer: BMLayerItem, faces: Sequence[bool], sticky: str) -> list[bool]:
-    """Return a flag per corner: whether it is one of the `faces`, or sticks to one of theirs."""
+    """Return a flag per corner: whether it belongs to one of the `faces`, or sticks to such a corner."""
 
     def key(loop: BMLoop) -> Hashable:
         return (loop.vert, *loop[layer].uv) if sticky == "SHARED_LOCATION" else loop.vert
@@ -77,7 +77,7 @@ def _stuck_corners(bm: BMesh, layer: BMLayerItem, faces: Sequence[bool], sticky:
 
 @dataclass(frozen=True)
 class SelectedVertices:
-    """Indices of the selected vertices of a mesh, those of a known order in that order, and the active one."""
+    """Indices of the selected vertices of a mesh, those with a known order in that order, and the active one."""
 
     vertices: list[int]
     in_order: list[int]
@@ -87,7 +87,7 @@ class SelectedVertices:
 def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> SelectedVertices:
     """Return the selected vertices of a mesh in edit mode.
 
-    In the UV editor without sync selection these are the vertices with a selected UV, of which no order is known.
+    In the UV editor without sync selection these are the vertices with a selected UV, without a known order.
     """
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.index_update()
@@ -109,7 +109,7 @@ def select_only_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh, verti
     """Make visible ones of these vertices of one mesh, in their order, the whole selection of all meshes in edit mode.
 
     Turns vertex selection on. In the UV editor without sync selection, the UVs of the vertices become the whole UV
-    selection instead, so that the editor goes on to show the same faces.
+    selection instead, so that the editor still shows the same faces.
     """
     uv_only = selects_uvs(context)
     if not uv_only:

@@ -21,12 +21,12 @@ def leading_modifier(edit_object: bpy.types.Object) -> bpy.types.SubsurfModifier
 
 @contextmanager
 def subdivided(bm: BMesh, modifier: bpy.types.SubsurfModifier) -> Iterator[tuple[bpy.types.Mesh, np.ndarray]]:
-    """Yield `bm` as `modifier` subdivides it, for the time of the context, and of its every face the one of `bm`.
+    """Yield `bm` subdivided by `modifier`, and the face of `bm` for each of its faces; within the context only.
 
     The vertices of `bm` come first in the subdivided mesh.
     """
-    # What an object is to show must be in the user's file. In a scene of its own no view layer of the user's changes,
-    # nor does Simplify limit the levels.
+    # The object must be in the user's file. In a scene of its own it changes no view layer of the user's, and Simplify
+    # does not limit the levels.
     mesh = bpy.data.meshes.new(names.TEMPORARY_MESH)
     scene = bpy.data.scenes.new(names.TEMPORARY_SCENE)
     carrier = bpy.data.objects.new(names.TEMPORARY_OBJECT, mesh)
@@ -50,5 +50,5 @@ def subdivided(bm: BMesh, modifier: bpy.types.SubsurfModifier) -> Iterator[tuple
     finally:
         bpy.data.objects.remove(carrier)
         bpy.data.scenes.remove(scene)
-        # Nothing refers to it any more, so that nothing needs to be searched for references, nor redrawn.
+        # Nothing refers to it any more, so Blender need not search for references, nor redraw.
         bpy.data.meshes.remove(mesh, do_unlink=False, do_ui_user=False)

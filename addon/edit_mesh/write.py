@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV coordinates into edit-mode meshes."""
+"""Write UVs to edit-mode meshes."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import compress
@@ -22,15 +22,15 @@ def ensure_uv_map(mesh: bpy.types.Mesh) -> bool:
 
 
 def write_loops(layer: BMLayerItem, loops: Iterable[BMLoop], uv: np.ndarray) -> None:
-    """Write one UV, a row of `uv` (N, 2), to each of the N `loops`; `bmesh.update_edit_mesh` is left to the caller."""
+    """Write one UV, a row of `uv` (N, 2), to each of the N `loops`; the caller calls `bmesh.update_edit_mesh`."""
     for loop, point in zip(loops, _points(uv)):
         loop[layer].uv = point
 
 
 def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: bool = True) -> None:
-    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, into the active UV map; touch nothing else.
+    """Write `uv` (C, 2) at the `corners` of whole faces, (C,) bool, to the active UV map.
 
-    Without `update`, that Blender is told of it is left to the caller.
+    Without `update` the caller calls `bmesh.update_edit_mesh`.
     """
     bm, layer = active_uv_layer(edit_mesh.mesh)
     affected = corners[edit_mesh.polygons.face_offsets[:-1]]
@@ -44,9 +44,9 @@ def write_uv(edit_mesh: EditMesh, uv: np.ndarray, corners: np.ndarray, update: b
 
 
 def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corners: Sequence[np.ndarray]) -> None:
-    """Write the map of every mesh as `write_uv` does, into a new UV map if it has none.
+    """Write the map of every mesh as `write_uv` does, to a new UV map if it has none.
 
-    Where that is interrupted, also from the keyboard, everything is as before.
+    If that is interrupted, also from the keyboard, everything is restored.
     """
     added = [ensure_uv_map(edit_mesh.mesh) for edit_mesh in edit_meshes]
     try:
@@ -62,6 +62,6 @@ def write_all(edit_meshes: Sequence[EditMesh], maps: Sequence[np.ndarray], corne
 
 
 def _points(uv: np.ndarray) -> Iterator[tuple[float, float]]:
-    """Yield the rows of (N, 2). Lists, all at once, would take eight times the memory of `uv`."""
+    """Yield the rows of `uv` (N, 2). Lists would take eight times the memory."""
     u, v = np.ascontiguousarray(uv.T)
     return zip(memoryview(u), memoryview(v))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The icons of the operators, out of Blender's: each stands for one thing, and is in all versions."""
+"""The icons of the operators: Blender's own, one for each, which all versions have."""
 
 import bpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's menus: what unwraps beside its own Unwraps, what selects where it selects."""
+"""Entries in Blender's menus: our operators beside Blender's own of the same kind."""
 
 from collections.abc import Callable
 
@@ -12,13 +12,13 @@ from .icons import draw_operator
 
 
 class UV_MT_spectral(bpy.types.Menu):
-    """What else there is to do with a map, so that it is found by its name, too."""
+    """A submenu of the operators that are in no menu of Blender's, so that search finds them."""
 
     bl_idname = names.SUBMENU
     bl_label = texts.SUBMENU_LABEL
 
     def draw(self, context: bpy.types.Context) -> None:
-        """List the operators that stand in no menu of Blender's, in the order of work."""
+        """List the operators in the order of work."""
         layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
         layout.prop(overlay, "show", text=texts.MAP_OVERLAY_LABEL)
         layout.operator_context = "INVOKE_REGION_WIN"
@@ -38,11 +38,11 @@ class UV_MT_spectral(bpy.types.Menu):
 
 
 def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
-    """Draw an operator that waits for its work: executed, as Blender's menus leave it, it would freeze the window."""
+    """Draw an operator that waits for its work; executed, as in Blender's menus, it would freeze the window."""
     before = layout.operator_context
     layout.operator_context = "INVOKE_REGION_WIN"
     draw_operator(layout, operator)
-    # What Blender draws next counts on what there was.
+    # Blender's own entries that follow need the former context.
     layout.operator_context = before
 
 

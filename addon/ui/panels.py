@@ -76,9 +76,9 @@ class _Panel:
     bl_region_type = "UI"
     bl_category = texts.SIDEBAR_TAB
     part = ""
-    """The last word of the identifiers of the panels."""
+    """The last word of the panels' identifiers."""
     parent = ""
-    """That of the panel that it is part of."""
+    """The last word of the parent panel's identifier."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -87,13 +87,13 @@ class _Panel:
 
 
 class _SeamsPanel(_Panel):
-    """Where the mesh is cut."""
+    """Seams."""
 
     bl_label = texts.SEAMS_LABEL
     part = "seams"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the ways to get seams, and to get rid of them."""
+        """Draw the operators that make and clear seams."""
         column = self.layout.column(align=True)
         column.operator_context = "INVOKE_REGION_WIN"
         draw_operator(column, names.SUGGEST_SEAMS_OPERATOR)
@@ -106,7 +106,7 @@ class _UnwrapPanel(_Panel):
     """Unwrapping."""
 
     bl_label = texts.UNWRAP_PANEL_LABEL
-    # Elsewhere Blender takes this word for unpacking.
+    # In another context Blender translates this word as unpacking.
     bl_translation_context = "Operator"
     part = "unwrap"
 
@@ -123,20 +123,20 @@ class _UnwrapPanel(_Panel):
 
 
 class _SettingsPanel(_Panel):
-    """The settings of the next unwrap, those of the last one at first."""
+    """The settings of the next unwrap; they begin with those of the last one."""
 
     bl_label = texts.SETTINGS_LABEL
     bl_options = {"DEFAULT_CLOSED"}
     part, parent = "settings", "unwrap"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what artists change."""
+        """Draw the common settings."""
         properties = context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
         unwrap_settings.draw_common(self.layout, properties, is_narrow=True)
 
 
 class _AdvancedPanel(_Panel):
-    """The settings that are seldom changed."""
+    """The rarely used settings."""
 
     bl_label = texts.ADVANCED_LABEL
     bl_options = {"DEFAULT_CLOSED"}
@@ -149,14 +149,14 @@ class _AdvancedPanel(_Panel):
 
 
 class _ResultPanel(_Panel):
-    """What became of the last unwrap."""
+    """The result of the last unwrap."""
 
     bl_label = texts.RESULT_LABEL
     bl_options = {"DEFAULT_CLOSED"}
     part, parent = "result", "unwrap"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what was reported, line by line, and the islands, which select their faces."""
+        """Draw the reports, line by line, and the islands, which select their faces."""
         layout, window_manager = self.layout, context.window_manager
         reported = island_list.lines()
         if not reported:
@@ -180,13 +180,13 @@ class _ResultPanel(_Panel):
 
 
 def _is_too_large_to_follow(edit_object: bpy.types.Object) -> bool:
-    """Return whether live unwrapping leaves a mesh in edit mode alone."""
+    """Return whether live unwrapping skips a mesh in edit mode for its size."""
     most = user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES)
     return len(bmesh.from_edit_mesh(edit_object.data).faces) > most
 
 
 def _characters(context: bpy.types.Context) -> int:
-    """Return how many characters fit beside an icon into a line of the region."""
+    """Return the number of characters that fit beside an icon in a line of the region."""
     scale = context.preferences.system.ui_scale
     return max(int((context.region.width / scale - 60.0) / 6.2), 12)
 
@@ -223,7 +223,7 @@ class _ExtendersPanel(_Panel):
 
 
 class _MapOverlayPanel(_Panel):
-    """What the active UV map is like, on the mesh and in the UV editor."""
+    """The overlay of the active UV map, on the mesh and in the UV editor."""
 
     bl_label = texts.MAP_OVERLAY_LABEL
     part = "map_overlay"
@@ -239,7 +239,7 @@ class _MapOverlayPanel(_Panel):
         self.layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "show", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is shown, and how."""
+        """Draw the settings of the overlay."""
         layout, overlay = self.layout, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
         layout.active = overlay.show
         layout.prop(overlay, "kind", text="")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shows how far a solve is: at the mouse cursor and in the status bar, or as printed lines in background mode."""
+"""The progress of a solve: at the mouse cursor and in the status bar, or printed in background mode."""
 
 import time
 from collections.abc import Iterator
@@ -10,7 +10,7 @@ import bpy
 from ..core.solve.progress import Progress
 from ..core.words import texts
 
-# Events that a solve in the background lets through: they move the view, or concern nobody.
+# Events that pass during a solve in the background: they move the view, or do nothing.
 _VIEW_EVENTS = frozenset(
     {
         *("MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "WINDOW_DEACTIVATE", "NONE"),
@@ -18,7 +18,7 @@ _VIEW_EVENTS = frozenset(
         *("TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE", "MOUSESMARTZOOM"),
     }
 )
-# A solve in background mode prints nothing before this time, nor more often.
+# Seconds between printed lines, and before the first.
 _PRINT_SECONDS = 1.0
 
 
@@ -31,7 +31,7 @@ class WindowProgress:
     """Progress at the mouse cursor and in the status bar."""
 
     def __init__(self, context: bpy.types.Context, label: str, fraction: float, phase: str) -> None:
-        """Show how far the operator with this label is."""
+        """Show the progress of the operator with this label."""
         self._label = label
         self._window_manager = context.window_manager
         self._window_manager.progress_begin(0, 100)
@@ -49,19 +49,19 @@ class WindowProgress:
         clear_status(context)
 
 
-# The workspaces whose status bar has a text of the add-on: one may be left for another while it is there.
+# The workspaces whose status bar has a text of the add-on; the user may switch to another meanwhile.
 _workspaces: list[bpy.types.WorkSpace] = []
 
 
 def show_status(context: bpy.types.Context, text: str) -> None:
-    """Show a text in the status bar, in place of Blender's, until `clear_status`."""
+    """Show a text in the status bar instead of Blender's, until `clear_status`."""
     context.workspace.status_text_set(text)
     if context.workspace not in _workspaces:
         _workspaces.append(context.workspace)
 
 
 def clear_status(context: bpy.types.Context) -> None:
-    """Give the status bar back to Blender wherever it has a text of the add-on, whatever the context is."""
+    """Give the status bar back to Blender in all workspaces, in any context."""
     windows = context.window_manager.windows
     while _workspaces:
         workspace = _workspaces.pop()
@@ -100,7 +100,7 @@ class HeaderText:
 
 @contextmanager
 def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Iterator[Progress]:
-    """Yield the progress function of a solve that Blender waits for; `label` is the operator's."""
+    """Yield the progress function of a solve that blocks Blender; `label` is the operator's."""
     if bpy.app.background:
         yield _printer(label)
         return
@@ -113,7 +113,7 @@ def blocking(context: bpy.types.Context, label: str = texts.UNWRAP_LABEL) -> Ite
 
 
 def _at_cursor(window_manager: bpy.types.WindowManager) -> Progress:
-    """Return a progress function that changes the mouse cursor at every percent, however often islands report."""
+    """Return a progress function that changes the mouse cursor at every percent only."""
     shown = 0
 
     def progress(fraction: float, _phase: str) -> None:
@@ -126,7 +126,7 @@ def _at_cursor(window_manager: bpy.types.WindowManager) -> Progress:
 
 
 def _printer(label: str) -> Progress:
-    """Return a progress function that prints a line when the time for one has come and there is news."""
+    """Return a progress function that prints a line now and then, if there is news."""
     printed_at, printed = time.monotonic(), 0
 
     def progress(fraction: float, phase: str) -> None:

@@ -14,7 +14,7 @@ def draw_common(
     properties: Any,  # noqa: ANN401 - the operator or its record
     is_narrow: bool = False,
 ) -> None:
-    """Draw what artists change; where it `is_narrow`, with the names of settings inside of their fields."""
+    """Draw the common settings; if it `is_narrow`, with the names inside the fields."""
     _split(layout, is_narrow)
     layout.prop(properties, "area_blend")
     layout.prop(properties, "fold_free")
@@ -27,10 +27,10 @@ def draw_common(
 
 
 def draw_fold(layout: bpy.types.UILayout, properties: Any) -> None:  # noqa: ANN401 - the operator or its defaults
-    """Draw the heading that shows the rest, or folds it away."""
+    """Draw the heading that folds and unfolds the rest."""
     row = layout.row()
     row.use_property_split = False
-    # Without a frame the name of what is shown would be white, which the light theme's background hides.
+    # Without a frame the name would be white, which the light theme's background hides.
     icon = "DOWNARROW_HLT" if properties.show_advanced else "RIGHTARROW"
     row.prop(properties, "show_advanced", icon=icon, toggle=True)
 
@@ -75,7 +75,7 @@ def _enumeration(
     if not is_narrow:
         layout.prop(properties, identifier)
         return
-    # By itself Blender leaves too little room for the name.
+    # Blender leaves too little room for the name.
     split = layout.split(factor=0.53)
     split.label(text=words["name"])
     split.prop(properties, identifier, text="")

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One unwrap from its settings to its outcome: read, solve, place, write, pack."""
+"""An unwrap from its settings to its outcome: read, solve, place, write, report."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What became of an unwrap: remembered for later, listed island by island, and told to the user."""
+"""The outcome of an unwrap: remembered, listed by island, and reported."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ from .steps import Written
 
 @dataclass(frozen=True)
 class Outcome:
-    """Whether any island was solved, and what to tell the user as (level, text) pairs.
+    """Whether any island was solved, and the reports to the user as (level, text) pairs.
 
-    Blender shows the last one in the status bar, all of them in the Info editor: what asks for something comes last.
+    Blender shows the last one in the status bar, all in the Info editor: reports that ask for something come last.
     """
 
     is_solved: bool
@@ -26,7 +26,7 @@ class Outcome:
 
 
 def finish(written: Written, seconds: float, all_visible: bool = False, others_stay: bool = False) -> Outcome:
-    """Remember an unwrap that took so many `seconds`, list its islands, and return what to tell of it.
+    """Remember an unwrap that took `seconds`, list its islands, and return its reports.
 
     Args:
         written: what was written.
@@ -57,9 +57,9 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
 def _warnings(
     summary: Summary, edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]
 ) -> tuple[str, ...]:
-    """Return which islands need seams, and what extenders and stretching could not do."""
+    """Return the warnings about islands, extenders and stretching."""
     warnings = [
-        # What is stretched on request is so everywhere.
+        # Stretching on request strains all islands.
         texts.strained(summary) if settings.options.stretch == 1.0 else "",
         texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
         texts.too_small(sum(solution.too_small_faces for solution in solutions)),

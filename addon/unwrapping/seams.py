@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suggested seams in the meshes in edit mode: what to cut, marking the cuts, and the unwrap after them."""
+"""Suggested seams in meshes in edit mode: read, mark the cuts, and unwrap."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, nullcontext
@@ -20,12 +20,12 @@ from .steps import WhileWriting, Written
 
 @dataclass(frozen=True)
 class Target:
-    """What is to be cut and unwrapped.
+    """The meshes to cut and unwrap.
 
     Attributes:
-        edit_meshes: the meshes, never subdivided: seams belong to the edges that there are.
-        settings: with which to unwrap afterwards.
-        all_visible: whether all visible faces are meant, because none is selected.
+        edit_meshes: the meshes, never subdivided, because seams belong to their own edges.
+        settings: of the unwrap afterward.
+        all_visible: whether all visible faces are unwrapped, because none is selected.
     """
 
     edit_meshes: Sequence[EditMesh]
@@ -53,7 +53,7 @@ def read(context: bpy.types.Context, settings: Settings) -> Target | None:
 
 
 def read_preferences(target: Target, group: str, preferred: bool) -> list[np.ndarray | None]:
-    """Return where seams are wanted: per mesh the weights of a vertex group, (V,), below 0 where they are avoided.
+    """Return per mesh where seams are wanted: the weights of a vertex group, (V,), negative to avoid them.
 
     None for a mesh without the group.
     """
@@ -71,7 +71,7 @@ def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | No
 
 
 def read_again(context: bpy.types.Context, target: Target) -> Target | None:
-    """Read the same once more; None if anything in it has changed or gone since."""
+    """Read the same again; None if anything has changed since."""
     settings = _unsubdivided(target.settings)
     edit_meshes = steps.read_again(context, settings, target.edit_meshes, target.all_visible)
     return None if edit_meshes is None else replace(target, edit_meshes=edit_meshes)
@@ -82,7 +82,7 @@ def _unsubdivided(settings: Settings) -> Settings:
 
 
 def read_cut_open(context: bpy.types.Context, target: Target, cuts: Suggestion) -> list[EditMesh]:
-    """Read the meshes as they will be with the cuts, to unwrap them; nothing changes."""
+    """Read the meshes as they will be with the cuts; nothing changes."""
     with ExitStack() as stack:
         for index, edit_mesh in enumerate(target.edit_meshes):
             stack.enter_context(_seams(edit_mesh.mesh, cuts.edges(index)))
@@ -90,7 +90,7 @@ def read_cut_open(context: bpy.types.Context, target: Target, cuts: Suggestion) 
 
 
 def mark(target: Target, cuts: Suggestion, seam: bool = True) -> None:
-    """Make the edges of the cuts seams, or no seams again; touch nothing else."""
+    """Mark the edges of the cuts as seams, or clear them."""
     for index, edit_mesh in enumerate(target.edit_meshes):
         _set_seams(edit_mesh.mesh, cuts.edges(index), seam)
         bmesh.update_edit_mesh(edit_mesh.mesh, loop_triangles=False, destructive=False)
@@ -103,7 +103,7 @@ def write(
     solutions: Sequence[Solution],
     while_writing: WhileWriting = nullcontext,
 ) -> Written:
-    """Mark the cuts and write the solutions of what `read_cut_open` returned for them.
+    """Mark the cuts and write the solutions of the meshes that `read_cut_open` returned.
 
     Raises:
         MarginError: the margin is not finite; nothing changed.
@@ -119,7 +119,7 @@ def write(
 
 
 def _set_seams(mesh: bpy.types.Mesh, pairs: np.ndarray, seam: bool) -> None:
-    """Make the edges between pairs of vertices, (n, 2), of an edit mesh seams or not, without telling Blender."""
+    """Mark or clear the edges between pairs of vertices, (n, 2), of an edit mesh as seams, without an update."""
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
     for i, j in pairs.tolist():
@@ -128,7 +128,7 @@ def _set_seams(mesh: bpy.types.Mesh, pairs: np.ndarray, seam: bool) -> None:
 
 @contextmanager
 def _seams(mesh: bpy.types.Mesh, pairs: np.ndarray) -> Iterator[None]:
-    """Within, these edges, which are no seams, are seams; nobody is told, so that nobody sees it."""
+    """Mark these edges as seams within the context, without an update, so that nothing is redrawn."""
     _set_seams(mesh, pairs, seam=True)
     try:
         yield

@@ -16,15 +16,14 @@ from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import write_all
 
-# Makes the context manager that is entered while UVs are written: live unwrapping must not follow the pins that move.
+# Makes the context manager entered while UVs are written: live unwrapping must not follow the pins that move.
 WhileWriting = Callable[[], AbstractContextManager[None]]
 
 
 def read(context: bpy.types.Context, settings: Settings, all_visible: bool = False) -> list[EditMesh]:
     """Read every mesh in edit mode that has selected faces, once, and return those with faces to unwrap.
 
-    Called from the UV editor without sync selection, only faces with a selected UV count. With `all_visible` the
-    selection does not count at all.
+    In the UV editor without sync selection, only faces with a selected UV count. `all_visible` ignores the selection.
     """
     by_uv_selection = not all_visible and selection.selects_uvs(context)
     edit_objects = [
@@ -39,9 +38,9 @@ def read(context: bpy.types.Context, settings: Settings, all_visible: bool = Fal
 def read_again(
     context: bpy.types.Context, settings: Settings, edit_meshes: Sequence[EditMesh], all_visible: bool = False
 ) -> list[EditMesh] | None:
-    """Read what an earlier `read` returned once more; None if anything in it has changed or gone since.
+    """Read the meshes of an earlier `read` again; None if anything has changed since.
 
-    The objects in `edit_meshes` need not exist any more.
+    The objects in `edit_meshes` may be gone.
     """
     if context.mode != "EDIT_MESH":
         return None
@@ -53,7 +52,7 @@ def read_again(
 
 
 def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progress | None = None) -> list[Solution]:
-    """Solve what has changed of the meshes that `read` returned since it was last solved; in any thread.
+    """Solve the meshes that `read` returned, in any thread; islands that have not changed keep their maps.
 
     `progress` gets the fraction done of all meshes.
 
@@ -75,7 +74,7 @@ def solve(edit_meshes: Sequence[EditMesh], settings: Settings, progress: Progres
 
 @dataclass(frozen=True)
 class Written:
-    """An unwrap: the settings, the meshes, what was solved of them, and where that was placed."""
+    """A written unwrap: its settings, meshes, solutions and placement."""
 
     settings: Settings
     edit_meshes: Sequence[EditMesh]
@@ -91,7 +90,7 @@ def write(
 ) -> Written:
     """Place the solved charts and write them. Failed charts keep their UVs; if all fail, nothing changes.
 
-    `while_writing` makes a context manager that is entered for the time in which UVs change.
+    `while_writing` makes a context manager that is entered while UVs change.
 
     Raises:
         MarginError: the margin is not finite; nothing changed.

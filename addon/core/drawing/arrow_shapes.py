@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The arrows that stand for extenders, as triangles on the screen."""
+"""Arrows that show extenders, as triangles on the screen."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# In pixels: shorter arrows have no direction on the screen.
+# In pixels; shorter arrows have no direction on the screen.
 _MIN_LENGTH = 1e-3
 # Of the arrow's length, so that two heads leave a fifth of it for the shaft.
 _MAX_HEAD = 0.4
-# Of a head's length, between the middle of the arrow and each of two tips that point at each other: they stay two.
+# Of a head's length: half the gap between two tips that point at each other.
 _GAP = 0.1
 
 
@@ -29,7 +29,7 @@ class ArrowSize:
 
 
 def nearest_pair(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the two nearest of the points `first` (N, 2) and `second` (M, 2); of equal ones the first."""
+    """Return the closest pair of the points `first` (N, 2) and `second` (M, 2); the first of equal pairs."""
     distance = np.linalg.norm(first[:, None] - second[None], axis=2)
     a, b = np.unravel_index(np.argmin(distance), distance.shape)
     return first[a], second[b]
@@ -39,7 +39,7 @@ def arrow(start: np.ndarray, end: np.ndarray, outward: bool, size: ArrowSize) ->
     """Return the triangles (T, 3, 2) of an arrow between two points (2,) of the screen, in pixels.
 
     `outward` arrows have their heads at the ends, pointing away from each other; the others have them in the middle,
-    pointing at each other. Heads shrink where there is no room for two. No triangles for points in one place.
+    pointing at each other. Heads shrink if there is no room for two. Coincident points give no triangles.
     """
     along = np.subtract(end, start, dtype=np.float64)
     length = np.linalg.norm(along)
@@ -59,7 +59,7 @@ def arrow(start: np.ndarray, end: np.ndarray, outward: bool, size: ArrowSize) ->
 
 
 def _head(tip: float, base: float, width: float, margin: float) -> list[tuple[float, float]]:
-    """Return the triangle with its tip and the middle of its base at these places of the axis, `margin` wider."""
+    """Return the triangle with tip and base at these positions on the axis, enlarged by `margin`."""
     forward = 1.0 if tip > base else -1.0
     # The sides of the enlarged triangle are parallel to those of the original, `margin` outside.
     slope = 0.5 * width / abs(tip - base)

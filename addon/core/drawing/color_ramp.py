@@ -9,13 +9,13 @@ from .. import native
 
 Color = tuple[float, float, float]
 
-# Displayed colors of the lower end, the middle and the upper end: from good to bad, or from small over even to large.
+# Displayed colors of the lower end, the middle and the upper end.
 GOOD_TO_BAD: tuple[Color, Color, Color] = ((0.16, 0.38, 0.85), (0.98, 0.86, 0.25), (0.86, 0.12, 0.10))
 SMALL_TO_LARGE: tuple[Color, Color, Color] = ((0.13, 0.40, 0.80), (0.93, 0.93, 0.93), (0.85, 0.25, 0.14))
 
 
 def linear(color: np.ndarray) -> np.ndarray:
-    """Return displayed (sRGB) colors, 0 to 1, any shape, as linear ones (IEC 61966-2-1)."""
+    """Convert displayed (sRGB) colors, 0 to 1, any shape, to linear ones (IEC 61966-2-1)."""
     return np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
 
 

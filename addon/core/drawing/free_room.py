@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Room on a rectangle of the screen that other rectangles leave free."""
+"""Free room on a rectangle of the screen that other rectangles cover in part."""
 
 import functools
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ Box = tuple[float, float, float, float]
 
 @functools.lru_cache(maxsize=64)
 def free_boxes(size: tuple[float, float], covers: tuple[Box, ...]) -> Sequence[Box]:
-    """Return all rectangles of a region of this width and height that no cover touches and none larger of them holds.
+    """Return the maximal rectangles in a region of this width and height that no cover touches.
 
     Empty where the covers leave nothing.
     """
@@ -22,9 +22,9 @@ def free_boxes(size: tuple[float, float], covers: tuple[Box, ...]) -> Sequence[B
 
 
 def lower_right(size: tuple[float, float], covers: tuple[Box, ...], width: float, height: float) -> Box | None:
-    """Return where something of this size goes: as large as it fits, then as low, then as far right as it can.
+    """Return where a box of this size goes: as large as possible, then as low, then as far right.
 
-    It has its full size or, where that fits nowhere, is scaled down. None where nothing is free.
+    It is scaled down if it fits nowhere in full size. None if nothing is free.
     """
     fits = [(*box, min(1.0, (box[2] - box[0]) / width, (box[3] - box[1]) / height)) for box in free_boxes(size, covers)]
     if not fits:
@@ -34,7 +34,7 @@ def lower_right(size: tuple[float, float], covers: tuple[Box, ...], width: float
 
 
 def _beside(box: Box, cover: Box) -> Sequence[Box]:
-    """Return the largest parts of a box on each side of a cover; the box itself where they do not meet."""
+    """Return the largest parts of a box on each side of a cover; the box itself if they do not overlap."""
     left, bottom, right, top = box
     if cover[0] >= right or cover[2] <= left or cover[1] >= top or cover[3] <= bottom or _is_empty(cover):
         return [box]
@@ -52,7 +52,7 @@ def _is_empty(box: Box) -> bool:
 
 
 def _others(boxes: Sequence[Box], k: int) -> Sequence[Box]:
-    """Return the boxes against which box `k` is superfluous: of equal ones the first stays."""
+    """Return the boxes that contain box `k`; of equal ones the first counts."""
     return [other for i, other in enumerate(boxes) if i != k and (other != boxes[k] or i < k)]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The map of the islands that extenders act on, followed while their strengths change."""
+"""The map of the islands that extenders act on, updated while their strengths change."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -17,7 +17,7 @@ from ..solve.options import Options
 from ..words import texts
 from ..words.translation import translate
 
-# Relative residual that the map on screen needs, of which a pixel is about a thousandth.
+# Relative residual for the map on screen, where a pixel is about a thousandth of the map.
 _TOLERANCE = 1e-4
 
 
@@ -26,9 +26,9 @@ class AdjustmentError(ReadableError, ValueError):
 
 
 class ExtenderAdjustment:
-    """Solves charts of one mesh again for changing strengths of extenders, and keeps their place and size.
+    """Solves charts of one mesh again for changing strengths of extenders, and keeps their position and size.
 
-    Charts and factors are kept, so that a change costs a few solves with them.
+    Charts and factors are kept, so that a change costs a few solves only.
 
     Attributes:
         corners: (N,) intp, the corners of the charts that the extenders act on, whole faces.
@@ -39,7 +39,7 @@ class ExtenderAdjustment:
     def __init__(self, mesh: PolygonMesh, options: Options, pairs: Sequence[tuple[int, int]]) -> None:
         """Take the charts of `mesh` that hold both vertices of one of the `pairs`.
 
-        Extenders of `mesh` between the same two vertices give way to those adjusted.
+        The adjusted extenders replace those of `mesh` between the same two vertices.
 
         Raises:
             AdjustmentError: no chart holds both vertices of a pair.
@@ -99,7 +99,7 @@ class ExtenderAdjustment:
         return self._mesh.from_isotropic_uv(self._shown[self.corners])
 
     def _start(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return where the charts lie before, (C, 2), side by side if the mesh has no map of them, and their scale."""
+        """Return the former map of the charts, (C, 2), side by side if the mesh has none, and their scale."""
         offsets = self._mesh.face_offsets
         former = self._mesh.isotropic_uv()
         former = np.zeros_like(uv) if former is None else np.where(np.isfinite(former), former, 0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extenders apart from Blender: identifiers of their vertices, pairs from a selection, and names.
+"""Extenders without Blender: identifiers of their vertices, pairs from a selection, and names.
 
 An extender is a soft force between two vertices (Mullen et al. 2008, section 4.2): it pushes them apart where its
 strength is positive, and pulls them together where it is negative.
@@ -16,7 +16,7 @@ from ..errors import ReadableError
 from ..words import texts
 from ..words.translation import translate
 
-# Identifiers lie below: Blender interpolates the integers of vertices in single precision, which holds these exactly.
+# Identifiers are smaller: Blender interpolates integers of vertices in single precision, which holds these exactly.
 ID_LIMIT = 1 << 24
 # Odd, so that multiplying by them modulo ID_LIMIT loses nothing.
 _FACTORS = (0x9E3779, 0x85EBCB, 0xC2B2AF, 0x27D4EB)
@@ -35,11 +35,11 @@ class Extender:
 
 
 class SelectionError(ReadableError, ValueError):
-    """The selected vertices make no pairs; the message says what to select."""
+    """The selected vertices form no pairs; the message says what to select."""
 
 
 def layer_name(prefix: str, extenders: Sequence[Extender]) -> str:
-    """Return the name of the vertex layer that goes with exactly this list of extenders."""
+    """Return the name of the vertex layer for exactly this list of extenders."""
     fields = [(e.name, e.strength, e.use, e.first_id, e.second_id) for e in extenders]
     return prefix + hashlib.blake2b(json.dumps(fields).encode(), digest_size=12).hexdigest()
 
@@ -47,7 +47,7 @@ def layer_name(prefix: str, extenders: Sequence[Extender]) -> str:
 def fresh_ids(taken: Collection[int]) -> Iterator[int]:
     """Yield vertex identifiers, 0 < id < ID_LIMIT, that are not in `taken`, always in the same order.
 
-    They are scattered, so that values interpolated between vertices hardly ever equal another identifier.
+    They are scattered, so that interpolated values hardly ever equal another identifier.
     """
     taken = set(taken)
     for number in range(1, ID_LIMIT):
@@ -57,7 +57,7 @@ def fresh_ids(taken: Collection[int]) -> Iterator[int]:
 
 
 def _scattered(number: int) -> int:
-    """Map 0 .. ID_LIMIT - 1 one to one onto itself, 0 to 0, neighbours far apart."""
+    """Permute 0 .. ID_LIMIT - 1, with 0 to 0 and neighbors far apart."""
     for factor in _FACTORS:
         number = (number ^ (number >> _SHIFT)) * factor % ID_LIMIT
     return number ^ (number >> _SHIFT)
@@ -66,7 +66,7 @@ def _scattered(number: int) -> int:
 def first_with(vertex_ids: np.ndarray, wanted: Sequence[int]) -> list[int]:
     """Return for every `wanted` identifier the lowest index that has it in `vertex_ids` (V,), -1 if none has.
 
-    Duplicated geometry carries the identifiers of the original, which stands before it.
+    Duplicated geometry has the identifiers of the original, which comes first.
     """
     carriers = np.flatnonzero(np.isin(vertex_ids, list(wanted)) & (vertex_ids != 0))
     found, position = np.unique(vertex_ids[carriers], return_index=True)
@@ -79,10 +79,10 @@ def pairs_in_order(selected: Sequence[int], ordered: Sequence[int]) -> list[tupl
 
     Args:
         selected: indices of all selected vertices.
-        ordered: those of which the order is known, first the one selected first. Two vertices need no order.
+        ordered: those of known order, the first selected one first. Two vertices need no order.
 
     Raises:
-        SelectionError: the vertices make no pairs.
+        SelectionError: the vertices form no pairs.
     """
     if len(selected) < 2:
         raise SelectionError(translate(texts.SELECT_PAIR))
@@ -111,7 +111,7 @@ def pairs_to_active(selected: Sequence[int], active: int | None) -> list[tuple[i
 
 
 def unique_name(name: str, taken: Collection[str]) -> str:
-    """Return `name`, or as Blender does the first of name.001, name.002, ... that is not in `taken`."""
+    """Return `name`, or the first of name.001, name.002, ... that is not in `taken`, as Blender does."""
     if name not in taken:
         return name
     stem, _, number = name.rpartition(".")

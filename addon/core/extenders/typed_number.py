@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A number typed while the mouse drags, as Blender's own transforms take it."""
+"""A number typed while dragging, as in Blender's own transforms."""
 
 
 class TypedNumber:
     """Collects the characters of a number.
 
     Attributes:
-        text: what has been typed; empty while nothing was.
+        text: what has been typed so far.
     """
 
     def __init__(self) -> None:
@@ -15,14 +15,14 @@ class TypedNumber:
 
     @property
     def value(self) -> float | None:
-        """The number, None while nothing or only a sign or a point was typed."""
+        """The number; None while there is only a sign or a point."""
         try:
             return float(self.text)
         except ValueError:
             return None
 
     def type(self, character: str) -> bool:
-        """Take a digit, a point, or a minus, which changes the sign wherever it comes; return whether it was one."""
+        """Add a digit or a point, or change the sign with a minus; return whether it was one of these."""
         character = "." if character == "," else character
         if character == "-":
             self.text = self.text[1:] if self.text.startswith("-") else "-" + self.text
@@ -33,5 +33,5 @@ class TypedNumber:
         return True
 
     def erase(self) -> None:
-        """Take the last character back."""
+        """Remove the last character."""
         self.text = self.text[:-1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where packed islands go that must keep off the faces that stay where they are.
+"""Where packed islands go so that they do not overlap faces that stay.
 
 Blender's packer from 4.0 on can lock islands, but only pinned ones, and pinning adds a layer to meshes that have none;
 where the locked islands fill the tile, it shrinks the others to nothing. So the packed tile is moved as a whole, in the
@@ -12,12 +12,12 @@ import numpy as np
 
 from ..mesh.polygon_mesh import PolygonMesh
 
-# Cells along a side of the tile: gaps between packed islands and obstacles are known to 1.6 % of it.
+# Cells along a side of the tile: obstacles are known to 1.6 % of it.
 _CELLS = 64
 # A smaller free square holds less than a sixteenth of the tile's pixels; a tile of its own is better. That of a cube's
 # cross, as Blender's own cube has it, is 0.375.
 _MIN_SIDE = 0.25
-# A face larger than this fraction of the tile, in width and height, is as Blender fills a map that nobody has made.
+# Blender fills a new map with faces as large as the tile; faces wider and higher than this fraction are of that kind.
 _WHOLE_TILE = 0.9
 
 
@@ -33,14 +33,14 @@ def face_boxes(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarr
 
 
 def place_beside(packed: np.ndarray, staying: Sequence[np.ndarray]) -> tuple[float, np.ndarray]:
-    """Return the scale and the offset (2,) that take the packed tile, 0 to 1, off the faces that stay.
+    """Return the scale and the offset (2,) that move the packed tile, 0 to 1, off the faces that stay.
 
-    The largest free square of the tile gets it if that is large enough, otherwise the next tile to the right that is
-    free. Scale 1 and no offset where nothing overlaps.
+    It goes into the largest free square of the tile if that is large enough, otherwise into the next free tile to the
+    right. Scale 1 and no offset if nothing overlaps.
 
     Args:
         packed: (N, 2, 2), bounding boxes of the packed faces, as `face_boxes` returns them.
-        staying: such arrays of the faces that stay; those of a map that nobody has made are no obstacles.
+        staying: such arrays of the faces that stay; faces of a map that Blender has filled are no obstacles.
     """
     obstacles = np.concatenate([np.empty((0, 2, 2)), *staying])
     obstacles = obstacles[((obstacles[:, 1] - obstacles[:, 0]) < _WHOLE_TILE).any(axis=1)]

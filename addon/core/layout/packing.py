@@ -8,19 +8,19 @@ from ..errors import ReadableError
 from ..solve.options import Margin
 from ..words import texts
 
-# Of margins that are a fraction of the tile: they follow the side of the tile, which follows them.
+# For margins that are a fraction of the tile: they depend on the side of the tile, which depends on them.
 _MAX_ROUNDS = 12
 _PRECISION = 1e-3
-# A margin of so many times the largest box leaves nothing of the boxes.
+# A margin of this many largest boxes leaves nothing of the boxes.
 _MAX_MARGIN = 100.0
 
 
 class MarginError(ReadableError):
-    """A margin is no number; the message says so."""
+    """The margin is not finite; the message says so."""
 
 
 def pack(size: np.ndarray, margin: Margin) -> tuple[np.ndarray, float]:
-    """Arrange boxes of `size` (K, 2), not turned, in a square as small as is found.
+    """Arrange boxes of `size` (K, 2), not turned, in a small square.
 
     Returns their lower left corners, (K, 2), and the side of the square, whose lower left corner is the origin.
 

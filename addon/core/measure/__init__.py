@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured of a map, and totals of it."""
+"""Measures of a map, and totals."""

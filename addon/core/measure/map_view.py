@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the UV map of a mesh looks like, in numbers and as arrays to draw."""
+"""The UV map of a mesh in numbers, and as arrays to draw."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .. import choices, native
 from ..mesh.polygon_mesh import PolygonMesh
 from . import defects
 
-# Percentiles of the surface between which an automatic range lies; the rest is seldom of interest, and large.
+# Percentiles of the surface that an automatic range spans; outliers would dominate it.
 _PERCENTILES = (2.0, 98.0)
-# An automatic range is no narrower: differences below are not seen in a texture.
+# Minimal widths of an automatic range: smaller differences are invisible in a texture.
 _MIN_QC_RANGE = 0.2
 _MIN_LOG2_SCALE = 0.25
-# What stands for an infinite or missing value in what is drawn.
+# Drawn in place of an infinite or missing value.
 _LARGE = 1e30
 
 
@@ -44,13 +44,13 @@ class IslandNumbers:
 
 
 class MapView:
-    """What is known of the UV map of one mesh, of its selected faces; computed when it is first asked for.
+    """Measures of the UV map of one mesh, over its selected faces; computed on first use.
 
-    Raises NativeModuleError where `spectral_conformal` cannot be imported, whatever is asked.
+    Every measure raises NativeModuleError if `spectral_conformal` cannot be imported.
     """
 
     def __init__(self, mesh: PolygonMesh, before: MapView | None = None) -> None:
-        """Take a `mesh` with a UV map, and what is known of the same surface with the map that it had `before`."""
+        """Measure a `mesh` with a UV map; `before` has the triangles of the same surface with another map."""
         self.mesh = mesh
         if before is not None:
             self.triangles = before.triangles
@@ -88,12 +88,12 @@ class MapView:
 
     @property
     def flipped(self) -> np.ndarray:
-        """Which faces lie the wrong way round in their island, (F,) bool."""
+        """Which faces are flipped in their island, (F,) bool."""
         return self._defects.flipped
 
     @property
     def overlapping(self) -> np.ndarray:
-        """Which faces cover others of their island, (F,) bool."""
+        """Which faces overlap others of their island, (F,) bool."""
         return self._defects.overlapping
 
     @property
@@ -112,13 +112,13 @@ class MapView:
         return (self.area > 0.0) & np.isfinite(self.log2_scale)
 
     def values(self, kind: str, density: float = 1.0) -> np.ndarray:
-        """Return what is shown of every face, (F,) float64.
+        """Return the value to show for every face, (F,) float64.
 
         Args:
             kind: one of `choices.LOOK_ANGLE` (quasi-conformal distortion), `LOOK_SIZE` (binary logarithm of the scale
                 over its median), `LOOK_DENSITY` (pixels per unit of length), `LOOK_DEFECTS` (1 flipped, 0.5
-                overlapping, 0 neither) and `LOOK_CHECKER`, which shows none.
-            density: root of the number of pixels that a UV tile has.
+                overlapping, 0 neither) and `LOOK_CHECKER`, which has no values.
+            density: side of a UV tile in pixels.
         """
         if kind == choices.LOOK_ANGLE:
             return self.qc
@@ -145,7 +145,7 @@ class MapView:
         return uv, values.astype(np.float32).take(face).repeat(3)
 
     def face_at(self, point: Sequence[float]) -> int:
-        """Return a face that covers the `point` (u, v), of those that the UV editor shows; -1 for none."""
+        """Return a face at the `point` (u, v), of those that the UV editor shows; -1 for none."""
         corners, face = self.triangles
         arms = self.mesh.uv.take(corners, axis=0) - np.asarray(point, dtype=np.float64)
         u, v = arms[..., 0], arms[..., 1]
@@ -161,7 +161,7 @@ class MapView:
         return faces[self.triangles[1]]
 
     def numbers(self, islands: Sequence[int] | None = None) -> IslandNumbers:
-        """Return the numbers of some islands, of all selected faces when left out."""
+        """Return the numbers of some islands, or of all selected faces."""
         if islands is None:
             return joined_numbers([self])
         return _numbers([(self, np.isin(self.island_of_face, islands))])
@@ -205,10 +205,9 @@ def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
 
 
 def automatic_range(views: Sequence[MapView], kind: str, density: float = 1.0) -> tuple[float, float]:
-    """Return the values to show as the two ends of the colors: what most of the surface of all meshes has.
+    """Return the values at the two ends of the colors: the range of most of the surface of all meshes.
 
-    Sizes are centered at the median, angles begin at 1; either range has a minimal width, so that a good map looks
-    good.
+    Sizes are centered at the median, angles begin at 1. Ranges have a minimal width, so that a good map looks good.
     """
     if kind in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
         return 0.0, 1.0
@@ -232,15 +231,15 @@ def worst(
     whole_islands: bool,
     limit: float | None = None,
 ) -> list[np.ndarray]:
-    """Return the faces of each map, (F,) bool, that are the worst part of the surface of all, or worse than a limit.
+    """Return the faces of each map, (F,) bool, that are the worst part of the whole surface, or beyond a limit.
 
     Args:
         views: at least one.
         measure: `choices.LOOK_ANGLE` or `choices.LOOK_SIZE`.
         percent: of the surface, 0 to 100; at least one face or island is chosen.
         whole_islands: choose islands by their averages.
-        limit: in place of `percent`, quasi-conformal distortion above which, or factor of the scale over its median, or
-            under it, beyond which faces or islands are chosen.
+        limit: instead of `percent`, the quasi-conformal distortion, or the factor between scale and median, beyond
+            which faces or islands are chosen.
     """
     if measure == choices.LOOK_SIZE:
         median = _median_log2_scale(views)
@@ -260,7 +259,7 @@ def worst(
         order = order[areas[order] > 0.0]
         before = np.cumsum(areas[order]) - areas[order]
         last = order[np.flatnonzero(before < percent / 100.0 * areas.sum())[-1]]
-        # With it all that are as bad: of an island every face, of a symmetric mesh both sides.
+        # And all others that are as bad: every face of an island, both sides of a symmetric mesh.
         chosen = (areas > 0.0) & (values >= values[last])
     return np.split(chosen, counts)
 

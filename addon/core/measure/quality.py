@@ -14,11 +14,11 @@ from .summary import mean_qc
 
 @dataclass(frozen=True)
 class MapQuality:
-    """Distortion of the faces to unwrap, islands being scaled by their surface area.
+    """Distortion of the faces to unwrap, with islands scaled by their surface area.
 
     Attributes:
-        even: part of the area, 0 to 1, whose linear scale lies within a factor of the median; that of islands that
-            could not be solved does not.
+        even: part of the area, 0 to 1, whose linear scale lies within a factor of the median; area that could not be
+            solved does not count as even.
         mean_qc: quasi-conformal distortion averaged over the solved area; NaN where there is none.
     """
 
@@ -46,6 +46,6 @@ def _areas_and_scales(mesh: PolygonMesh, solution: Solution) -> tuple[np.ndarray
     measured = native.spectral_conformal().face_distortion(
         mesh.vertices, mesh.face_offsets, mesh.corner_vertices, solution.uv, selected_faces=mesh.selected_faces
     )
-    # Of positions that are larger than anything that is modeled.
+    # Overflow from absurdly large positions.
     area = np.where(np.isfinite(measured.area), measured.area, 0.0)
     return area, np.where(solved & np.isfinite(measured.log2_scale), measured.log2_scale, np.nan)

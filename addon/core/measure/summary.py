@@ -11,7 +11,7 @@ from .. import native
 from ..solve.solution import Solution, are_solved, column_of_all
 from ..words.translation import translate
 
-# A texture's squares become rectangles of twice their width there: seen at once, whatever the average.
+# Squares of a texture become rectangles of twice their width, which is obvious in spite of a good average.
 STRAINED_QC = 2.0
 
 
@@ -25,7 +25,7 @@ class Summary:
         max_qc: largest quasi-conformal distortion of a face.
         strained: number of solved charts with a face beyond STRAINED_QC.
         flipped: number of faces with a flipped triangle.
-        overlapping: number of faces that cover others of their chart.
+        overlapping: number of faces that overlap others of their chart.
         unfolded: number of flipped triangles that were unfolded on request.
         embedded: number of charts whose map was replaced by an embedding on request.
         mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
@@ -56,7 +56,7 @@ class Summary:
 
     @property
     def lacks_seams(self) -> bool:
-        """Whether charts failed that seams would cut open, as the solver's reasons say in these words."""
+        """Whether charts failed for lack of seams, by the words of the solver's reasons."""
         return any({"mark", "seams"} <= set(reason.lower().split()) for reason in self.failures)
 
 
@@ -91,7 +91,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         embedded=sum(of("is_embedding")[unfolded].tolist()),
         mean_qc_change=_mean_qc_change(*(of(name)[unfolded] for name in ("mean_qc_before", "mean_qc", "area"))),
         failures=Counter(messages[~solved].tolist()),
-        # What unfolding did has a sentence of its own, with numbers that differ from chart to chart.
+        # Unfolding is reported by a sentence of its own.
         repairs=Counter(filter(None, messages[solved & ~unfolded].tolist())),
         pinned=Counter(of("method")[solved & (of("n_pins") > 1)].tolist()),
         refused=tuple(
@@ -101,7 +101,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
 
 
 def _mean_qc_change(before: np.ndarray, after: np.ndarray, area: np.ndarray) -> tuple[float, float] | None:
-    """Return the mean QC before and after unfolding, weighted by area, of the charts that had a map before."""
+    """Return the mean QC, weighted by area, before and after unfolding, of the charts that had a map."""
     mapped = ~np.isnan(before)
     if not area[mapped].sum() > 0.0:
         return None

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh as arrays: the record, its charts, several joined to one."""
+"""A mesh as arrays, and its charts."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which faces are one chart, before anything is solved, and the charts at edges and vertices.
+"""The charts of a mesh before they are solved, and those at edges and vertices.
 
-Edges are vertex pairs in any order; `faces` (F,) bool are those that count, the others are as if deleted.
+Edges are vertex pairs in any order; `faces` (F,) bool count, the others are as if deleted.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from .polygon_mesh import PolygonMesh
 
 
 def chart_of_face(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
-    """Return the chart of every face, (F,) int, as the solver cuts them; -1 for faces that are in none.
+    """Return the chart of every face, (F,) int, as the solver cuts them; -1 for none.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -57,9 +57,9 @@ def _keys(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
 
 
 def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:
-    """Return whether `faces`, indices, are an island still, of those that were unwrapped, `domain` (F,) bool.
+    """Return whether `faces`, indices, are still an island of the unwrapped faces, `domain` (F,) bool.
 
-    They are one chart; or, where seams have changed since, one island of the map, which no face outside joins.
+    They are one chart or, if seams have changed since, one island of the map.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -74,7 +74,7 @@ def is_island(mesh: PolygonMesh, domain: np.ndarray, faces: np.ndarray) -> bool:
 
 
 def _is_part(part_of_face: np.ndarray, faces: np.ndarray) -> bool:
-    """Return whether `faces` are all that have one number of `part_of_face`, (F,), and no others."""
+    """Return whether `faces` are exactly one part, given that of every face, (F,)."""
     first = part_of_face[faces[0]]
     return bool(
         first >= 0 and (part_of_face[faces] == first).all() and np.count_nonzero(part_of_face == first) == len(faces)

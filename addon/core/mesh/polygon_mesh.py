@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import native
 
-# Fields that make up the surface, and the map of it.
+# Fields of the surface, and of its map.
 SURFACE = ("vertices", "face_offsets", "corner_vertices", "selected_faces")
 MAP = ("uv", "uv_faces", "aspect")
 
@@ -26,7 +26,7 @@ class PolygonMesh:
         selected_faces: (F,) bool, the faces to unwrap, to measure or to draw.
         uv: (C, 2) float64, the active UV map; None where the mesh has none.
         pinned_corners: (C,) bool, the corners that keep their `uv`; None for none.
-        aspect: width over height of the image that the map is for.
+        aspect: width over height of the map's image.
         extenders: (vertex, vertex, strength) of every soft force between two vertices.
         stretch_direction: (3,) float64, of length 1, the direction along which the map may be stretched; None for none.
         uv_faces: (F,) bool, the faces whose UVs the UV editor shows; None for all selected ones.
@@ -66,7 +66,7 @@ class PolygonMesh:
         starts, sizes = self.face_offsets[:-1], np.diff(self.face_offsets)
         if not len(sizes) or (sizes != sizes[0]).any():
             return np.minimum.reduceat(positions, starts), np.maximum.reduceat(positions, starts)
-        # All of one size: whole columns of corners at once, many times as fast.
+        # Faces of one size: many times as fast by columns of corners.
         corners = [positions[k :: sizes[0]] for k in range(sizes[0])]
         return functools.reduce(np.minimum, corners), functools.reduce(np.maximum, corners)
 
@@ -78,7 +78,7 @@ class PolygonMesh:
 
     @property
     def has_usable_pins(self) -> bool:
-        """Whether any of `usable_pins` is there."""
+        """Whether there are `usable_pins`."""
         return self.pinned_corners is not None and bool(self.pinned_corners.any() and self.usable_pins().any())
 
     def isotropic_uv(self) -> np.ndarray | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts that are proposed for several meshes at once, and the first few of them."""
+"""Cuts to suggest for several meshes at once, and parts of them."""
 
 import hashlib
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress, parts
 from ..words import texts
 
-# Per mesh (V,) float64 from -1, where seams are avoided, to 1, where they are preferred; None for a mesh without.
+# Per mesh (V,) float64 from -1, to avoid seams, to 1, to prefer them; None for no preference.
 Preferences = Sequence[np.ndarray | None]
 
 
@@ -23,7 +23,7 @@ Preferences = Sequence[np.ndarray | None]
 class Options:
     """Options of `spectral_conformal.suggest_cuts`, by the names and values it documents.
 
-    `max_length` holds for each mesh by itself, None for no limit. `front` is in object space.
+    `max_length` is a limit per mesh, None for no limit. `front` is in object space.
     """
 
     scale_limit: float = 2.0
@@ -37,7 +37,7 @@ class Options:
 
 @dataclass(frozen=True)
 class Cut:
-    """Seams that are worth marking together.
+    """Seams to mark together.
 
     Attributes:
         mesh: index of the mesh.
@@ -55,8 +55,8 @@ class Suggestion:
     """Cuts of several meshes, the most useful first.
 
     Attributes:
-        cuts: the first cuts of all meshes, then the second ones, and so on.
-        errors: why a mesh, or a part of it, was refused, one text per mesh, empty if it was not.
+        cuts: the first cut of every mesh, then the second ones, and so on.
+        errors: why a mesh, or a part of it, was refused; one text per mesh, empty if it was not.
     """
 
     cuts: tuple[Cut, ...]
@@ -77,7 +77,7 @@ class Suggestion:
 
     @cached_property
     def _cuts_by_mesh(self) -> dict[int, list[Cut]]:
-        # All at once: who goes through the meshes would go through all cuts for each of them.
+        # All at once, so that a loop over the meshes does not search all cuts for each.
         groups: dict[int, list[Cut]] = {}
         for cut in self.cuts:
             groups.setdefault(cut.mesh, []).append(cut)
@@ -94,13 +94,13 @@ def suggest(
     progress: Progress | None = None,
     preferences: Preferences = (),
 ) -> Suggestion:
-    """Propose cuts of the selected faces of every mesh. A mesh that is refused does not stop the others.
+    """Suggest cuts of the selected faces of every mesh. A refused mesh does not stop the others.
 
     Args:
         meshes: the meshes.
-        options: of all of them.
+        options: for all of them.
         progress: called with the fraction done; returns False to cancel.
-        preferences: per mesh where seams are wanted, None for a mesh without; empty for none at all.
+        preferences: per mesh where seams are wanted; empty for no preferences.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -120,7 +120,7 @@ def suggest(
 
 
 class _Found(NamedTuple):
-    """The cuts of one mesh, why it, or a part of it, was refused, and whether that is for want of memory for it."""
+    """The cuts of one mesh, why it or a part of it was refused, and whether it is too large for the memory."""
 
     cuts: list[np.ndarray]
     message: str
@@ -163,7 +163,7 @@ def segments(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
 
 
 def cut_open(meshes: Sequence[PolygonMesh], cuts: Suggestion) -> list[PolygonMesh]:
-    """Return the meshes with the cuts among their seams."""
+    """Return the meshes with the cuts added to their seams."""
     return [
         replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, cuts.edges(index)]))
         for index, mesh in enumerate(meshes)
@@ -171,10 +171,10 @@ def cut_open(meshes: Sequence[PolygonMesh], cuts: Suggestion) -> list[PolygonMes
 
 
 class Search:
-    """`suggest`, which answers the same question again without searching. Only its last answer is kept."""
+    """`suggest` that keeps its last answer, and returns it for the same question."""
 
     def __init__(self) -> None:
-        """Remember nothing yet."""
+        """Begin without an answer."""
         self._last: tuple[bytes, Suggestion] | None = None
 
     def suggest(
@@ -184,7 +184,7 @@ class Search:
         progress: Progress | None = None,
         preferences: Preferences = (),
     ) -> Suggestion:
-        """Propose cuts as the function `suggest` does."""
+        """Suggest cuts as the function `suggest` does."""
         question = _digest(meshes, options, preferences)
         last = self._last
         if last is not None and last[0] == question:

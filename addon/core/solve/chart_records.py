@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Records of charts, of which there may be a million: arrays of what all have, and the records of a part of them."""
+"""Records of up to a million charts: one field of all as an array, and the charts of one of several meshes."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -9,9 +9,9 @@ import numpy as np
 
 
 def column(charts: Sequence[Any], name: str) -> np.ndarray:
-    """Return what all `charts` have in one field, (number of charts,); of `n_faces`, how many faces they have.
+    """Return one field of all `charts`, (number of charts,); `n_faces` is their number of faces.
 
-    Those of the native module have it as an array, without a record for each.
+    The native module has fields as arrays, without a record for each chart.
     """
     if isinstance(charts, (list, tuple)):
         values = [len(chart.faces) if name == "n_faces" else getattr(chart, name) for chart in charts]
@@ -29,13 +29,13 @@ class PartOfCharts(Sequence):
         last: Any | None = None,  # noqa: ANN401 - a record
         face_of_face: np.ndarray | None = None,
     ) -> None:
-        """Take the `charts` of a result for all, without those of other meshes.
+        """Take the `charts` of this mesh in a result for several.
 
         Args:
-            charts: of this mesh alone.
-            first_face: the mesh's, among all.
-            last: another chart, of which only some faces are this mesh's; None for none.
-            face_of_face: the face of this mesh that each of its faces there is a part of; None where they are the same.
+            charts: the charts of this mesh alone.
+            first_face: the index of the mesh's first face among all.
+            last: another chart with some faces of this mesh; None for none.
+            face_of_face: the face of this mesh for each face of the result's mesh; None if they are the same.
         """
         self._charts = charts
         self._first_face = first_face
@@ -43,33 +43,33 @@ class PartOfCharts(Sequence):
         self._face_of_face = face_of_face
 
     def __len__(self) -> int:
-        """Return how many charts there are."""
+        """Return the number of charts."""
         return len(self._charts) + len(self._last)
 
     def __getitem__(self, index: Any) -> Any:  # noqa: ANN401 - a record, or several
         """Return a record, or the list of several."""
-        places = range(len(self))[index]
-        return [self._record(place) for place in places] if isinstance(places, range) else self._record(places)
+        indices = range(len(self))[index]
+        return [self._record(i) for i in indices] if isinstance(indices, range) else self._record(indices)
 
     def __iter__(self) -> Iterator[Any]:
-        """Go through the records."""
+        """Iterate over the records."""
         for chart in self._charts:
             yield self._own(chart)
         yield from map(self._own, self._last)
 
     @property
     def n_faces(self) -> np.ndarray:
-        """How many faces each has."""
+        """Number of faces of each chart."""
         return self.column("n_faces")
 
     def column(self, name: str) -> np.ndarray:
-        """Return what all have in one field."""
+        """Return one field of all charts."""
         of_most = column(self._charts, name)
         return np.concatenate([of_most, column(self._last, name)]) if self._last else of_most
 
-    def _record(self, place: int) -> Any:  # noqa: ANN401 - a record of the native module
+    def _record(self, index: int) -> Any:  # noqa: ANN401 - a record of the native module
         n = len(self._charts)
-        return self._own(self._charts[place] if place < n else self._last[place - n])
+        return self._own(self._charts[index] if index < n else self._last[index - n])
 
     def _own(self, chart: Any) -> Any:  # noqa: ANN401 - as above
         faces = chart.faces - self._first_face

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several meshes as one, so that the solver is called once for all: a call costs as much as a small mesh does."""
+"""Several meshes as one, so that the solver is called once: a call costs as much as a small mesh."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -13,14 +13,14 @@ from .chart_records import PartOfCharts
 
 @dataclass(frozen=True)
 class Part:
-    """What a result for the joined meshes says about one of them; charts are numbered among those of the mesh.
+    """The part of a result for joined meshes that belongs to one of them; charts are numbered within the mesh.
 
     Attributes:
         uv: (C, 2) float64.
         chart_of_corner: (C,) intp, -1 for none.
         charts: records of the mesh's charts.
         failed_islands: (F,) intp, -1 for none.
-        too_small_faces: how many of the mesh's faces are too small.
+        too_small_faces: number of the mesh's faces that are too small.
     """
 
     uv: np.ndarray
@@ -31,10 +31,10 @@ class Part:
 
 
 def joined(meshes: Sequence[PolygonMesh]) -> PolygonMesh:
-    """Return the meshes as one, without what is not about their shape: maps, pins, extenders and stretching.
+    """Return the meshes as one, without maps, pins, extenders and stretching.
 
     Raises:
-        ValueError: one of them names a vertex that it does not have, but another would.
+        ValueError: a mesh has an index of a vertex beyond its own.
     """
     first_vertices = _starts(len(mesh.vertices) for mesh in meshes)
     first_corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
@@ -49,7 +49,7 @@ def joined(meshes: Sequence[PolygonMesh]) -> PolygonMesh:
 
 
 def _renumbered(vertices: Sequence[np.ndarray], starts: np.ndarray) -> np.ndarray:
-    """Return the vertices of all meshes by their numbers among all vertices, of which those of a mesh have a start."""
+    """Return the vertex indices of all meshes, shifted by the first vertex of each mesh."""
     number = np.concatenate(vertices)
     counts = [len(part) for part in vertices]
     first = np.repeat(starts[:-1], counts).reshape(-1, *[1] * (number.ndim - 1))
@@ -66,14 +66,14 @@ def parts(
     failed_islands: np.ndarray,
     too_small: np.ndarray,
 ) -> Iterator[Part]:
-    """Yield what a `result` for the joined meshes, which is used up, says about each of them.
+    """Yield the part of a `result` for the joined meshes that belongs to each of them; `result` is changed.
 
-    `chart_of_corner` (C,) and `failed_islands` (F,) number charts as the result does, -1 for none, and
-    `too_small` (N,) has faces.
+    `chart_of_corner` (C,) and `failed_islands` (F,) are charts of the result, -1 for none; `too_small`
+    (N,) are faces.
     """
     corners = _starts(len(mesh.corner_vertices) for mesh in meshes)
     faces = _starts(len(mesh.selected_faces) for mesh in meshes)
-    # Charts are numbered by their first face. The last may be of all faces that can be in no chart, of any mesh.
+    # Charts are numbered by their first face. The last may hold the faces of all meshes that can be in no chart.
     n_others = max(0, len(result.charts) - 1)
     last = result.charts[-1] if len(result.charts) else None
     # Faces in no chart, -1, come first.
@@ -82,7 +82,7 @@ def parts(
     first_charts = np.searchsorted(owners, np.arange(len(meshes) + 1))
     owners_of_last = np.searchsorted(faces, [] if last is None else last.faces, side="right") - 1
     with_last = set(owners_of_last.tolist())
-    # A mesh's faces in the last chart count that as the last of its own.
+    # For each mesh with faces in it, the last chart is the last of its own.
     number = result.chart_of_face
     own_number = np.where(number < 0, -1, number - np.repeat(first_charts[:-1], np.diff(faces)))
     is_last = number == n_others
@@ -103,7 +103,7 @@ def parts(
 
 
 def numbered_together(charts: Sequence[np.ndarray], counts: Sequence[int]) -> np.ndarray:
-    """Return the chart of every corner of several meshes, given that in each, -1 for none, and how many it has."""
+    """Number the charts of several meshes together, given the chart of every corner, -1 for none, and their counts."""
     if len(charts) == 1:
         return charts[0].copy()
     chart = np.concatenate(charts)
@@ -112,5 +112,5 @@ def numbered_together(charts: Sequence[np.ndarray], counts: Sequence[int]) -> np
 
 
 def _starts(counts: Iterable[int]) -> np.ndarray:
-    """Return where each of several parts begins that follow one another, and where the last ends, int32."""
+    """Return the first index of each of several consecutive parts, and the end of the last, int32."""
     return np.cumsum([0, *counts], dtype=np.int32)

@@ -6,18 +6,18 @@ import numpy as np
 from .. import native
 from ..mesh.polygon_mesh import PolygonMesh
 
-# Maps kept of one chart: every pin that moves by itself needs one more, and four at a time are many for a hand.
+# Maps kept of one chart: every pin that moves by itself needs one more.
 _MAX_SAMPLES = 12
 # Relative; Blender keeps pins in single precision, whose spacing is 1.2e-7.
 _PIN_TOLERANCE = 1e-6
 
 
 class PinnedChart:
-    """The maps of one chart with the same pins in changing places.
+    """The maps of one chart with the same pins at changing positions.
 
-    The least squares conformal map is a complex linear function of its pins. So maps already solved give, without a
-    solve, the map for every place of the pins that is a complex linear combination of theirs: a second and third place
-    are enough for all further ones along which the same pins are dragged.
+    The least squares conformal map is a complex linear function of its pins. So the maps solved before give, without a
+    solve, the map for all pin positions that are a complex linear combination of theirs: two or three suffice while the
+    same pins are dragged.
 
     Attributes:
         corners: (N,) intp, the corners of the chart.
@@ -26,9 +26,9 @@ class PinnedChart:
     """
 
     def __init__(self, mesh: PolygonMesh, faces: np.ndarray, pinned: np.ndarray, uv: np.ndarray) -> None:
-        """Take the chart of the `faces` (F,) bool, with pins where the corners' flags `pinned` (C,) say so.
+        """Take the chart of the `faces` (F,) bool, with pins at the `pinned` corners (C,) bool.
 
-        `uv` (C, 2) tells which pinned corners of a vertex are one point.
+        Pinned corners of a vertex with the same `uv` (C, 2) are one point.
         """
         self._mesh = mesh
         self._faces = faces
@@ -38,39 +38,39 @@ class PinnedChart:
         points = np.column_stack([mesh.corner_vertices[pins], uv[pins]])
         self.n_pins = len(np.unique(points, axis=0))
         self._isotropy = 1.0 / mesh.from_isotropic_uv(np.ones((1, 2)))
-        self._places: list[np.ndarray] = []
+        self._positions: list[np.ndarray] = []
         self._maps: list[np.ndarray] = []
 
     def map(self, start: np.ndarray, now: np.ndarray) -> np.ndarray | None:
-        """Return the map, (N, 2) at `corners`, for the pins as they stand in `now` (C, 2); None if there is none.
+        """Return the map, (N, 2) at `corners`, for the pin positions in `now` (C, 2); None if there is none.
 
-        Pins back where they are in `start`, (C, 2), give `start` back. One pin alone takes its chart along.
+        Pins at their positions in `start`, (C, 2), give `start`. A single pin moves its chart.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
         """
-        start, places = start[self.corners], now[self.corners][self.pinned]
-        if np.array_equal(places, start[self.pinned]):
+        start, positions = start[self.corners], now[self.corners][self.pinned]
+        if np.array_equal(positions, start[self.pinned]):
             return start
-        # A script may move a pin to a place that is none, which no map can have.
-        if not (np.isfinite(places).all() and np.isfinite(start[self.pinned]).all()):
+        # A script may move a pin to a position that is not finite.
+        if not (np.isfinite(positions).all() and np.isfinite(start[self.pinned]).all()):
             return None
         if self.n_pins == 1:
-            return start + (places[0] - start[self.pinned][0])
-        found = self._combined(places)
+            return start + (positions[0] - start[self.pinned][0])
+        found = self._combined(positions)
         if found is None:
             found = self._solved(now)
         if found is not None:
-            found[self.pinned] = places
+            found[self.pinned] = positions
         return found
 
-    def _combined(self, places: np.ndarray) -> np.ndarray | None:
-        """Return the map as a combination of those known, None if the `places` of the pins are not one of theirs."""
-        if not self._places:
+    def _combined(self, positions: np.ndarray) -> np.ndarray | None:
+        """Return the map as a combination of known maps; None if the pin `positions` are no combination of theirs."""
+        if not self._positions:
             return None
-        target = _complex(places * self._isotropy)
-        # With all pins in one place the whole map is there.
-        basis = np.stack([*self._places, np.ones_like(target)], axis=1)
+        target = _complex(positions * self._isotropy)
+        # The constant map, with all pins at one point.
+        basis = np.stack([*self._positions, np.ones_like(target)], axis=1)
         factors = np.linalg.lstsq(basis, target, rcond=_PIN_TOLERANCE)[0]
         if np.abs(basis @ factors - target).max() > _PIN_TOLERANCE * np.abs(target).max():
             return None
@@ -79,10 +79,10 @@ class PinnedChart:
 
     def _solved(self, now: np.ndarray) -> np.ndarray | None:
         pins = self.corners[self.pinned]
-        places = now[pins] * self._isotropy
+        positions = now[pins] * self._isotropy
         corners = len(self._mesh.corner_vertices)
         corner_uv, pinned = np.zeros((corners, 2)), np.zeros(corners, dtype=bool)
-        corner_uv[pins], pinned[pins] = places, True
+        corner_uv[pins], pinned[pins] = positions, True
         try:
             result = native.spectral_conformal().unwrap(
                 self._mesh.vertices,
@@ -98,7 +98,7 @@ class PinnedChart:
         if not result.solved_corners[self.corners].all() or len(result.charts) != 1:
             return None
         uv = result.uv[self.corners].astype(np.float64)
-        self._places = [*self._places, _complex(places)][-_MAX_SAMPLES:]
+        self._positions = [*self._positions, _complex(positions)][-_MAX_SAMPLES:]
         self._maps = [*self._maps, _complex(uv)][-_MAX_SAMPLES:]
         return uv / self._isotropy
 

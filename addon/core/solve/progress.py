@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Progress of several pieces of work as that of one."""
+"""Progress of several pieces of work, joined into one."""
 
 from collections.abc import Callable, Sequence
 
@@ -7,12 +7,12 @@ import numpy as np
 
 from ..mesh.polygon_mesh import PolygonMesh
 
-# Takes the fraction done and the name of the phase; where it returns False, the work stops.
+# Takes the fraction done and the name of the phase; returns False to stop the work.
 Progress = Callable[[float, str], "bool | None"]
 
 
 def parts(groups: Sequence[Sequence[PolygonMesh]], progress: Progress | None) -> list[Progress | None]:
-    """Return the progress function of each group of meshes, all together making `progress`; None where that is None."""
+    """Return the progress function of each group of meshes, which together fill `progress`; None if that is None."""
     if progress is None or len(groups) == 1:
         return [progress] * len(groups)
     faces = [sum(max(1, np.count_nonzero(mesh.selected_faces)) for mesh in group) for group in groups]
@@ -22,5 +22,5 @@ def parts(groups: Sequence[Sequence[PolygonMesh]], progress: Progress | None) ->
 
 
 def part(progress: Progress, start: float, length: float) -> Progress:
-    """Return the progress function of the part of the work that begins at `start` and has the given `length`."""
+    """Return the progress function of a part of the work that begins at `start` and has this `length`."""
     return lambda fraction, phase: progress(start + length * fraction, phase)

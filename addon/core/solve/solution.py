@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solve the charts of polygon meshes: what runs in the thread of a job."""
+"""Solve the charts of polygon meshes; runs in the thread of a job."""
 
 import functools
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from .joined import parts as joined_parts
 from .options import Options
 from .progress import Progress, parts
 
-# Small meshes are joined up to this many corners, a million quads: more would gain nothing and take memory.
+# Small meshes are joined up to a million quads; more would gain nothing and take memory.
 _MAX_JOINED_CORNERS = 4_000_000
 
 
@@ -28,9 +28,9 @@ class Solution:
     Attributes:
         uv: (C, 2) float64, meaningful where `chart_of_corner` is not -1.
         chart_of_corner: (C,) intp, index into `charts` of the solved chart; -1 where the map must not change.
-        charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them: made when they are
-            asked for, so that `column` is what to ask for all of them.
-        failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart where all are refused.
+        charts: one record per chart, solved or failed, as `spectral_conformal.unwrap` returns them. They are made on
+            access; `column` returns one field of all.
+        failed_islands: (F,) intp, the failed chart of every face, -1 for the others; one chart if the mesh is refused.
         error: why the whole mesh was refused; empty if it was not.
         unused_extenders: number of the mesh's extenders that no solved chart could use.
         too_small_faces: number of faces that `find_too_small_faces` finds.
@@ -61,32 +61,32 @@ class Solution:
 
     @functools.cached_property
     def pinned_corners(self) -> np.ndarray:
-        """(C,) bool, the corners of solved charts with pins: these charts lie where they must."""
+        """(C,) bool, the corners of solved charts with pins, which are not moved."""
         pinned = self.column("n_pins") > 0
         if not pinned.any():
             return np.zeros(len(self.chart_of_corner), dtype=bool)
         return np.append(pinned, False)[self.chart_of_corner]
 
     def column(self, name: str) -> np.ndarray:
-        """Return what the charts have in one field, (number of charts,), without a record for each."""
+        """Return one field of all charts, (number of charts,), without a record for each."""
         return column(self.charts, name)
 
 
 def are_solved(solutions: Sequence[Solution]) -> np.ndarray:
-    """Return which charts of all solutions, one after the other, are solved, bool."""
+    """Return which charts of all solutions, in order, are solved, bool."""
     return np.concatenate([np.zeros(0, bool), *(solution.column("status") == "solved" for solution in solutions)])
 
 
 def column_of_all(solutions: Sequence[Solution], name: str) -> np.ndarray:
-    """Return what the charts of all solutions, one after the other, have in one field."""
+    """Return one field of the charts of all solutions, in order."""
     columns = [solution.column(name) for solution in solutions if len(solution.charts)]
     return np.concatenate(columns) if columns else np.zeros(0)
 
 
 def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.ndarray) -> np.ndarray:
-    """Return the solved faces that shrink so far in their chart that Blender's single precision merges them, (N,) intp.
+    """Return the solved faces that are so small in their chart that Blender's single precision merges them, (N,) intp.
 
-    A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces that are as small in 3D do not count.
+    A UV near 1 has steps of 2^-24; a face of less than eight has no shape. Faces as small in 3D do not count.
     The arrays, (C, 2) and (C,), are those of a `Solution`.
     """
     chart = chart_of_corner[mesh.face_offsets[:-1]]
@@ -95,7 +95,7 @@ def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.
         order = np.argsort(chart, kind="stable")[np.count_nonzero(chart < 0) :]
     if not len(order):
         return order
-    # A chart without area is a point, of which no face is a part.
+    # A chart without extent gives NaN, and comparisons with it are false.
     with np.errstate(invalid="ignore"):
         image = _part_of_chart(uv, mesh, chart, order)
     small = image < 2.0**-21
@@ -105,9 +105,9 @@ def find_too_small_faces(mesh: PolygonMesh, uv: np.ndarray, chart_of_corner: np.
 
 
 def _part_of_chart(positions: np.ndarray, mesh: PolygonMesh, chart: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """Return the extent of faces as parts of their chart's, (len(order),); `positions` (C, n) of the corners.
+    """Return the extents of faces relative to those of their charts, (len(order),), given corner `positions` (C, n).
 
-    `order` has the faces of charts, which may be all, in the order of their `chart` (F,).
+    `order` are the faces of charts, sorted by their `chart` (F,).
     """
     low, high = (np.ascontiguousarray(bound.T) for bound in mesh.face_bounds(positions))
     if len(order) < len(chart) or chart[order[0]] != chart[0] or (chart[1:] < chart[:-1]).any():
@@ -125,10 +125,10 @@ def solve(
     progress: Progress | None = None,
     kept: Any = None,  # noqa: ANN401 - a KeptMaps of the native module
 ) -> Solution:
-    """Unwrap the selected faces of `mesh`, chart by chart; those whose maps are `kept` are not solved.
+    """Unwrap the selected faces of `mesh`, chart by chart; charts whose maps are `kept` are not solved again.
 
-    A mesh that the solver refuses as a whole comes back as a `Solution` with an `error` and no charts, so that the
-    other meshes of the same call can still be unwrapped.
+    A mesh that the solver refuses gives a `Solution` with an `error` and no charts, so that the other meshes of the
+    call are still unwrapped.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -164,7 +164,7 @@ def _solutions(
     whole: PolygonMesh,
     result: Any,  # noqa: ANN401 - of the native module
 ) -> list[Solution]:
-    """Return what the result for the `whole`, all `meshes` in one, is for each of them; it is used up."""
+    """Split the result for the `whole`, all `meshes` in one, into a solution of each; `result` is changed."""
     chart_of_corner = np.repeat(result.chart_of_face, np.diff(whole.face_offsets))
     chart_of_corner[~result.solved_corners] = -1
     failed = np.append(column(result.charts, "status") != "solved", False)
@@ -173,7 +173,7 @@ def _solutions(
     if len(meshes) == 1:
         unused = _count_unused(whole, result.unused_extenders)
         return [Solution(result.uv, chart_of_corner, result.charts, failed_islands, "", unused, len(too_small))]
-    # Extenders keep a mesh from being joined.
+    # Joined meshes have no extenders.
     return [
         Solution(part.uv, part.chart_of_corner, part.charts, part.failed_islands, too_small_faces=part.too_small_faces)
         for part in joined_parts(meshes, result, chart_of_corner, failed_islands, too_small)
@@ -199,7 +199,7 @@ def arguments(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
 
 def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
     """Return the keyword arguments that `spectral_conformal.unwrap` shares with `Unwrapper.solve`."""
-    # Only the spectral method has a form that soft constraints could change.
+    # Only the spectral method has soft constraints.
     if options.method != "spectral":
         return {}
     is_automatic = options.automatic_holes and options.hole_rigidity == 0.0
@@ -207,7 +207,7 @@ def soft_constraints(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
 
 
 def _count_unused(mesh: PolygonMesh, unused: np.ndarray) -> int:
-    """Count the unused extenders of which a vertex is being unwrapped: the others were not meant."""
+    """Count the unused extenders with an unwrapped vertex; the others do not concern this unwrap."""
     if not unused.any():
         return 0
     unwrapped = np.zeros(len(mesh.vertices), dtype=bool)
@@ -221,16 +221,16 @@ def _is_stretched(mesh: PolygonMesh, options: Options) -> bool:
 
 
 def _stretched_space(mesh: PolygonMesh, stretch: float) -> np.ndarray:
-    """Return the metric of the mesh as it would be, stretched in space along its direction, (F, 3, 3) float64.
+    """Return the metric of the mesh stretched in space along its direction, (F, 3, 3) float64.
 
-    Unlike a direction projected to every face, it fades where faces lean away from the direction.
+    Unlike a direction projected onto every face, it fades where faces lean away from the direction.
     """
     metric = np.eye(3) + (stretch**2 - 1.0) * np.outer(mesh.stretch_direction, mesh.stretch_direction)
     return np.broadcast_to(metric, (len(mesh.selected_faces), 3, 3))
 
 
 def _pins(mesh: PolygonMesh, options: Options) -> dict[str, Any]:
-    """Return the arguments of `spectral_conformal.unwrap` that say where the pins are; none without pins."""
+    """Return the arguments of `spectral_conformal.unwrap` for pins; none without pins."""
     if not mesh.has_usable_pins:
         return {}
     return {"corner_uv": mesh.isotropic_uv(), "pinned_corners": mesh.usable_pins(), "soft_pins": options.soft_pins}
@@ -245,8 +245,7 @@ def solve_all(
     """`solve` every mesh; `progress` gets the fraction done of all of them, each counted by its selected faces.
 
     Raises:
-        MemoryError: there is too little memory for any of them. A mesh that is too large while others are not is
-            refused alone.
+        MemoryError: there is too little memory for all of them. If there is enough for some, the others are refused.
     """
     groups = _groups(meshes, options)
     solved = [_solve_group(group, options, part, kept) for group, part in zip(groups, parts(groups, progress))]
@@ -260,7 +259,7 @@ def solve_all(
 
 
 def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[PolygonMesh]]:
-    """Return the meshes in their order, those together that can be joined."""
+    """Return the meshes in their order, in groups that can be joined."""
     groups: list[list[PolygonMesh]] = []
     room = -1
     for mesh in meshes:
@@ -274,7 +273,7 @@ def _groups(meshes: Sequence[PolygonMesh], options: Options) -> list[list[Polygo
 
 
 def _is_to_be_alone(mesh: PolygonMesh, options: Options) -> bool:
-    """Return whether a mesh has what must not reach others: constraints, or a vertex that is named by number."""
+    """Return whether a mesh cannot be joined: it has constraints, or an error that would name a vertex by its index."""
     is_constrained = bool(mesh.extenders) or mesh.has_usable_pins or _is_stretched(mesh, options)
     return is_constrained or not np.isfinite(mesh.vertices).all()
 
@@ -285,13 +284,13 @@ def _solve_group(
     progress: Progress | None,
     kept: Any,  # noqa: ANN401 - as in solve
 ) -> list[Solution | None]:
-    """Return the solution of every mesh of a `group` that can be joined, None where there is too little memory."""
+    """Return the solution of every mesh of a `group`, None where there is too little memory."""
     if len(group) > 1:
         try:
             whole = joined(group)
             result = _unwrap(whole, options, progress, kept)
         except (ValueError, MemoryError):
-            # One of them is refused, or too large, which the others must not suffer from.
+            # One of them is refused or too large; the others are solved alone.
             pass
         else:
             return _solutions(group, whole, result)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A subdivided mesh that stands for its coarse mesh in the solver."""
+"""A subdivided mesh that is solved instead of its coarse mesh."""
 
 from dataclasses import dataclass, replace
 
@@ -12,7 +12,7 @@ from .solution import Solution, find_too_small_faces
 
 @dataclass(frozen=True)
 class Subdivision:
-    """A subdivided mesh and where the C corners of its coarse mesh are in it.
+    """A subdivided mesh, and the C corners of its coarse mesh in it.
 
     Attributes:
         coarse: the mesh that was subdivided.
@@ -27,7 +27,7 @@ class Subdivision:
     corner_of_corner: np.ndarray
 
     def on_coarse(self, solution: Solution) -> Solution:
-        """Return what a solution for `mesh` says about the coarse mesh."""
+        """Convert a solution of `mesh` to one of the coarse mesh."""
         chart = solution.chart_of_corner[self.corner_of_corner]
         whole = np.logical_and.reduceat(chart >= 0, self.coarse.face_offsets[:-1])
         failed = np.full(len(whole), -1)
@@ -44,7 +44,7 @@ class Subdivision:
 
 
 def subdivision(coarse: PolygonMesh, subdivided: PolygonMesh, face_of_face: np.ndarray) -> Subdivision:
-    """Find the corners of `coarse` in `subdivided`, and carry the selection, the map and the pins over.
+    """Find the corners of `coarse` in `subdivided`, and copy the selection, the map and the pins.
 
     The vertices of `coarse` come first in `subdivided`, in the same order; `face_of_face` is as in `Subdivision`.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work in a thread of its own: progress, cancelling, result."""
+"""Work in a thread of its own: progress, cancellation, result."""
 
 import threading
 from collections.abc import Callable
@@ -12,10 +12,10 @@ Result = TypeVar("Result")
 
 
 class Worker(Generic[Result]):
-    """Runs `work(progress)` in a thread, from construction on.
+    """Runs `work(progress)` in a thread, which starts on construction.
 
     `progress` takes the fraction done and the name of the phase, and returns False once `cancel` was called. The thread
-    is no daemon: a program that ends meanwhile waits for it, since native code must not run on in a torn down process.
+    is no daemon: the process waits for it at exit, because native code must not outlive the interpreter.
 
     Attributes:
         fraction: fraction done, as `work` reported it last.
@@ -23,7 +23,7 @@ class Worker(Generic[Result]):
     """
 
     def __init__(self, work: Callable[[Progress], Result], threads: int = 0) -> None:
-        """Start the thread; the solver may use so many at once, 0 for as many as the machine has cores."""
+        """Start the thread; `threads` limits those of the solver, 0 for all cores."""
         self.fraction = 0.0
         self.phase = ""
         self._work = work
@@ -37,7 +37,7 @@ class Worker(Generic[Result]):
 
     @property
     def is_wanted(self) -> bool:
-        """Whether the work goes on and nobody has cancelled it."""
+        """Whether the work is neither finished nor cancelled."""
         return not (self._cancelled.is_set() or self._finished.is_set())
 
     def wait(self, seconds: float) -> bool:
@@ -45,11 +45,11 @@ class Worker(Generic[Result]):
         return self._finished.wait(seconds)
 
     def cancel(self) -> None:
-        """Ask the work to stop at its next report, without waiting for that; its result and errors are dropped."""
+        """Ask the work to stop at its next report, without waiting; its result and errors are dropped."""
         self._cancelled.set()
 
     def result(self) -> Result:
-        """Wait for the end of the work; return its result, or raise here what it raised there."""
+        """Wait for the end of the work; return its result, or raise its error."""
         self._finished.wait()
         if self._error is not None:
             raise self._error

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every sentence, label and description that an artist reads, apart from those that the solver itself returns.
+"""Every sentence, label and description that an artist reads, except those that the solver returns.
 
-Without bpy, so that both the Blender layer and the rest of core can import it. Blender calls a chart an island; so do
-these sentences. A function that returns an empty text has nothing to say.
+A chart is an island here, as in Blender. A function that returns an empty text has nothing to say.
 
-Everything here is a key of the tables in addon/locale/: a constant, with named fields where values go. The functions
-look their sentences up when they are called, and the labels that they are given; they return what is to be shown. The
-constants are plain English: Blender translates what it gets as labels and descriptions, and whoever shows a constant
-otherwise looks it up with `translation.translate`. What the solver returns, reasons and names of phases, stays English
-within our sentences.
+Every text is a key of the tables in addon/locale/, with named fields for values. The functions translate their
+sentences and the labels that they get. The constants are English: Blender translates labels and descriptions itself;
+everything else goes through `translation.translate` where it is shown. Reasons and names of phases, which the solver
+returns, stay English.
 """
 
 from __future__ import annotations
@@ -75,7 +73,7 @@ EXTENDERS_LABEL = "Extenders"
 ADD_TO_ACTIVE_LABEL = "Add to Active"
 VERTEX_GONE_LABEL = "Vertex gone"
 
-# Name and description of the operators' properties, by the property's identifier.
+# Names and descriptions of the operators' properties.
 METHOD_PROPERTY = {"name": "Method", "description": "Unwrapping method"}
 WEIGHTS_PROPERTY = {"name": "Weights", "description": "How much each triangle counts"}
 BOUNDARY_PROPERTY = {"name": "Boundary", "description": "How much each boundary vertex counts"}
@@ -267,14 +265,14 @@ STRENGTH_PROPERTY = {
 }
 INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active extender"}
 BROKEN_PROPERTY = {"name": "Broken", "description": "Instead remove all extenders that lost a vertex"}
-# The same of the properties of an extender, and of a mesh that has extenders.
+# The properties of an extender, and of a mesh with extenders.
 EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name of the extender"}
 EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use the extender in the next unwrap"}
 FIRST_VERTEX_PROPERTY = {"name": "First Vertex", "description": "Identifier of its first vertex"}
 SECOND_VERTEX_PROPERTY = {"name": "Second Vertex", "description": "Identifier of its second vertex"}
 ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The extender chosen in the panel"}
 
-# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the same option of
+# Enumeration items: (identifier, label, description). An identifier in lower case is the value of the option of
 # spectral_conformal.unwrap.
 METHOD_ITEMS = (
     ("SPECTRAL", "Spectral", "Least angle distortion, with a free boundary and without pins"),
@@ -308,7 +306,7 @@ LOOK_ITEMS = (
     ),
     (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
 )
-# A checker is no value.
+# A checker has no values.
 STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != choices.LOOK_CHECKER)
 PLACEMENT_ITEMS = (
     (choices.PACK, "Pack", "Scale islands by their surface area and pack them upright into the UV tile"),
@@ -359,7 +357,7 @@ PACKED_BESIDE_FAILED = "Failed islands leave too little room in the UV tile, so 
 NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map; unwrap first"
-# Differences of scale that Blender's own Unwrap passes over.
+# Differences of scale that Blender's own Unwrap ignores.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method with soft pins"}
 # Numbers with what they count: for one, and for any other number.
@@ -370,17 +368,17 @@ _ISLANDS = ("{n} island", "{n} islands")
 
 
 def is_running(label: str) -> str:
-    """Return why an operator is not available while the one with this label runs."""
+    """Return why an operator is unavailable while the one with this label runs."""
     return translate("{operator} is running; Esc cancels it").format(operator=translate(label))
 
 
 def cancelled(label: str) -> str:
-    """Return what the operator with this label says when it is cancelled."""
+    """Return the report of a canceled operator with this label."""
     return translate("{operator}: Canceled").format(operator=translate(label))
 
 
 def progress(label: str, percent: int, phase: str) -> str:
-    """Return what the status bar shows while the operator with this label runs."""
+    """Return the text of the status bar while the operator with this label runs."""
     operator = translate(label)
     if not phase:
         return translate("{operator}: {percent} %   Esc: Cancel").format(operator=operator, percent=percent)
@@ -389,26 +387,26 @@ def progress(label: str, percent: int, phase: str) -> str:
 
 
 def printed_progress(label: str, percent: int, phase: str) -> str:
-    """Return the line that tells on a terminal how far the operator with this label is."""
+    """Return the line that prints the progress of the operator with this label."""
     sentence = translate("{operator}: {percent} % ({phase})")
     return sentence.format(operator=translate(label), percent=percent, phase=phase)
 
 
 def could_not_follow(problem: str) -> str:
-    """Return the line that tells on a terminal that live unwrapping could not follow."""
+    """Return the line to print if live unwrapping could not follow."""
     sentence = translate("{operator} could not follow: {problem}")
     return sentence.format(operator=translate(LIVE_UNWRAP_LABEL), problem=problem)
 
 
 def not_drawn(label: str, problem: str) -> str:
-    """Return the line that tells on a terminal that something could not be drawn."""
+    """Return the line to print if something could not be drawn."""
     return translate("{name} could not be drawn: {problem}").format(name=translate(label), problem=problem)
 
 
 def information(summary: Summary, seconds: float, where_to_see: str) -> str:
-    """Return the sentence for a call that solved at least one chart.
+    """Return the report of an unwrap that solved at least one chart.
 
-    `seconds` is the whole operator's time; `where_to_see` the label of what selects flipped and overlapping faces.
+    `seconds` is the time of the whole operator; `where_to_see` the label of the operator that selects defects.
     """
     unwrapped = translate("Unwrapped {islands}: angles off by {mean} on average, {worst} at worst")
     if math.isinf(summary.mean_qc):
@@ -435,12 +433,12 @@ def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
 
 
 def look(kind: str) -> str:
-    """Return the label of what the overlay shows."""
+    """Return the label of a kind that the overlay shows."""
     return translate(next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind))
 
 
 def look_value(kind: str, value: float) -> str:
-    """Return a value of what the overlay shows, as the legend has it."""
+    """Return a value of this kind as the legend shows it."""
     if kind == choices.LOOK_ANGLE:
         return _angles(value)
     if kind == choices.LOOK_SIZE:
@@ -449,19 +447,19 @@ def look_value(kind: str, value: float) -> str:
 
 
 def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
-    """Return what stands at the lower end, the middle and the upper end of the legend's colours."""
+    """Return the labels of the lower end, the middle and the upper end of the legend's colors."""
     if kind == choices.LOOK_DEFECTS:
         return (translate("good"), translate("overlapping"), translate("flipped"))
     return tuple(look_value(kind, value) for value in (low, middle, high))
 
 
 def too_many_faces(meshes: Sequence[str]) -> list[str]:
-    """Return the legend's lines on meshes, by the names of their objects, that the overlay leaves out."""
+    """Return the legend's lines about objects that the overlay skips, by name."""
     return [translate(TOO_MANY_FACES_TO_COLOR), *meshes, translate(LIMIT_IN_PREFERENCES)] if meshes else []
 
 
 def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
-    """Return the lines that the legend has on the part of the map with this label."""
+    """Return the legend's lines about the part of the map with this label."""
     name, faces = translate(label), _count(numbers.faces, _FACES)
     if math.isnan(numbers.mean_qc):
         return (translate("{name}: {faces}, nothing to measure").format(name=name, faces=faces),)
@@ -478,7 +476,7 @@ def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
 
 
 def _spread(numbers: IslandNumbers) -> str:
-    """Return by how many percent the scale deviates."""
+    """Return the deviation of the scale in percent."""
     return format(100.0 * (2.0**numbers.log2_scale_deviation - 1.0), ".1f")
 
 
@@ -506,7 +504,7 @@ def selected_worst(faces: int) -> str:
 
 
 def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, overlapping: bool) -> tuple[str, ...]:
-    """Return the lines that the legend has on the face below the mouse; `density` is in pixels per unit of length."""
+    """Return the legend's lines about the face under the mouse; `density` is in pixels per unit of length."""
     size = translate("Size {size}, {density} px per unit")
     lines = [
         translate("{name}: angles off by {qc}").format(name=translate(LEGEND_FACE), qc=_angles(qc)),
@@ -530,7 +528,7 @@ LEGEND_FACE = "Under the mouse"
 
 
 def unfolded(summary: Summary) -> str:
-    """Return what was unfolded on request and what it cost; empty if nothing was."""
+    """Return what was unfolded on request, and the cost in angles; empty for nothing."""
     parts = []
     if summary.unfolded:
         forms = ("{n} flipped triangle unfolded", "{n} flipped triangles unfolded")
@@ -549,7 +547,7 @@ def unfolded(summary: Summary) -> str:
 
 
 def strained(summary: Summary) -> str:
-    """Return the warning for islands with a face whose angles are far off; empty for none."""
+    """Return the warning about islands with strongly stretched faces; empty for none."""
     if not summary.strained:
         return ""
     forms = (
@@ -560,7 +558,7 @@ def strained(summary: Summary) -> str:
 
 
 def too_small(faces: int) -> str:
-    """Return the warning for faces that Blender's single precision cannot hold; empty for none."""
+    """Return the warning about faces too small for single precision; empty for none."""
     if not faces:
         return ""
     forms = (
@@ -577,7 +575,7 @@ def too_small(faces: int) -> str:
 
 
 def failures(summary: Summary) -> str:
-    """Return why charts or whole meshes were left as they were; empty if none was."""
+    """Return why charts or whole meshes were not unwrapped; empty for none."""
     parts = []
     if summary.failed:
         sentence = translate("{failed} of {islands} failed, UVs unchanged: {reasons}")
@@ -592,7 +590,7 @@ def failures(summary: Summary) -> str:
 
 
 def repairs(summary: Summary) -> str:
-    """Return what was repaired or done differently to solve some charts; empty if nothing was."""
+    """Return the repairs and fallbacks of charts; empty for none."""
     if not summary.repairs:
         return ""
     forms = (
@@ -603,7 +601,7 @@ def repairs(summary: Summary) -> str:
 
 
 def pinned(summary: Summary) -> str:
-    """Return how charts with two or more pins were solved; empty if there were none."""
+    """Return how charts with two or more pins were solved; empty for none."""
     if not summary.pinned:
         return ""
     ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})
@@ -612,7 +610,7 @@ def pinned(summary: Summary) -> str:
 
 
 def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequence[bool]) -> str:
-    """Return Blender's own sentence about the first object whose scale along its axes is uneven or negative."""
+    """Return Blender's own sentence about the first object with an uneven or negative scale."""
     for (x, y, z), is_negative in zip(scales, negative):
         if abs(x - y) >= _EVEN_SCALE or abs(y - z) >= _EVEN_SCALE:
             return translate("Object has non-uniform scale, unwrap will operate on a non-scaled version of the mesh")
@@ -622,7 +620,7 @@ def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequenc
 
 
 def broken_extenders(names: Sequence[str]) -> str:
-    """Return the sentence for extenders that lack a vertex; empty for none."""
+    """Return the sentence about extenders that lost a vertex; empty for none."""
     if not names:
         return ""
     forms = (
@@ -633,7 +631,7 @@ def broken_extenders(names: Sequence[str]) -> str:
 
 
 def extenders_without_strength(names: Sequence[str]) -> str:
-    """Return the sentence for extenders whose strength is no number within its limit; empty for none."""
+    """Return the sentence about extenders with an invalid strength; empty for none."""
     if not names:
         return ""
     forms = (
@@ -644,33 +642,33 @@ def extenders_without_strength(names: Sequence[str]) -> str:
 
 
 def broken_extender(name: str) -> str:
-    """Return why an extender that lacks a vertex cannot be adjusted."""
+    """Return why an extender that lost a vertex cannot be adjusted."""
     return translate("{name} lost a vertex; remove it and add another").format(name=name)
 
 
 def adjusting(strength: str, note: str) -> str:
-    """Return what the status bar shows while a strength is dragged."""
+    """Return the text of the status bar while a strength is dragged."""
     sentence = translate("{operator}: strength {strength}   {note}")
     return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), strength=strength, note=note)
 
 
 def removed_broken(count: int) -> str:
-    """Return what Remove Broken says."""
+    """Return the report of Remove Broken."""
     return translate("Removed broken extenders: {n}").format(n=count)
 
 
 def broken_extender_selected(name: str, gone: int) -> str:
-    """Return the warning that an extender lacks vertices that were to be selected."""
+    """Return the warning that an extender has lost vertices and selects the others."""
     return translate("{name} lost vertices: {n}; remove it").format(name=name, n=gone)
 
 
 def hidden_vertices(name: str, hidden: int) -> str:
-    """Return the warning that vertices of an extender are hidden, which are not selected."""
+    """Return the warning that vertices of an extender are hidden and not selected."""
     return translate("{name} has hidden vertices: {n}; reveal them to select them").format(name=name, n=hidden)
 
 
 def added_extenders(count: int, existing: int, follows: bool) -> str:
-    """Return what Add Extender did: `existing` pairs had an extender already; `follows` where the map has followed."""
+    """Return the report of Add Extender: `existing` pairs had one already; `follows` if the map has followed."""
     parts, extenders = [], _count(count, _EXTENDERS)
     if count and follows:
         parts.append(translate("Added {extenders}").format(extenders=extenders))
@@ -683,7 +681,7 @@ def added_extenders(count: int, existing: int, follows: bool) -> str:
 
 
 def unused_extenders(count: int) -> str:
-    """Return the sentence for extenders that no island could use; empty for none."""
+    """Return the sentence about extenders without effect; empty for none."""
     if count == 0:
         return ""
     forms = (
@@ -694,7 +692,7 @@ def unused_extenders(count: int) -> str:
 
 
 def selected_failed(islands: int, faces: int) -> str:
-    """Return what Select Failed Islands says."""
+    """Return the report of Select Failed Islands."""
     if faces == 0:
         return translate("No islands failed, selection unchanged")
     of_islands = _count(islands, ("{n} failed island", "{n} failed islands"))
@@ -702,13 +700,13 @@ def selected_failed(islands: int, faces: int) -> str:
 
 
 def changed_since_unwrapped(names: Sequence[str]) -> str:
-    """Return the warning for meshes that have other faces than when they were unwrapped."""
+    """Return the warning about meshes whose faces have changed since they were unwrapped."""
     sentence = translate("The faces of {names} have changed since the last unwrap; unwrap again")
     return sentence.format(names=", ".join(names))
 
 
 def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: bool) -> str:
-    """Return what Select Flipped and Overlapping says of the defects of each mesh, given which kinds were chosen."""
+    """Return the report of Select Flipped and Overlapping, given the defects of each mesh and the chosen kinds."""
     total = sum(int(found.chosen(flipped, overlapping).sum()) for found in defects)
     if total == 0:
         if flipped and overlapping:
@@ -726,12 +724,12 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
 
 
 def marked(count: int, length: str) -> str:
-    """Return what Suggest Seams says once `count` cuts are marked, of a length that is given with its unit."""
+    """Return the report of `count` marked cuts, of a length with its unit."""
     return translate("Marked {cuts}, length {length}").format(cuts=_count(count, _CUTS), length=length)
 
 
 def nothing_to_suggest(is_limited: bool) -> str:
-    """Return the sentence for no suggested seams; `is_limited` where the user gave a greatest length."""
+    """Return the report of no suggested seams; `is_limited` if the user limited the length."""
     if is_limited:
         return translate(
             "No seams to suggest: the islands are good enough, or no cut within the length limit improves them"
@@ -740,13 +738,13 @@ def nothing_to_suggest(is_limited: bool) -> str:
 
 
 def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
-    """Return why meshes got no suggestion, given one text for each, empty where there is nothing to tell."""
+    """Return why meshes got no suggestion, given one reason for each, empty for those that did."""
     refused = [": ".join((name, translate(error).rstrip("."))) for name, error in zip(names, errors) if error]
     return translate("No seams suggested for {meshes}").format(meshes="; ".join(refused)) if refused else ""
 
 
 def preview(count: int, total: int, length: str, total_length: str) -> str:
-    """Return which of the suggested cuts are shown, with lengths that are given with their unit."""
+    """Return which of the suggested cuts are shown, with lengths with their unit."""
     cuts = _count(total, _CUTS)
     if count == total:
         return translate("{cuts}, length {length}").format(cuts=cuts, length=length)
@@ -758,13 +756,13 @@ PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   E
 
 
 def preview_status(known: str) -> str:
-    """Return what the status bar shows while the artist chooses how many cuts to take, given what is known of them."""
+    """Return the text of the status bar while the artist chooses cuts, given what is known of them."""
     sentence = translate("{operator}: {known}   {keys}")
     return sentence.format(operator=translate(SUGGEST_SEAMS_LABEL), known=known, keys=translate(PREVIEW_KEYS))
 
 
 def expected(before: MapQuality, after: MapQuality, factor: float) -> str:
-    """Return what the cuts shown would make of the map; `factor` is that by which the scale may differ."""
+    """Return what the shown cuts would bring; `factor` is the allowed factor between scale and median."""
     even = translate("{percent} of the surface within {factor} times the median scale (now {now})")
     parts = [even.format(percent=_percent(after.even), factor=format(factor, ".3g"), now=_percent(before.even))]
     if not math.isnan(after.mean_qc):
@@ -791,24 +789,24 @@ def no_module(reason: object) -> str:
 
 
 def solver(factorization: str, kernel: str) -> str:
-    """Return what maps are solved with; `kernel` is the processor whose kernels OpenBLAS runs, empty without it."""
+    """Return the solver's name; `kernel` is the processor whose kernels OpenBLAS runs, empty without it."""
     if not kernel:
         return factorization
     return translate("{name}, OpenBLAS kernels for {kernel}").format(name=factorization, kernel=kernel)
 
 
 def no_margin(margin: float) -> str:
-    """Return what is wrong with a margin that is not finite."""
+    """Return the error of a margin that is not finite."""
     return translate("The margin must be a number, not {margin}").format(margin=margin)
 
 
 def unnamed_extender() -> str:
-    """Return what to call an extender without a name."""
+    """Return the name of an extender without a name."""
     return translate("Extender without a name")
 
 
 def without_order(selected: int, ordered: int) -> str:
-    """Return what to do where the order of only some of the selected vertices is known."""
+    """Return what to do if only some of the selected vertices have a known order."""
     sentence = translate(
         "{n} vertices are selected, {unordered} of them without an order; Shift-click them one after the other, "
         "or use {operator}"
@@ -817,12 +815,12 @@ def without_order(selected: int, ordered: int) -> str:
 
 
 def without_partner(selected: int) -> str:
-    """Return what to do where an odd number of vertices is selected."""
+    """Return what to do if an odd number of vertices is selected."""
     return translate("{n} vertices are selected, so one has no partner; select an even number").format(n=selected)
 
 
 def without_bounds(count: int) -> str:
-    """Return the sentence for `count` charts that could not be kept in place; empty for none."""
+    """Return the sentence about `count` charts that could not be kept in place; empty for none."""
     if count == 0:
         return ""
     forms = (
@@ -841,7 +839,7 @@ def _grouped(messages: Counter[str]) -> str:
 
 
 def _count(number: int, forms: tuple[str, str], **fields: str) -> str:
-    """Return the first of two sentences where `n` is one, the second for any other number, with the `fields` filled."""
+    """Return the first of two sentences if `n` is one, else the second, with the `fields` filled in."""
     return translate(forms[0] if number == 1 else forms[1]).format(n=number, **fields)
 
 

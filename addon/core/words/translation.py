@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Looks texts up in the language of the user, by a function that the Blender layer hands over."""
+"""Translation into the language of the user, by a function of the Blender layer."""
 
 from collections.abc import Callable
 
@@ -12,15 +12,14 @@ _look_up: Callable[[str], str] = _as_it_is
 
 
 def translate(text: str) -> str:
-    """Return a text of `texts` in the language of the user; texts that are in no table stay as they are.
+    """Return a text of `texts` in the language of the user; a text without a translation stays.
 
-    To be called when the text is shown, as the language may change, and in the main thread: Blender looks nothing up in
-    others.
+    Call it when the text is shown, because the language may change, and in the main thread only.
     """
     return _look_up(text) if text else text
 
 
 def use(look_up: Callable[[str], str] | None) -> None:
-    """Look texts up with this function from now on; None leaves them in English."""
+    """Translate with this function from now on; None leaves texts in English."""
     global _look_up
     _look_up = look_up or _as_it_is
