@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "concurrency/work_counter.h"
+#include "graph/grouped.h"
 
 namespace spectral_conformal {
 namespace {
@@ -18,21 +18,14 @@ constexpr int max_rounds = 32;
 class SelectedFaces {
  public:
   explicit SelectedFaces(const PolygonMesh& mesh)
-      : mesh_(mesh), start_(static_cast<std::size_t>(mesh.n_vertices) + 1, 0) {
-    each_corner([&](int vertex, int, int) { ++start_[static_cast<std::size_t>(vertex) + 1]; });
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    corners_.resize(static_cast<std::size_t>(start_.back()));
-    std::vector<int> fill(start_.begin(), start_.end() - 1);
-    each_corner([&](int vertex, int face, int corner) { corners_[fill[vertex]++] = {face, corner}; });
-  }
+      : mesh_(mesh), corners_(mesh.n_vertices, [&](const auto& visit) { each_corner(visit); }) {}
 
-  bool uses(int vertex) const { return start_[vertex] < start_[static_cast<std::size_t>(vertex) + 1]; }
+  bool uses(int vertex) const { return !corners_[vertex].empty(); }
   /// What tells a vertex from others of its rank: for each of its faces the number of corners, and the ranks of the
   /// next and the previous one.
   std::vector<std::array<int, 3>> signature(int vertex, const std::vector<int>& rank) const {
     std::vector<std::array<int, 3>> result;
-    for (int i = start_[vertex]; i < start_[static_cast<std::size_t>(vertex) + 1]; ++i) {
-      const auto [face, corner] = corners_[i];
+    for (const auto& [face, corner] : corners_[vertex]) {
       const int first = mesh_.face_offsets[face];
       const int last = mesh_.face_offsets[face + 1] - 1;
       const int next = mesh_.corner_vertices[corner == last ? first : corner + 1];
@@ -55,14 +48,13 @@ class SelectedFaces {
       if (!mesh_.is_selected(face)) continue;
       still_working(10.0 * mesh_.n_corners(face));
       for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
-        visit(mesh_.corner_vertices[c], face, c);
+        visit(mesh_.corner_vertices[c], FaceCorner{face, c});
       }
     }
   }
 
   const PolygonMesh& mesh_;
-  std::vector<int> start_;
-  std::vector<FaceCorner> corners_;
+  Grouped<FaceCorner> corners_;
 };
 
 /// By coordinates, those that are no numbers last. 0 and -0 are one.

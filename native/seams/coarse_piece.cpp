@@ -37,12 +37,10 @@ constexpr std::size_t max_faces_around = 14;
 /// A face with more corners, and a vertex with more faces, only follow what is merged beside them: to look at all of
 /// it at every merge there would take quadratic time.
 constexpr int most_looked_at = 256;
-/// Merges of this number of vertices are looked for in one call, and of this fraction of all in parallel before any is
-/// made: of more, more would be looked for in vain, because merges near them come first.
+/// Merges of this number of vertices, or of this fraction of all, are looked for in parallel before any is made: of
+/// more, more would be looked for in vain, because merges near them come first.
 constexpr std::ptrdiff_t searched_at_once = 512;
 constexpr int searched_fraction = 64;
-/// Vertices of one call that updates costs.
-constexpr int costs_at_once = 8192;
 constexpr double search_nanoseconds = 5000;
 
 /// Sum of squared distances from planes, each with a weight, as x^T A x + 2 b^T x + c.
@@ -515,7 +513,7 @@ void ShrinkingMesh::relax() {
 /// Of the vertices around which the last round changed something.
 void ShrinkingMesh::update_costs() {
   const int n = static_cast<int>(into_.size());
-  run_blocks_in_parallel(n, costs_at_once, search_nanoseconds, [&](int begin, int end) {
+  run_blocks_in_parallel(n, search_nanoseconds, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       if (into_[v] == v && changed_[v] == round_ - 1) cost_[v] = least_cost(v);
     }
@@ -532,7 +530,7 @@ bool ShrinkingMesh::is_worth_a_search(int v) const {
 /// For each of n merges, as things stand; only those worth a search are searched for.
 std::vector<Target> ShrinkingMesh::search(const Merge* merges, std::ptrdiff_t n) const {
   std::vector<Target> targets(static_cast<std::size_t>(n));
-  run_blocks_in_parallel(n, searched_at_once, search_nanoseconds, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+  run_blocks_in_parallel(n, search_nanoseconds, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     Fan fan;
     for (std::ptrdiff_t i = begin; i < end; ++i) {
       const int v = merges[i].vertex;

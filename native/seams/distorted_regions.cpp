@@ -60,7 +60,7 @@ std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialM
 std::vector<DistortedRegion> sharp_cones(const PolygonMesh& mesh, const TrialMap& mapped) {
   const Chart& chart = mapped.chart;
   const Positions positions = chart.positions(mesh);
-  std::vector<double> defect(chart.vertices.size(), 2 * 3.14159265358979323846);
+  std::vector<double> defect(chart.vertices.size(), 2 * pi);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int v = chart.triangles[t][k];

@@ -21,11 +21,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leeway = 0.3;
 /// Nor by more faces than this on either side of it: minimum cuts of charts of 500,000 faces took 20 seconds each.
 constexpr std::ptrdiff_t most_faces = 20000;
-/// About what each face takes to be sorted, and each edge to be flown through.
+/// About what each face takes to be reached and to be sorted, and each edge to be flown through.
+constexpr double reaching_nanoseconds = 200;
 constexpr double sorting_nanoseconds = 300;
 constexpr double flow_nanoseconds = 3000;
-/// A thread takes as long to start as the distances of a tenth of so many faces to find.
-constexpr std::size_t faces_worth_a_thread = 10000;
 
 /// The faces in rising order of the level function.
 std::vector<int> in_order(const std::vector<double>& level) {
@@ -136,7 +135,7 @@ std::vector<char> separating_side(const SeparableFaces& faces, const std::vector
   run_in_parallel(
       2,
       [&](int i, const Progress&) { (i == 0 ? level : from_sinks) = face_distances(faces, i == 0 ? sources : sinks); },
-      {}, "", faces.size() > faces_worth_a_thread ? 2 : 1);
+      {}, "", max_threads_for(reaching_nanoseconds * static_cast<double>(faces.size())));
   double low = -infinite;
   double high = infinite;
   for (std::size_t f = 0; f < level.size(); ++f) {

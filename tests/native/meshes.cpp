@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -330,6 +332,49 @@ HermitianMatrix shifted_energy(int size) {
   HermitianMatrix matrix = Patch(perforated_grid(size, size)).energy(Weights::inverse_area).matrix();
   for (int v = 0; v < matrix.cols(); ++v) matrix.coeffRef(v, v) += 0.01;
   return matrix;
+}
+
+std::vector<int> strips_first(int n) {
+  const int width = static_cast<int>(std::lround(std::sqrt(n)));
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(), [width](int v) { return v / width % 5 != 4; });
+  return order;
+}
+
+SupernodalStructure structure_of(const HermitianMatrix& matrix, const std::vector<int>& order) {
+  const int n = static_cast<int>(order.size());
+  std::vector<int> place(n);
+  for (int i = 0; i < n; ++i) place[order[i]] = i;
+  std::vector<std::set<int>> below(n);
+  for (int column = 0; column < n; ++column) {
+    for (HermitianMatrix::InnerIterator it(matrix, column); it; ++it) {
+      const int a = place[it.row()];
+      const int b = place[column];
+      if (a != b) below[std::min(a, b)].insert(std::max(a, b));
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    if (below[i].empty()) continue;
+    const int parent = *below[i].begin();
+    below[parent].insert(std::next(below[i].begin()), below[i].end());
+  }
+  SupernodalStructure result;
+  result.order = order;
+  result.first_row.push_back(0);
+  for (int i = 0; i < n; ++i) {
+    const bool joins = i > 0 && below[i - 1].count(i) == 1 && below[i - 1].size() == below[i].size() + 1;
+    if (joins) continue;
+    result.first_column.push_back(i);
+  }
+  result.first_column.push_back(n);
+  for (std::size_t k = 0; k + 1 < result.first_column.size(); ++k) {
+    const int first = result.first_column[k];
+    result.rows.push_back(first);
+    result.rows.insert(result.rows.end(), below[first].begin(), below[first].end());
+    result.first_row.push_back(static_cast<std::ptrdiff_t>(result.rows.size()));
+  }
+  return result;
 }
 
 }  // namespace spectral_conformal::test

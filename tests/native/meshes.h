@@ -7,6 +7,7 @@
 
 #include "conformal/conformal_energy.h"
 #include "linear_algebra/factorization.h"
+#include "linear_algebra/symbolic_factor.h"
 #include "mesh/charts.h"
 #include "relaxation/distortion_energy.h"
 
@@ -93,6 +94,11 @@ int count_flipped(const Patch& patch, const ComplexVector& z);
 double energy_of(const std::vector<DistortionElement>& elements, DistortionMeasure measure, const ComplexVector& z);
 /// L + 0.01 I of a perforated grid: positive definite, complex away from the boundary too.
 HermitianMatrix shifted_energy(int size);
+/// Every fifth row of a square grid of n vertices last: what lies between falls apart into subtrees.
+std::vector<int> strips_first(int n);
+/// The rows of each column of the factor by eliminating on sets; a column joins the one before where only that one's
+/// own row is missing from it.
+SupernodalStructure structure_of(const HermitianMatrix& matrix, const std::vector<int>& order);
 
 /// The backends of this build.
 std::vector<FactorizationBackend> backends();

@@ -14,8 +14,8 @@ namespace spectral_conformal {
 /// The maps of charts that unwraps have found, for later ones to take instead of solving the same again: after a change
 /// of a seam or a pin only the charts that it reaches are solved, and after a change of the packing none.
 ///
-/// A chart is described by all that its map is made of, byte by byte, and looked up by the whole description, so that
-/// results are the same with and without. Not to be used in two threads at once, but for find().
+/// A chart is looked up by a digest of all that its map is made of, so that results are the same with and without. Only
+/// find() may be called by two threads at once.
 class KeptMaps {
  public:
   struct Map {
@@ -31,8 +31,8 @@ class KeptMaps {
 
   /// The map of a chart; null where there is none. Valid until the next call of keep().
   const Map* find(const std::string& description) const;
-  /// Keeps the map of a chart, or has it be the one used last, and forgets others for it, in constant time each.
-  /// One that is too large for `max_bytes` alone is not kept.
+  /// Keeps the map of a chart as the one used last, in constant time, and drops those that then are too many. A map
+  /// that takes more than `max_bytes` by itself is not kept.
   void keep(std::string&& description, Map&& map);
   std::size_t size() const { return by_use_.size(); }
   std::size_t bytes() const { return bytes_; }

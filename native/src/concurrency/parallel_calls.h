@@ -9,7 +9,14 @@
 
 namespace spectral_conformal {
 
+/// The one rule for sharing: threads are begun for pieces of at least this work, which takes twenty times as long as to
+/// begin one.
+constexpr double shared_nanoseconds = 1e6;
+
 constexpr unsigned all_threads = std::numeric_limits<unsigned>::max();
+
+/// The threads that work of this size is worth.
+inline unsigned max_threads_for(double nanoseconds) { return nanoseconds < 2 * shared_nanoseconds ? 1 : all_threads; }
 
 /// Calls work(i, progress) once for every i from 0 to n - 1, in as many threads as the caller's part of the
 /// ThreadBudget allows, at most max_threads, the caller's among them. The calls must not depend on each other.
@@ -26,13 +33,12 @@ void run_in_parallel(int n, const std::function<void(int i, const Progress& prog
 /// the call throws.
 void call_while_listening(double nanoseconds, const std::function<void()>& call);
 
-/// Calls work(begin, end) once for every block of block_size of the numbers from 0 to n - 1, the last one's may be
-/// fewer, as run_in_parallel does; where there is one block, in the caller's thread. Index is an integer type that
-/// holds n + block_size, and the number of blocks fits an int. nanoseconds: about what each number takes; the caller's
-/// Listening is asked between blocks.
+/// Calls work(begin, end) once for every block of the numbers from 0 to n - 1, as run_in_parallel does; where there is
+/// one block, in the caller's thread. nanoseconds: about what each number takes, 1 or more. A block takes
+/// shared_nanoseconds, or is one number; the caller's Listening is asked between blocks.
 template <class Index, class Work>
-void run_blocks_in_parallel(Index n, Index block_size, double nanoseconds, const Work& work,
-                            unsigned max_threads = all_threads) {
+void run_blocks_in_parallel(Index n, double nanoseconds, const Work& work) {
+  const auto block_size = static_cast<Index>(std::max(1.0, shared_nanoseconds / nanoseconds));
   if (n <= 0) return;
   if (n <= block_size) {
     work(Index{0}, n);
@@ -46,7 +52,7 @@ void run_blocks_in_parallel(Index n, Index block_size, double nanoseconds, const
         work(begin, std::min<Index>(n, begin + block_size));
         still_working(nanoseconds * static_cast<double>(block_size));
       },
-      {}, "", max_threads);
+      {}, "");
 }
 
 }  // namespace spectral_conformal

@@ -7,50 +7,38 @@ namespace {
 
 thread_local WorkCounter* counter_of_thread = nullptr;
 
+std::uint64_t whole(double amount) { return static_cast<std::uint64_t>(amount); }
+
+void count(const WorkCounts& more) {
+  if (counter_of_thread) counter_of_thread->add(more);
+}
+
 }  // namespace
 
 WorkCounter::Share::Share(WorkCounter* counter) : before_(std::exchange(counter_of_thread, counter)) {}
 
 WorkCounter::Share::~Share() { counter_of_thread = before_; }
 
-WorkCounter::WorkCounter() : share_(this) {}
-
-WorkCounter::~WorkCounter() = default;
-
 WorkCounter* WorkCounter::current() { return counter_of_thread; }
 
 WorkCounts WorkCounter::counts() const {
-  return {analyses_, factorizations_, solves_, multiplications_, solve_doubles_, steps_};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counts_;
 }
 
-void WorkCounter::add(std::atomic<std::uint64_t>& sum, double value) {
-  sum.fetch_add(static_cast<std::uint64_t>(value), std::memory_order_relaxed);
+void WorkCounter::add(const WorkCounts& more) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  counts_.analyses += more.analyses;
+  counts_.factorizations += more.factorizations;
+  counts_.solves += more.solves;
+  counts_.multiplications += more.multiplications;
+  counts_.solve_doubles += more.solve_doubles;
+  counts_.steps += more.steps;
 }
 
-void WorkCounter::add_factorization(double multiplications) {
-  add(factorizations_, 1);
-  add(multiplications_, multiplications);
-}
-
-void WorkCounter::add_solve(double doubles) {
-  add(solves_, 1);
-  add(solve_doubles_, doubles);
-}
-
-void count_analysis() {
-  if (WorkCounter* const counter = WorkCounter::current()) counter->add_analysis();
-}
-
-void count_factorization(double multiplications) {
-  if (WorkCounter* const counter = WorkCounter::current()) counter->add_factorization(multiplications);
-}
-
-void count_solve(double doubles) {
-  if (WorkCounter* const counter = WorkCounter::current()) counter->add_solve(doubles);
-}
-
-void count_steps(double steps) {
-  if (WorkCounter* const counter = WorkCounter::current()) counter->add_steps(steps);
-}
+void count_analysis() { count({1, 0, 0, 0, 0, 0}); }
+void count_factorization(double multiplications) { count({0, 1, 0, whole(multiplications), 0, 0}); }
+void count_solve(double doubles) { count({0, 0, 1, 0, whole(doubles), 0}); }
+void count_steps(double steps) { count({0, 0, 0, 0, 0, whole(steps)}); }
 
 }  // namespace spectral_conformal

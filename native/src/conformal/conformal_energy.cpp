@@ -21,10 +21,8 @@ constexpr double triangle_nanoseconds = 25;
 /// Calls work(i) once for every i from 0 to n - 1, in several threads where there are many.
 template <class Work>
 void for_each_index(std::size_t n, const Work& work) {
-  // Threads are not worth their start for fewer.
-  constexpr std::size_t at_once = 20000;
   constexpr double nanoseconds = 50;
-  run_blocks_in_parallel(n, at_once, nanoseconds, [&](std::size_t begin, std::size_t end) {
+  run_blocks_in_parallel(n, nanoseconds, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }
@@ -239,14 +237,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
     const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
     const double scale = weight(t) / (4 * s.area());
     sum += scale * std::norm(part);
-    // The gradient of w |part|^2 / (4 |T|) towards the conjugates of z_b - z_a and z_c - z_a:
-    // part times the conjugates of -i (x2 + i y2) and i x1.
-    const Complex g = scale * part;
-    const Complex towards_b(g.real() * s.y2 - g.imag() * s.x2, g.real() * s.x2 + g.imag() * s.y2);
-    const Complex towards_c(g.imag() * s.x1, -g.real() * s.x1);
-    result[b] += towards_b;
-    result[c] += towards_c;
-    result[a] -= towards_b + towards_c;
+    s.add_gradient(triangles_[t], 0, scale * part, result.data());
   }
   still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;

@@ -31,6 +31,18 @@ struct TriangleShape {
     return {d1.real() * y2 + d1.imag() * x2 - d2.imag() * x1, d1.imag() * y2 - d1.real() * x2 + d2.real() * x1};
   }
 
+  /// The adjoint of these two parts: adds what a function of them gains by the images of the corners to a gradient,
+  /// given its derivatives g by the holomorphic and h by the antiholomorphic one (f_u + i f_v of f by u + i v). With
+  /// p = x2 + i y2: by d1, -i p g + i conj(p) h; by d2, i x1 (g - h); by the first corner, minus both.
+  void add_gradient(const std::array<int, 3>& corners, Complex g, Complex h, Complex* gradient) const {
+    const Complex by_d1(x2 * (g.imag() - h.imag()) + y2 * (g.real() + h.real()),
+                        x2 * (h.real() - g.real()) + y2 * (g.imag() + h.imag()));
+    const Complex by_d2(x1 * (h.imag() - g.imag()), x1 * (g.real() - h.real()));
+    gradient[corners[1]] += by_d1;
+    gradient[corners[2]] += by_d2;
+    gradient[corners[0]] -= by_d1 + by_d2;
+  }
+
   /// Cotangents of the angles at the corners, times 2 |T|: the dot products of the two sides at each corner.
   std::array<double, 3> scaled_cotangents() const { return {x1 * x2, x1 * (x1 - x2), x2 * (x2 - x1) + y2 * y2}; }
 

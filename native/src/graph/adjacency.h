@@ -1,27 +1,21 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <vector>
 
+#include "graph/grouped.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-/// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by the node that they leave (compressed sparse rows). The
-/// arcs of a node keep the order in which they were given.
+/// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by the node that they leave. The arcs of a node keep the
+/// order in which they were given.
 class Adjacency {
  public:
   /// An edge as it leaves a node.
   struct Arc {
     int edge;
     int to;
-  };
-  struct ArcRange {
-    const Arc* first;
-    const Arc* last;
-    const Arc* begin() const { return first; }
-    const Arc* end() const { return last; }
   };
 
   Adjacency() = default;
@@ -31,27 +25,23 @@ class Adjacency {
   template <class ForEachArc>
   static Adjacency from_arcs(int n_nodes, const ForEachArc& for_each_arc);
 
-  int n_nodes() const { return static_cast<int>(start_.size()) - 1; }
-  int n_arcs() const { return static_cast<int>(arcs_.size()); }
+  int n_nodes() const { return arcs_.n_keys(); }
+  int n_arcs() const { return static_cast<int>(arcs_.values().size()); }
   /// The arcs [first_arc(node), first_arc(node + 1)) leave the node.
-  int first_arc(int node) const { return start_[node]; }
-  const Arc& arc(int index) const { return arcs_[index]; }
-  ArcRange arcs(int node) const { return {arcs_.data() + start_[node], arcs_.data() + start_[node + 1]}; }
+  int first_arc(int node) const { return arcs_.first(node); }
+  const Arc& arc(int index) const { return arcs_.values()[index]; }
+  Grouped<Arc>::Range<const Arc*> arcs(int node) const { return arcs_[node]; }
 
  private:
-  std::vector<int> start_{0};
-  std::vector<Arc> arcs_;
+  Grouped<Arc> arcs_;
 };
 
 template <class ForEachArc>
 Adjacency Adjacency::from_arcs(int n_nodes, const ForEachArc& for_each_arc) {
   Adjacency graph;
-  graph.start_.assign(static_cast<std::size_t>(n_nodes) + 1, 0);
-  for_each_arc([&](int from, int, int) { ++graph.start_[from + 1]; });
-  for (std::size_t i = 1; i < graph.start_.size(); ++i) graph.start_[i] += graph.start_[i - 1];
-  graph.arcs_.resize(static_cast<std::size_t>(graph.start_.back()));
-  std::vector<int> fill(graph.start_.begin(), graph.start_.end() - 1);
-  for_each_arc([&](int from, int edge, int to) { graph.arcs_[fill[from]++] = {edge, to}; });
+  graph.arcs_ = Grouped<Arc>(n_nodes, [&](const auto& visit) {
+    for_each_arc([&](int from, int edge, int to) { visit(from, Arc{edge, to}); });
+  });
   return graph;
 }
 

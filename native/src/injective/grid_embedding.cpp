@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
+
+#include "graph/grouped.h"
 
 namespace spectral_conformal {
 namespace {
@@ -13,35 +14,31 @@ namespace {
 /// one before it.
 class Rotations {
  public:
-  Rotations(const std::vector<std::array<int, 3>>& triangles, int n) : start_(static_cast<std::size_t>(n) + 1, 0) {
-    for (const auto& triangle : triangles) {
-      for (const int v : triangle) ++start_[static_cast<std::size_t>(v) + 1];
-    }
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    corners_.resize(static_cast<std::size_t>(start_.back()));
-    std::vector<int> next(start_.begin(), start_.end() - 1);
-    for (const auto& triangle : triangles) {
-      for (int k = 0; k < 3; ++k) {
-        corners_[next[triangle[k]]++] = {triangle[(k + 1) % 3], triangle[(k + 2) % 3]};
-      }
-    }
+  Rotations(const std::vector<std::array<int, 3>>& triangles, int n)
+      : corners_(n, [&](const auto& visit) {
+          for (const auto& triangle : triangles) {
+            for (int k = 0; k < 3; ++k) visit(triangle[k], Corner{triangle[(k + 1) % 3], triangle[(k + 2) % 3]});
+          }
+        }) {
     // Of every directed edge there is one triangle to its left.
     for (int v = 0; v < n; ++v) {
-      std::sort(begin(v), end(v));
+      const auto [first, last] = corners_[v];
+      std::sort(first, last);
       const auto same = [](const Corner& a, const Corner& b) { return a.from == b.from; };
-      if (std::adjacent_find(begin(v), end(v), same) != end(v)) is_simple_ = false;
+      if (std::adjacent_find(first, last, same) != last) is_simple_ = false;
     }
   }
 
   bool is_simple() const { return is_simple_; }
   /// The neighbour of v that follows `w` counter-clockwise; -1 where no triangle lies between them.
   int next(int v, int w) const {
-    const auto found = std::lower_bound(begin(v), end(v), Corner{w, -1});
-    return found == end(v) || found->from != w ? -1 : found->to;
+    const auto [first, last] = corners_[v];
+    const Corner* const found = std::lower_bound(first, last, Corner{w, -1});
+    return found == last || found->from != w ? -1 : found->to;
   }
   template <class Visit>
   void for_each_neighbour(int v, const Visit& visit) const {
-    for (auto corner = begin(v); corner != end(v); ++corner) visit(corner->from);
+    for (const Corner& corner : corners_[v]) visit(corner.from);
   }
 
  private:
@@ -51,15 +48,7 @@ class Rotations {
     int to;
     bool operator<(const Corner& other) const { return from != other.from ? from < other.from : to < other.to; }
   };
-  using Iterator = std::vector<Corner>::iterator;
-  using ConstIterator = std::vector<Corner>::const_iterator;
-  Iterator begin(int v) { return corners_.begin() + start_[static_cast<std::size_t>(v)]; }
-  Iterator end(int v) { return corners_.begin() + start_[static_cast<std::size_t>(v) + 1]; }
-  ConstIterator begin(int v) const { return corners_.begin() + start_[static_cast<std::size_t>(v)]; }
-  ConstIterator end(int v) const { return corners_.begin() + start_[static_cast<std::size_t>(v) + 1]; }
-
-  std::vector<int> start_;  ///< (n + 1,)
-  std::vector<Corner> corners_;
+  Grouped<Corner> corners_;
   bool is_simple_ = true;
 };
 

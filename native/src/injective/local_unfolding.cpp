@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "concurrency/listening.h"
+#include "graph/grouped.h"
 #include "relaxation/descent.h"
 
 namespace spectral_conformal {
@@ -12,28 +12,6 @@ namespace {
 
 /// Of an element in one pass through all.
 constexpr double pass_nanoseconds = 50;
-
-/// The elements at each vertex.
-class Star {
- public:
-  Star(const std::vector<DistortionElement>& elements, Eigen::Index n) : start_(static_cast<std::size_t>(n) + 1, 0) {
-    for_each_heard(elements.size(), pass_nanoseconds, [&](std::size_t t) {
-      for (const int v : elements[t].corners) ++start_[static_cast<std::size_t>(v) + 1];
-    });
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    elements_.resize(static_cast<std::size_t>(start_.back()));
-    std::vector<int> next(start_.begin(), start_.end() - 1);
-    for_each_heard(elements.size(), pass_nanoseconds, [&](std::size_t t) {
-      for (const int v : elements[t].corners) elements_[next[v]++] = static_cast<int>(t);
-    });
-  }
-  const int* begin(int v) const { return elements_.data() + start_[v]; }
-  const int* end(int v) const { return elements_.data() + start_[static_cast<std::size_t>(v) + 1]; }
-
- private:
-  std::vector<int> start_;
-  std::vector<int> elements_;
-};
 
 /// The vertices that are free to move, and all elements that have one of them.
 struct Region {
@@ -50,7 +28,12 @@ class Unfolding {
         backend_(backend),
         z_(z),
         progress_(progress),
-        star_(elements, z.size()),
+        elements_at_(static_cast<int>(z.size()),
+                     [&](const auto& visit) {
+                       for_each_heard(elements.size(), pass_nanoseconds, [&](std::size_t t) {
+                         for (const int v : elements[t].corners) visit(v, static_cast<int>(t));
+                       });
+                     }),
         log_scale_(vertex_log_scale()) {}
 
   int run() {
@@ -125,8 +108,8 @@ class Unfolding {
     for (int ring = 1; ring < rings; ++ring) {
       const std::size_t ring_end = reached.size();
       for (; ring_begin < ring_end; ++ring_begin) {
-        for (const int* t = star_.begin(reached[ring_begin]); t != star_.end(reached[ring_begin]); ++t) {
-          for (const int v : elements_[*t].corners) reach(v);
+        for (const int t : elements_at_[reached[ring_begin]]) {
+          for (const int v : elements_[t].corners) reach(v);
         }
       }
     }
@@ -146,10 +129,10 @@ class Unfolding {
         open.pop_back();
         still_working(100);
         if (!is_held(v)) region.free.push_back(v);
-        for (const int* t = star_.begin(v); t != star_.end(v); ++t) {
-          if (!taken[*t]) region.elements.push_back(*t);
-          taken[*t] = 1;
-          for (const int other : elements_[*t].corners) {
+        for (const int t : elements_at_[v]) {
+          if (!taken[t]) region.elements.push_back(t);
+          taken[t] = 1;
+          for (const int other : elements_[t].corners) {
             if (!near[other]) continue;
             near[other] = 0;
             open.push_back(other);
@@ -226,7 +209,7 @@ class Unfolding {
   FactorizationBackend backend_;
   ComplexVector& z_;
   const Progress& progress_;
-  Star star_;
+  Grouped<int> elements_at_;  ///< each vertex
   double done_ = 0;
   std::vector<double> log_scale_;
 };

@@ -20,6 +20,7 @@
 #include "linear_algebra/blas_threads.h"
 #include "linear_algebra/nested_dissection.h"
 #include "linear_algebra/supernodal_factor.h"
+#include "linear_algebra/symbolic_factor.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -86,13 +87,13 @@ SupernodalStructure structure_of(const cholmod_factor& symbolic) {
 }
 
 /// An ordering, and what a factor in it is like.
-struct SymbolicFactor {
+struct CholmodAnalysis {
   SupernodalStructure structure;
   double multiplications = 0;  ///< of real numbers
 };
 
 /// order: of the rows, or null.
-SymbolicFactor analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& workspace) {
+CholmodAnalysis analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& workspace) {
   const auto free = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, workspace.get()); };
   std::unique_ptr<cholmod_factor, decltype(free)> symbolic(nullptr, free);
   const double nanoseconds = 150 * static_cast<double>(pattern.nzmax);
@@ -106,7 +107,7 @@ SymbolicFactor analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& w
 /// (0.71 instead of 1.08 GB).
 constexpr Eigen::Index compare_from = 600000;
 
-SymbolicFactor by_minimum_degree(const HermitianMatrix& matrix) {
+CholmodAnalysis by_minimum_degree(const HermitianMatrix& matrix) {
   Workspace workspace;
   workspace->nmethods = matrix.rows() < compare_from ? 1 : 0;
   workspace->method[0].ordering = CHOLMOD_AMD;
@@ -120,9 +121,8 @@ class LeafOrdering {
   LeafOrdering(const Adjacency& graph, NestedDissection& dissection)
       : graph_(graph), dissection_(dissection), place_(dissection.order.size()) {
     for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
-    constexpr int leaves_at_once = 32;
     const int n_leaves = static_cast<int>(dissection.leaves.size());
-    run_blocks_in_parallel(n_leaves, leaves_at_once, nanoseconds_per_leaf, [&](int begin, int end) {
+    run_blocks_in_parallel(n_leaves, nanoseconds_per_leaf, [&](int begin, int end) {
       Workspace workspace;
       for (int k = begin; k < end; ++k) order(dissection_.leaves[k], workspace);
     });
@@ -154,7 +154,7 @@ class LeafOrdering {
   std::vector<int> place_;  ///< of each node in the order as given
 };
 
-SymbolicFactor by_dissection(const HermitianMatrix& matrix, const Adjacency& graph, const Positions& positions) {
+CholmodAnalysis by_dissection(const HermitianMatrix& matrix, const Adjacency& graph, const Positions& positions) {
   NestedDissection dissection = nested_dissection(graph, positions);
   const LeafOrdering ordered(graph, dissection);
   Workspace workspace;
@@ -166,8 +166,8 @@ SymbolicFactor by_dissection(const HermitianMatrix& matrix, const Adjacency& gra
 
 /// Large matrices whose rows lie in space are dissected. A plane cuts a surface that is wound up in space in many
 /// lines, which shows in the multiplications: there minimum degree is tried, too.
-SymbolicFactor analyze_in_best_order(const HermitianMatrix& matrix, const Adjacency& graph,
-                                     const Positions* positions) {
+CholmodAnalysis analyze_in_best_order(const HermitianMatrix& matrix, const Adjacency& graph,
+                                      const Positions* positions) {
   const auto n = static_cast<double>(matrix.rows());
   // With quads, both of whose diagonals are edges, AMD takes a third of the time.
   constexpr double max_entries_of_triangles = 4.25;
@@ -175,11 +175,11 @@ SymbolicFactor analyze_in_best_order(const HermitianMatrix& matrix, const Adjace
   // With fewer rows, minimum degree alone is faster on most scanned shapes.
   const Eigen::Index dissect_from = has_quads ? 200000 : 100000;
   if (positions == nullptr || matrix.rows() < dissect_from) return by_minimum_degree(matrix);
-  SymbolicFactor dissected = by_dissection(matrix, graph, *positions);
+  CholmodAnalysis dissected = by_dissection(matrix, graph, *positions);
   // Over n^(3/2): triangles of a grid take 10 to 18, quads 20 to 29.
   constexpr double many = 30;
   if (dissected.multiplications <= many * n * std::sqrt(n)) return dissected;
-  SymbolicFactor other = by_minimum_degree(matrix);
+  CholmodAnalysis other = by_minimum_degree(matrix);
   return other.multiplications < dissected.multiplications ? other : dissected;
 }
 
@@ -189,32 +189,32 @@ class CholmodFactorization final : public Factorization {
   void analyze(const HermitianMatrix& matrix, const Positions* positions) override {
     const Adjacency graph = graph_of(matrix);
     factor_.analyze(matrix, graph, analyze_in_best_order(matrix, graph, positions).structure);
-    all_ = factor_.whole();
-    work_.setZero(factor_.n());
+    all_ = symbolic().whole();
+    work_.setZero(symbolic().n());
   }
 
   bool factorize(const HermitianMatrix& matrix) override { return factor_.factorize(matrix); }
 
   void solve(const ComplexVector& b, ComplexVector& x) override {
     const BlasThreads threads;
-    for (Eigen::Index i = 0; i < work_.size(); ++i) work_[i] = b[factor_.order()[i]];
+    for (Eigen::Index i = 0; i < work_.size(); ++i) work_[i] = b[symbolic().order()[i]];
     factor_.forward(all_, work_);
     factor_.backward(all_, work_);
     permute_back(x);
   }
 
   void select(std::vector<int> vertices) override {
-    std::vector<int> index(static_cast<std::size_t>(factor_.n()));
-    for (int i = 0; i < factor_.n(); ++i) index[factor_.order()[i]] = i;
+    std::vector<int> index(static_cast<std::size_t>(symbolic().n()));
+    for (int i = 0; i < symbolic().n(); ++i) index[symbolic().order()[i]] = i;
     selected_.clear();
     for (const int vertex : vertices) selected_.push_back(index[vertex]);
-    reached_ = factor_.above(selected_);
+    reached_ = symbolic().above(selected_);
   }
 
   void solve_selected(const ComplexVector& b, ComplexVector& x) override {
     const BlasThreads threads;
     for (const int k : reached_.supernodes()) {
-      work_.segment(factor_.first_column(k), factor_.first_column(k + 1) - factor_.first_column(k)).setZero();
+      work_.segment(symbolic().first_column(k), symbolic().columns(k)).setZero();
     }
     for (Eigen::Index i = 0; i < b.size(); ++i) work_[selected_[i]] = b[i];
     factor_.forward(reached_, work_);
@@ -232,20 +232,21 @@ class CholmodFactorization final : public Factorization {
     permute_back(x);
   }
 
-  double factor_nonzeros() const override { return factor_.nonzeros(); }
+  double factor_nonzeros() const override { return symbolic().nonzeros(); }
 
  private:
+  const SymbolicFactor& symbolic() const { return factor_.symbolic(); }
   void permute_back(ComplexVector& x) const {
     x.resize(work_.size());
-    for (Eigen::Index i = 0; i < work_.size(); ++i) x[factor_.order()[i]] = work_[i];
+    for (Eigen::Index i = 0; i < work_.size(); ++i) x[symbolic().order()[i]] = work_[i];
     still_working(10 * static_cast<double>(work_.size()));
   }
 
   SupernodalFactor factor_;
-  SupernodalFactor::Path all_;
-  std::vector<int> selected_;       ///< columns
-  SupernodalFactor::Path reached_;  ///< from the selected columns
-  ComplexVector work_;              ///< in the factor's order
+  SymbolicFactor::Path all_;
+  std::vector<int> selected_;     ///< columns
+  SymbolicFactor::Path reached_;  ///< from the selected columns
+  ComplexVector work_;            ///< in the factor's order
 };
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "geometry/polygon_triangulation.h"
 #include "graph/disjoint_sets.h"
+#include "graph/grouped.h"
 #include "mesh/half_edges.h"
 
 namespace spectral_conformal {
@@ -203,28 +203,19 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
   }
 
   // Number the fans chart by chart in the order of the mesh's vertices: first sort the fans' roots by vertex.
-  std::vector<int> roots_start(static_cast<std::size_t>(mesh.n_vertices) + 1, 0);
-  const auto is_root = [&](int c) { return half_edges.is_used(half_edges.face(c)) && fans.find(c) == c; };
-  for (int c = 0; c < half_edges.n_corners(); ++c) {
-    if (is_root(c)) ++roots_start[mesh.corner_vertices[c] + 1];
-  }
-  still_working(10.0 * half_edges.n_corners());
-  std::partial_sum(roots_start.begin(), roots_start.end(), roots_start.begin());
-  std::vector<int> roots(static_cast<std::size_t>(roots_start.back()));
-  {
-    std::vector<int> fill(roots_start.begin(), roots_start.end() - 1);
+  const Grouped<int> roots(mesh.n_vertices, [&](const auto& visit) {
     for (int c = 0; c < half_edges.n_corners(); ++c) {
-      if (is_root(c)) roots[fill[mesh.corner_vertices[c]]++] = c;
+      if (half_edges.is_used(half_edges.face(c)) && fans.find(c) == c) visit(mesh.corner_vertices[c], c);
     }
     still_working(10.0 * half_edges.n_corners());
-  }
+  });
   result.charts.resize(components.faces.size());
   for (std::size_t i = 0; i < result.charts.size(); ++i) {
     result.charts[i].faces = std::move(components.faces[i]);
     result.charts[i].orientable = components.orientable[i] != 0;
   }
   result.chart_vertex_of_corner.assign(static_cast<std::size_t>(half_edges.n_corners()), -1);
-  for (const int root : roots) {
+  for (const int root : roots.values()) {
     Chart& chart = result.charts[result.chart_of_face[half_edges.face(root)]];
     const int vertex = mesh.corner_vertices[root];
     if (!chart.vertices.empty() && chart.vertices.back() == vertex) ++result.split_vertices;

@@ -11,8 +11,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Faces that a thread takes at once.
-constexpr int faces_at_once = 8192;
+/// Of a face.
 constexpr double triangulating_nanoseconds = 50;
 
 class FaceSplitter {
@@ -72,7 +71,7 @@ FaceTriangles triangulate_faces(const PolygonMesh& mesh) {
   FaceTriangles result;
   result.corners.resize(static_cast<std::size_t>(first_triangle.back()));
   result.face.resize(result.corners.size());
-  run_blocks_in_parallel(mesh.n_faces, faces_at_once, triangulating_nanoseconds, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, triangulating_nanoseconds, [&](int begin, int end) {
     FaceSplitter splitter(mesh);
     for (int face = begin; face < end; ++face) {
       const int first = first_triangle[face];

@@ -1,10 +1,10 @@
 #include "mesh/half_edges.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "graph/grouped.h"
 
 namespace spectral_conformal {
 namespace {
@@ -33,38 +33,31 @@ class EdgeTable {
   };
 
   EdgeTable(const PolygonMesh& mesh, const HalfEdges& half_edges)
-      : start_(static_cast<std::size_t>(mesh.n_vertices) + 1, 0) {
-    const auto each = [&](auto&& visit) {
-      for (int c = 0; c < half_edges.n_corners(); ++c) {
-        if (!half_edges.is_used(half_edges.face(c))) continue;
-        const int a = half_edges.from(c);
-        const int b = half_edges.to(c);
-        visit(std::min(a, b), Entry{std::max(a, b), c});
-      }
-      for (int i = 0; i < mesh.n_seam_edges; ++i) {
-        const auto& seam = mesh.seam_edges[i];
-        visit(std::min(seam[0], seam[1]), Entry{std::max(seam[0], seam[1]), -1});
-      }
-    };
-    each([&](int smaller, const Entry&) { ++start_[smaller + 1]; });
-    still_working(5.0 * half_edges.n_corners());
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    entries_.resize(static_cast<std::size_t>(start_.back()));
-    std::vector<int> fill(start_.begin(), start_.end() - 1);
-    each([&](int smaller, const Entry& entry) { entries_[fill[smaller]++] = entry; });
-    still_working(10.0 * half_edges.n_corners());
+      : entries_(mesh.n_vertices, [&](const auto& visit) {
+          for (int c = 0; c < half_edges.n_corners(); ++c) {
+            if (!half_edges.is_used(half_edges.face(c))) continue;
+            const int a = half_edges.from(c);
+            const int b = half_edges.to(c);
+            visit(std::min(a, b), Entry{std::max(a, b), c});
+          }
+          for (int i = 0; i < mesh.n_seam_edges; ++i) {
+            const auto& seam = mesh.seam_edges[i];
+            visit(std::min(seam[0], seam[1]), Entry{std::max(seam[0], seam[1]), -1});
+          }
+          still_working(7.5 * half_edges.n_corners());
+        }) {
     for (int v = 0; v < mesh.n_vertices; ++v) {
-      std::sort(entries_.begin() + start_[v], entries_.begin() + start_[v + 1]);
-      still_working(30.0 * (start_[v + 1] - start_[v]));
+      std::sort(entries_[v].begin(), entries_[v].end());
+      still_working(30.0 * entries_[v].size());
     }
   }
 
   /// Calls visit(first, last) for the run of entries of each edge; a seam's entry comes first.
   template <class Visit>
   void for_each_edge(Visit&& visit) const {
-    for (std::size_t v = 0; v + 1 < start_.size(); ++v) {
-      const Entry* entry = entries_.data() + start_[v];
-      const Entry* const end = entries_.data() + start_[v + 1];
+    for (int v = 0; v < entries_.n_keys(); ++v) {
+      const auto [begin, end] = entries_[v];
+      const Entry* entry = begin;
       while (entry != end) {
         const Entry* last = entry;
         while (last != end && last->larger == entry->larger) ++last;
@@ -76,8 +69,7 @@ class EdgeTable {
   }
 
  private:
-  std::vector<int> start_;
-  std::vector<Entry> entries_;
+  Grouped<Entry> entries_;
 };
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "concurrency/parallel_calls.h"
+#include "graph/grouped.h"
 
 namespace spectral_conformal {
 namespace {
@@ -93,36 +93,25 @@ std::vector<int> used_vertices(const PolygonMesh& mesh) {
   return result;
 }
 
-/// The selected faces of each vertex, once per corner.
-class VertexFaces {
- public:
-  explicit VertexFaces(const PolygonMesh& mesh) : start_(static_cast<std::size_t>(mesh.n_vertices) + 1, 0) {
-    const auto each = [&](auto&& visit) {
-      for (int face = 0; face < mesh.n_faces; ++face) {
-        if (!mesh.is_selected(face)) continue;
-        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c)
-          visit(mesh.corner_vertices[c], face);
-      }
-    };
-    each([&](int vertex, int) { ++start_[vertex + 1]; });
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    faces_.resize(static_cast<std::size_t>(start_.back()));
-    std::vector<int> fill(start_.begin(), start_.end() - 1);
-    each([&](int vertex, int face) { faces_[fill[vertex]++] = face; });
-  }
-  const int* begin(int vertex) const { return faces_.data() + start_[vertex]; }
-  const int* end(int vertex) const { return faces_.data() + start_[static_cast<std::size_t>(vertex) + 1]; }
-  int count(int vertex) const { return static_cast<int>(end(vertex) - begin(vertex)); }
-  bool share_a_face(int a, int b) const {
-    if (count(a) > count(b)) std::swap(a, b);
-    // Ascending, as they were entered.
-    return std::any_of(begin(a), end(a), [&](int face) { return std::binary_search(begin(b), end(b), face); });
-  }
+/// The selected faces of each vertex, once per corner, ascending.
+using VertexFaces = Grouped<int>;
 
- private:
-  std::vector<int> start_;
-  std::vector<int> faces_;
-};
+VertexFaces vertex_faces(const PolygonMesh& mesh) {
+  return {mesh.n_vertices, [&](const auto& visit) {
+            for (int face = 0; face < mesh.n_faces; ++face) {
+              if (!mesh.is_selected(face)) continue;
+              for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+                visit(mesh.corner_vertices[c], face);
+              }
+            }
+          }};
+}
+
+bool share_a_face(const VertexFaces& faces, int a, int b) {
+  if (faces[a].size() > faces[b].size()) std::swap(a, b);
+  return std::any_of(faces[a].begin(), faces[a].end(),
+                     [others = faces[b]](int face) { return std::binary_search(others.begin(), others.end(), face); });
+}
 
 /// Of several vertices near the mirror image of a vertex, the one whose faces have most vertices that are images of the
 /// own faces' vertices. Memory is linear in the corners, so that polygons may have any number of them.
@@ -155,8 +144,8 @@ class AmbiguousMatch {
   /// The first of the best candidates.
   int choose(int own, const std::vector<int>& candidates) {
     for (const int candidate : candidates) votes_[candidate] = 0;
-    for (const int* face = faces_.begin(own); face != faces_.end(own); ++face) {
-      for (int i = start_[*face]; i < start_[*face + 1]; ++i) {
+    for (const int face : faces_[own]) {
+      for (int i = start_[face]; i < start_[face + 1]; ++i) {
         if (matched_[i] != own) vote(image_[matched_[i]], candidates);
       }
     }
@@ -170,18 +159,18 @@ class AmbiguousMatch {
   /// Adds one to the candidates that share a face with `image`, whichever way is shorter.
   void vote(int image, const std::vector<int>& candidates) {
     std::size_t n_corners = 0;
-    for (const int* face = faces_.begin(image); face != faces_.end(image); ++face) {
-      n_corners += static_cast<std::size_t>(mesh_.n_corners(*face));
+    for (const int face : faces_[image]) {
+      n_corners += static_cast<std::size_t>(mesh_.n_corners(face));
       if (n_corners > candidates.size()) {
         for (const int candidate : candidates) {
-          if (candidate != image && faces_.share_a_face(image, candidate)) ++votes_[candidate];
+          if (candidate != image && share_a_face(faces_, image, candidate)) ++votes_[candidate];
         }
         return;
       }
     }
     ++vote_;
-    for (const int* face = faces_.begin(image); face != faces_.end(image); ++face) {
-      for (int c = mesh_.face_offsets[*face]; c < mesh_.face_offsets[*face + 1]; ++c) {
+    for (const int face : faces_[image]) {
+      for (int c = mesh_.face_offsets[face]; c < mesh_.face_offsets[face + 1]; ++c) {
         const int other = mesh_.corner_vertices[c];
         if (other == image || votes_[other] < 0 || voted_[other] == vote_) continue;
         voted_[other] = vote_;
@@ -317,7 +306,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   Positions points = Positions::Zero(mesh.n_vertices, 3);
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
-  const VertexFaces faces(mesh);
+  const VertexFaces faces = vertex_faces(mesh);
   const FacesByVertices faces_by_vertices(mesh);
   std::array<MirrorSymmetry, 3> candidates;
   std::array<int, 3> matched{};

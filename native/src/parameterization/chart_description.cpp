@@ -1,26 +1,51 @@
 #include "parameterization/chart_description.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <type_traits>
 
 namespace spectral_conformal {
 namespace {
 
-/// Bytes of values, one after the other.
-class Description {
+/// A bijection in which each bit of x changes about half of the bits (the finalizer of splitmix64; Steele, Lea and
+/// Flood 2014).
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31);
+}
+
+/// Two chains of words, each state a bijection of the one before and of the word.
+class Digest {
  public:
   template <class... Values>
   void add(const Values&... values) {
     (add_value(values), ...);
   }
-  std::string bytes;
+  std::string bytes() const {
+    std::string result(sizeof state_, '\0');
+    std::memcpy(result.data(), state_, sizeof state_);
+    return result;
+  }
 
  private:
+  /// In words of eight bytes; the last one is filled up with zeros.
+  void add_bytes(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const char*>(data);
+    for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
+      state_[0] = mixed(state_[0] ^ word);
+      state_[1] = mixed(state_[1] + word);
+    }
+  }
   template <class Value>
   void add_value(const Value& value) {
     // Others may have bytes that mean nothing between their members.
     static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    add_bytes(&value, sizeof value);
   }
   void add_value(const std::optional<double>& value) {
     add_value(value.has_value());
@@ -30,7 +55,7 @@ class Description {
   void add_value(const std::vector<Value>& values) {
     add_value(values.size());
     static_assert(std::has_unique_object_representations_v<Value> || std::is_same_v<Value, double>);
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+    add_bytes(values.data(), values.size() * sizeof(Value));
   }
   void add_value(const std::vector<BoundaryLoop>& loops) {
     add_value(loops.size());
@@ -52,34 +77,32 @@ class Description {
   }
   void add_value(const Pins& pins) {
     add_value(pins.size());
-    for (const auto& [vertex, place] : pins) add(vertex, place.real(), place.imag());
+    for (const auto& [vertex, position] : pins) add(vertex, position.real(), position.imag());
   }
   void add_value(const Positions& positions) {
     add_value(positions.rows());
-    bytes.append(reinterpret_cast<const char*>(positions.data()),
-                 static_cast<std::size_t>(positions.size()) * sizeof(double));
+    add_bytes(positions.data(), static_cast<std::size_t>(positions.size()) * sizeof(double));
   }
+
+  std::uint64_t state_[2] = {1, 2};
 };
 
 }  // namespace
 
 std::string describe_chart(const Chart& chart, const Positions& positions, const std::vector<TriangleMetric>& metric,
                            const PatchOptions& patch, const SolveOptions& solve, const Pins& pins) {
-  Description description;
-  description.bytes.reserve(static_cast<std::size_t>(positions.size()) * sizeof(double) +
-                            chart.triangles.size() * (sizeof(chart.triangles[0]) + 2 * sizeof(double)) +
-                            chart.vertices.size() * sizeof(int) + 1024);
+  Digest digest;
   // Bound by name, so that a member that is added must be added here.
   const auto& [faces, vertices, triangles, triangle_weights, triangle_face, boundary_loops, euler_characteristic,
                orientable, self_intersecting_polygons, reversed_faces, duplicates] = chart;
-  description.add(faces, vertices, triangles.vector(), triangle_weights.vector(), triangle_face, boundary_loops,
-                  euler_characteristic, orientable, self_intersecting_polygons, reversed_faces, duplicates, positions,
-                  metric);
+  digest.add(faces, vertices, triangles.vector(), triangle_weights.vector(), triangle_face, boundary_loops,
+             euler_characteristic, orientable, self_intersecting_polygons, reversed_faces, duplicates, positions,
+             metric);
   const auto& [weights, boundary, backend, fill_holes, area_blend, fold_free, polish] = patch;
-  description.add(weights, boundary, backend, fill_holes, area_blend, fold_free, polish);
+  digest.add(weights, boundary, backend, fill_holes, area_blend, fold_free, polish);
   const auto& [method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, second_attempt] = solve;
-  description.add(method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, second_attempt, pins);
-  return std::move(description.bytes);
+  digest.add(method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, second_attempt, pins);
+  return digest.bytes();
 }
 
 }  // namespace spectral_conformal

@@ -397,7 +397,7 @@ class ChartLoop {
               // It has none, then.
             }
           },
-          progress, "eigenproblem", n_faces_of(first, last) < min_faces_to_share ? 1 : all_threads);
+          progress, "eigenproblem", max_threads_for(face_nanoseconds * static_cast<double>(n_faces_of(first, last))));
       const bool were_others = last - first > 1;
       // The fraction done only rises.
       const Progress rest = [&](double, const char* phase) { return !progress || progress(end_[last], phase); };
@@ -422,8 +422,8 @@ class ChartLoop {
   static constexpr std::size_t max_faces_in_batch = 400000;
   /// Likewise: a chart of one face takes a kilobyte until then.
   static constexpr int max_charts_in_batch = 20000;
-  /// Fewer are done before a second thread has begun.
-  static constexpr std::size_t min_faces_to_share = 2000;
+  /// About what a face takes at least.
+  static constexpr double face_nanoseconds = 1000;
 
   template <class Solve>
   static std::optional<ChartUnwrapper::Solution> solved_alone(int i, const Progress& progress, const Solve& solve) {

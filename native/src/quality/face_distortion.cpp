@@ -16,8 +16,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Faces that a thread takes at once.
-constexpr int block_size = 8192;
+/// Of a face.
 constexpr double measuring_nanoseconds = 200;
 
 /// Squares of lengths between these bounds, whose squares neither overflow nor vanish, need no unit.
@@ -201,7 +200,7 @@ FaceDistortion measured(const PolygonMesh& mesh, const Real* corner_uv) {
   FaceDistortion result;
   result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  run_blocks_in_parallel(mesh.n_faces, block_size, measuring_nanoseconds, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, measuring_nanoseconds, [&](int begin, int end) {
     FaceMeasure<Real> measure(mesh, corner_uv);
     for (int face = begin; face < end; ++face) measure.measure(face, result);
   });

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "geometry/quad_splits.h"
 #include "geometry/signed_area.h"
+#include "graph/grouped.h"
 #include "mesh/charts.h"
 #include "quality/flips.h"
 #include "quality/overlap.h"
@@ -30,34 +30,24 @@ class MapMesh {
  public:
   MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
     const int n_corners = mesh.n_corners();
-    std::vector<int> first_image(static_cast<std::size_t>(mesh.n_vertices) + 1, 0);
-    for_each_heard(mesh.n_faces, images_nanoseconds, [&](int face) {
-      if (!mesh.is_selected(face)) return;
-      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-        const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
-        if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
-          throw InvalidMesh("The UV of corner " + std::to_string(c) + " (face " + std::to_string(face) +
-                            ") is not finite; leave its face out of the selection or give it coordinates.");
+    Grouped<Image> images(mesh.n_vertices, [&](const auto& visit) {
+      for_each_heard(mesh.n_faces, images_nanoseconds, [&](int face) {
+        if (!mesh.is_selected(face)) return;
+        for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
+          const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
+          if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
+            throw InvalidMesh("The UV of corner " + std::to_string(c) + " (face " + std::to_string(face) +
+                              ") is not finite; leave its face out of the selection or give it coordinates.");
+          }
+          visit(mesh.corner_vertices[c], Image{uv[0], uv[1], c});
         }
-        ++first_image[static_cast<std::size_t>(mesh.corner_vertices[c]) + 1];
-      }
-    });
-    std::partial_sum(first_image.begin(), first_image.end(), first_image.begin());
-    std::vector<Image> images(static_cast<std::size_t>(first_image.back()));
-    std::vector<int> next(first_image.begin(), first_image.end() - 1);
-    for_each_heard(mesh.n_faces, images_nanoseconds, [&](int face) {
-      if (!mesh.is_selected(face)) return;
-      for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-        const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
-        images[static_cast<std::size_t>(next[mesh.corner_vertices[c]]++)] = {uv[0], uv[1], c};
-      }
+      });
     });
     vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
     for_each_heard(mesh.n_vertices, 5 * images_nanoseconds, [&](int v) {
-      const auto first = images.begin() + first_image[v];
-      const auto last = images.begin() + first_image[v + 1];
+      const auto [first, last] = images[v];
       std::sort(first, last);
-      for (auto image = first; image != last; ++image) {
+      for (const Image* image = first; image != last; ++image) {
         if (image == first || !(image - 1)->same_point(*image)) {
           positions_.insert(positions_.end(), {image->u, image->v, 0.0});
         }

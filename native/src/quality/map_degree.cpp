@@ -206,17 +206,15 @@ class DegreeTest {
 
  private:
   static constexpr int unknown = std::numeric_limits<int>::min();
-  static constexpr std::size_t tested_at_once = 4096;
   static constexpr double nanoseconds_per_triangle = 300;
   static constexpr double joining_nanoseconds = 60;
 
   void find_triangles_off_the_boundary() {
-    run_blocks_in_parallel(triangles_.size(), tested_at_once, nanoseconds_per_triangle,
-                           [&](std::size_t begin, std::size_t end) {
-                             for (std::size_t t = begin; t < end; ++t) {
-                               is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
-                             }
-                           });
+    run_blocks_in_parallel(triangles_.size(), nanoseconds_per_triangle, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
+      }
+    });
   }
   int inner_vertex(std::size_t t) const {
     const auto found =

@@ -22,10 +22,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Triangles that a thread tests at a time.
-constexpr std::size_t tested_at_once = 4096;
+/// Of a triangle that is tested, and of one that is copied, placed or sorted among many.
 constexpr double testing_nanoseconds = 1000;
-/// Of a triangle that is copied, placed or sorted among many.
 constexpr double copying_nanoseconds = 20;
 constexpr double placing_nanoseconds = 80;
 constexpr double stacking_nanoseconds = 300;
@@ -219,15 +217,14 @@ class OverlapTest {
   bool for_each_triangle(const Work& work, std::size_t most = pairs_of_each) const {
     const std::size_t limit = most == no_limit ? no_limit : most * triangles_.size();
     std::atomic<std::size_t> pairs{0};
-    run_blocks_in_parallel(triangles_.size(), tested_at_once, testing_nanoseconds,
-                           [&](std::size_t begin, std::size_t end) {
-                             const std::size_t before = pairs.load(std::memory_order_relaxed);
-                             std::size_t own = 0;
-                             for (std::size_t t = begin; t < end && before + own <= limit; ++t) {
-                               if (is_left_out_.empty() || is_left_out_[t] == 0) own += work(t);
-                             }
-                             pairs.fetch_add(own, std::memory_order_relaxed);
-                           });
+    run_blocks_in_parallel(triangles_.size(), testing_nanoseconds, [&](std::size_t begin, std::size_t end) {
+      const std::size_t before = pairs.load(std::memory_order_relaxed);
+      std::size_t own = 0;
+      for (std::size_t t = begin; t < end && before + own <= limit; ++t) {
+        if (is_left_out_.empty() || is_left_out_[t] == 0) own += work(t);
+      }
+      pairs.fetch_add(own, std::memory_order_relaxed);
+    });
     return pairs.load(std::memory_order_relaxed) <= limit;
   }
 

@@ -119,14 +119,7 @@ double energy_and_gradient(const std::vector<DistortionElement>& elements, Disto
     const double scale = element.weight / (element.shape.x1 * element.shape.y2);
     const Complex g = scale * (f.by_square + f.by_determinant) * j.holomorphic;
     const Complex h = scale * (f.by_square - f.by_determinant) * j.antiholomorphic;
-    // With p = x2 + i y2, written out: by d1, -i p g + i conj(p) h; by d2, i x1 (g - h).
-    const auto& [x1, x2, y2, clamped] = element.shape;
-    const Complex towards_b(x2 * (g.imag() - h.imag()) + y2 * (g.real() + h.real()),
-                            x2 * (h.real() - g.real()) + y2 * (g.imag() + h.imag()));
-    const Complex towards_c(x1 * (h.imag() - g.imag()), x1 * (g.real() - h.real()));
-    gradient[element.corners[1]] += towards_b;
-    gradient[element.corners[2]] += towards_c;
-    gradient[element.corners[0]] -= towards_b + towards_c;
+    element.shape.add_gradient(element.corners, g, h, gradient.data());
   }
   still_working(energy_nanoseconds * static_cast<double>(elements.size()));
   return sum;

@@ -14,8 +14,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Threads are not worth their start for fewer.
-constexpr std::size_t triangles_of_part = 25000;
+constexpr double triangle_nanoseconds = 40;
+/// More parts would have more vertices in common, and hardly more threads.
 constexpr std::size_t max_parts = 32;
 
 /// f_z, f_zbar and the determinant |f_z|^2 - |f_zbar|^2 of a triangle's image.
@@ -65,7 +65,7 @@ void MeanDistortion::for_each_part(const Work& work) {
     work(parts_.front());
     return;
   }
-  const double nanoseconds = 40 * static_cast<double>(parts_.front().triangles.capacity());
+  const double nanoseconds = triangle_nanoseconds * static_cast<double>(parts_.front().triangles.capacity());
   run_in_parallel(
       n,
       [&](int i, const Progress&) {
@@ -78,7 +78,9 @@ void MeanDistortion::for_each_part(const Work& work) {
 MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
   const DistortionElements elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(),
                                     energy.n_virtual());
-  const std::size_t n_parts = std::clamp(elements.size() / triangles_of_part, std::size_t{1}, max_parts);
+  const double work = triangle_nanoseconds * static_cast<double>(elements.size());
+  const std::size_t n_parts =
+      std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, max_parts);
   parts_.resize(n_parts);
   for_each_part([&](Part& part) {
     const auto p = static_cast<std::size_t>(&part - parts_.data());
@@ -145,14 +147,7 @@ double MeanDistortion::sum_up(Part& part, double squared_smoothing) {
     const double by_determinant = -by_square * distorted.c;
     const Complex g = (by_square + by_determinant) * image.holomorphic;
     const Complex h = (by_square - by_determinant) * image.antiholomorphic;
-    // With p = x2 + i y2, written out: by d1, -i p g + i conj(p) h; by d2, i x1 (g - h).
-    const TriangleShape& shape = triangle.shape;
-    const Complex towards_b(shape.x2 * (g.imag() - h.imag()) + shape.y2 * (g.real() + h.real()),
-                            shape.x2 * (h.real() - g.real()) + shape.y2 * (g.imag() + h.imag()));
-    const Complex towards_c(shape.x1 * (h.imag() - g.imag()), shape.x1 * (g.real() - h.real()));
-    gradient[b] += towards_b;
-    gradient[c] += towards_c;
-    gradient[a] -= towards_b + towards_c;
+    triangle.shape.add_gradient(triangle.corners, g, h, gradient);
   }
   return sum;
 }

@@ -28,9 +28,10 @@ TEST_CASE("every call is made once") {
 TEST_CASE("blocks hold every number once, and as many as they are to but for the last") {
   const ThreadBudget::Pretended cores(4);
   constexpr std::size_t block_size = 4;
+  constexpr double nanoseconds = shared_nanoseconds / block_size;
   for (const std::size_t n : {0, 1, 3, 4, 5, 8, 30}) {
     std::vector<int> calls(n, 0);
-    run_blocks_in_parallel(n, block_size, 1, [&](std::size_t begin, std::size_t end) {
+    run_blocks_in_parallel(n, nanoseconds, [&](std::size_t begin, std::size_t end) {
       CHECK(begin % block_size == 0);
       CHECK(end == std::min(n, begin + block_size));
       for (std::size_t i = begin; i < end; ++i) ++calls[i];
@@ -43,7 +44,7 @@ TEST_CASE("what a block throws is thrown") {
   const ThreadBudget::Pretended cores(4);
   for (const int n : {4, 40}) {
     const auto work = [](int begin, int) { throw std::runtime_error(std::to_string(begin)); };
-    CHECK_THROWS_WITH_AS(run_blocks_in_parallel(n, 4, 1, work), "0", std::runtime_error);
+    CHECK_THROWS_WITH_AS(run_blocks_in_parallel(n, shared_nanoseconds / 4, work), "0", std::runtime_error);
   }
 }
 

@@ -53,6 +53,20 @@ TEST_CASE("the holomorphic and antiholomorphic parts of f = a p + b conj(p) are 
   CHECK(std::abs(shape.antiholomorphic_part(f(z[1]), f(z[2])) - factor * b) < 1e-13 * factor);
 }
 
+TEST_CASE("a gradient by the corners is the adjoint of the two parts") {
+  const TriangleShape shape = local_isometric_frame({0, 0, 0}, {1, 2, 0.5}, {-1, 1, 2});
+  const std::array<Complex, 3> z{Complex(0.2, 1.5), Complex(-0.7, 0.4), Complex(2.1, -0.3)};
+  const Complex g(0.9, -1.4), h(-0.2, 0.6);
+  std::array<Complex, 4> gradient{1.0, 1.0, 1.0, 1.0};
+  shape.add_gradient({3, 0, 2}, g, h, gradient.data());
+  CHECK(gradient[1] == 1.0);
+  const auto dot = [](Complex a, Complex b) { return std::real(std::conj(a) * b); };
+  const Complex d1 = z[1] - z[0], d2 = z[2] - z[0];
+  const double by_parts = dot(g, shape.holomorphic_part(d1, d2)) + dot(h, shape.antiholomorphic_part(d1, d2));
+  const double by_corners = dot(gradient[3] - 1.0, z[0]) + dot(gradient[0] - 1.0, z[1]) + dot(gradient[2] - 1.0, z[2]);
+  CHECK(by_corners == doctest::Approx(by_parts).epsilon(1e-13));
+}
+
 TEST_CASE("a triangle below the least height is lifted to it, whichever side is its longest") {
   constexpr double least = TriangleShape::min_height;
   for (const double height : {0.0, 0.4 * least}) {

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <bitset>
 #include <set>
+#include <string>
 
 #include "meshes.h"
 #include "parameterization/chart_description.h"
@@ -85,6 +87,32 @@ TEST_CASE("whatever changes the map changes the description") {
     found.insert(problem.describe());
   }
   CHECK(found.size() == changes.size());
+}
+
+TEST_CASE("every bit of the positions changes about half of a digest of 128 bits") {
+  Described problem;
+  const std::string before = problem.describe();
+  REQUIRE(before.size() == 16);
+  std::set<std::string> found{before};
+  std::size_t n_changed = 0;
+  const std::size_t n_bits = 64 * static_cast<std::size_t>(problem.positions.size());
+  for (std::size_t i = 0; i < n_bits; ++i) {
+    const auto flip = [&] {
+      auto* const bytes = reinterpret_cast<unsigned char*>(problem.positions.data());
+      bytes[i / 8] = static_cast<unsigned char>(bytes[i / 8] ^ (1U << (i % 8)));
+    };
+    flip();
+    const std::string after = problem.describe();
+    flip();
+    found.insert(after);
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      n_changed += std::bitset<8>(static_cast<unsigned char>(after[k] ^ before[k])).count();
+    }
+  }
+  CHECK(found.size() == n_bits + 1);
+  const double mean = static_cast<double>(n_changed) / static_cast<double>(n_bits);
+  CHECK(mean > 63);
+  CHECK(mean < 65);
 }
 
 TEST_SUITE_END();
