@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hands the tables of `locale` to Blender, and Blender's way to look texts up to `core`."""
+"""Registers the tables of `locale` with Blender, and Blender's translation function with `core`."""
 
 import bpy
 
@@ -7,8 +7,8 @@ from . import compatibility, names
 from .core.words import translation
 from .locale import TABLES
 
-# Blender looks up labels of operators, and of buttons and undo steps that stand for them, in a context of their own,
-# everything else in that of all texts ("*"). Most labels appear in both.
+# Blender translates labels of operators, their buttons and undo steps in a context of their own, everything else in the
+# default one ("*"). Most labels appear in both.
 _CONTEXTS = ("*", "Operator")
 
 

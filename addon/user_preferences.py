@@ -5,13 +5,13 @@ from typing import Any
 
 import bpy
 
-# Of the limits: beyond this, what follows every edit is felt.
+# Default of the limit: larger meshes slow down every edit noticeably.
 MAX_FACES = 2_000_000
-# Of Live Spectral Unwrap, which solves while Blender waits and hears no Esc: half a second on two cores.
+# Default of the limit of Live Spectral Unwrap, which blocks Blender: half a second on two cores.
 LIVE_MAX_FACES = 100_000
 
 
 def read(name: str, without: Any) -> Any:  # noqa: ANN401 - of whatever type the preference is
-    """Return a preference, or `without` where the add-on has none, as when a script enables it for itself."""
+    """Return a preference, or `without` if the add-on has none, as when a script enables it."""
     addon = bpy.context.preferences.addons.get(__package__)
     return without if addon is None or addon.preferences is None else getattr(addon.preferences, name)

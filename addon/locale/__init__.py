@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The translations of `core/words/texts.py`: one file per language, a dictionary from every English text to the other.
+"""The translations of `core/words/texts.py`: one file per language, a dictionary from English texts.
 
-The words in braces are fields and stay as they are. Where Blender itself translates a text, as it does "Margin", its
-own translation is shown.
+Words in braces are fields and stay as they are. For texts that Blender translates, such as "Margin", its own
+translation is shown.
 """
 
 from . import de
 
-# By Blender's codes of the languages, in preferences and `bpy.app.translations.locales`; the country may be left out.
+# By Blender's language codes, as in `bpy.app.translations.locales`; the country may be omitted.
 TABLES = {"de": de.TEXTS}

@@ -1,4 +1,4 @@
-"""Seams that a UV map has, and its islands in the unit square."""
+"""The seams of a UV map, and its islands in the unit square."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import numpy.typing as npt
 from ._measuring import next_corner
 from ._packing import pack_boxes
 
-# Of the packer, which arranges boxes of other sizes otherwise: the next side may be larger by some part.
+# Margin for the packer, whose side may grow a little with the next sizes.
 _GROWTH = 1e-3
 _ROUNDS = 64
-# Times the largest box: beyond it nothing is left of the boxes.
+# In largest boxes: beyond it nothing is left of the boxes.
 _LARGEST_SPACE = 1e3
 
 
@@ -23,7 +23,7 @@ def map_seams(
     Args:
         face_offsets: as in `unwrap`.
         corner_vertices: as in `unwrap`.
-        corner_uv: (C, 2); corners without UVs, not numbers, agree with none.
+        corner_uv: (C, 2); NaN for corners without UVs, which agree with none.
     """
     following = next_corner(face_offsets)
     ends = np.c_[np.arange(len(following)), following]
@@ -46,9 +46,9 @@ def packed(
 
     Args:
         uv: (C, 2), any unit.
-        chart: (C,) of each corner, -1 for corners to leave alone.
+        chart: (C,) chart of each corner, -1 for corners to leave unchanged.
         margin: between boxes, and between them and the square's border, as a fraction of its width and of its height.
-        aspect: width over height of the texture that the square shows.
+        aspect: width over height of the texture in the square.
 
     Returns:
         a copy of `uv`.
@@ -64,7 +64,7 @@ def packed(
     points = result[corners] * [aspect**-0.5, aspect**0.5]
     low = np.minimum.reduceat(points, starts)
     size = np.maximum.reduceat(points, starts) - low
-    # Any magnitude is possible; dividing first keeps squares and sums in range.
+    # Dividing first keeps squares and sums in range at any magnitude.
     unit = float(size.max()) or 1.0
     position, side = _into_square(size / unit, np.array(margin))
     result[corners] = ((points - low[rank]) / unit + position[rank]) / side
@@ -74,7 +74,7 @@ def packed(
 def _by_chart(
     chart: npt.NDArray[np.int64],
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Return the corners that are in charts, chart after chart, and where each chart begins and how many it has."""
+    """Return the corners in charts, grouped by chart, and the start and the number of corners of each chart."""
     corners = np.flatnonzero(chart >= 0)
     corners = corners[np.argsort(chart[corners], kind="stable")]
     starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
@@ -86,8 +86,8 @@ def _into_square(
 ) -> tuple[npt.NDArray[np.float64], float]:
     """Return the lower corners (K, 2) of boxes of `size` (K, 2), and the side of the square that holds them.
 
-    Margins are parts of that side. The space follows the side, which follows the space: it grows until it is at least
-    the margin of the side that comes of it, and the side is then taken to be that of which it is the margin exactly.
+    Margins are fractions of that side. Space and side depend on each other: the space grows until it is at least the
+    margin of the resulting side, which is then adjusted so that the margin is exact.
     """
     space = np.zeros(2)
     for _ in range(_ROUNDS):
@@ -105,17 +105,17 @@ def _into_square(
 def onto_former(
     uv: npt.NDArray[np.float64], former: npt.NDArray[np.float64], chart: npt.NDArray[np.int64]
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_]]:
-    """Turn and move each chart as near as it gets to where its corners were, at the size that they had.
+    """Turn and move each chart onto its former map as closely as possible, at its former size.
 
-    Near in the sense of least squares; the size is the root of the mean square of the distances from the centre.
+    Close in the sense of least squares; the size is the root mean square distance from the center.
 
     Args:
         uv: (C, 2), any unit.
-        former: (C, 2), not a number where a corner had no place.
-        chart: (C,) of each corner, -1 for corners to leave alone.
+        former: (C, 2), NaN for corners without a former UV.
+        chart: (C,) chart of each corner, -1 for corners to leave unchanged.
 
     Returns:
-        a copy of `uv`, and which corners (C,) have a place: not those of charts that had none, or no extent.
+        a copy of `uv`, and which corners (C,) were placed: not those of charts without former UVs or extent.
     """
     result = np.array(uv, dtype=np.float64)
     placed = np.zeros(len(uv), dtype=bool)
@@ -123,20 +123,20 @@ def onto_former(
     if not len(corners):
         return result, placed
 
-    def centred(points: npt.NDArray[np.float64]) -> tuple[np.ndarray, np.ndarray]:
+    def centered(points: npt.NDArray[np.float64]) -> tuple[np.ndarray, np.ndarray]:
         values = points[corners, 0] + 1j * points[corners, 1]
-        centre = np.add.reduceat(values, starts) / counts
-        return values - np.repeat(centre, counts), centre
+        center = np.add.reduceat(values, starts) / counts
+        return values - np.repeat(center, counts), center
 
     with np.errstate(invalid="ignore", divide="ignore"):
-        (moved, _), (target, centre) = centred(result), centred(former)
+        (moved, _), (target, center) = centered(result), centered(former)
         along = np.add.reduceat(np.conj(moved) * target, starts)
         turn = np.where(along == 0.0, 1.0, along / np.abs(along))
         squares = (np.add.reduceat(np.abs(values) ** 2, starts) for values in (target, moved))
         scale = np.sqrt(np.divide(*squares))
     fits = np.isfinite(scale) & (scale > 0.0)
     goes = np.repeat(fits, counts)
-    places = np.repeat(scale * turn, counts) * moved + np.repeat(centre, counts)
-    result[corners[goes]] = np.column_stack([places.real, places.imag])[goes]
+    positions = np.repeat(scale * turn, counts) * moved + np.repeat(center, counts)
+    result[corners[goes]] = np.column_stack([positions.real, positions.imag])[goes]
     placed[corners[goes]] = True
     return result, placed

@@ -1,4 +1,4 @@
-"""What a UV map that is there is like, and whether that is good enough."""
+"""Measure a UV map, and check requirements on it."""
 
 from __future__ import annotations
 
@@ -14,13 +14,12 @@ from .._quality import face_distortion, face_triangles, map_defects
 from . import welding
 from .mesh import AssetMesh
 
-# Of the mean area of a face: faces below have no shape that could be kept.
+# Relative to the mean area of a face: smaller faces are degenerate.
 _DEGENERATE = 1e-10
 _UNKNOWN = float("nan")
-# Of a quad's larger triangle, the smaller one: below, single precision decides how it is wound.
+# Area ratio of a quad's triangles below which single precision decides how the smaller one is wound.
 _ROUNDING = 1e-4
-# Percentage of the area whose values the range of colors shows; and the least width of that, so that a good map looks
-# good.
+# Percentage of the area that the range of colors spans, and its minimal width, so that a good map looks good.
 _SHOWN = 98.0
 _LEAST_SHOWN = 0.2
 _COMPARISONS = {
@@ -43,19 +42,19 @@ class MapReport:
 
     faces: int
     degenerate: int
-    """Faces without area in 3D, which the numbers below but for flips and overlaps leave out."""
+    """Faces without area in 3D, which count for flips and overlaps only."""
     unmapped: int
-    """Faces of which a corner has no UV."""
+    """Faces with a corner without UV."""
     collapsed: int
     """Mapped faces without area in the map."""
     islands: int
     flips: int
-    """Faces that lie the wrong way round in their island."""
+    """Faces that are flipped in their island."""
     overlaps: int
-    """Faces that cover part of another face, of any mesh and island, or share their place with a duplicate."""
+    """Faces that overlap another face, of any mesh and island, or coincide with a duplicate."""
     qc_mean: float
     """Quasi-conformal distortion of faces that are neither degenerate nor collapsed, 1 where angles are kept; weighted
-    by area. Not a number where there are none, like the next four."""
+    by area. NaN if there are none, like the next four."""
     qc_p99: float
     """What 99 % of the area does not exceed."""
     qc_max: float
@@ -65,12 +64,12 @@ class MapReport:
     fill: float
     """Area of the map over the area of all tiles of the texture that it lies in."""
     split_flips: int = 0
-    """Quads of which one triangle lies the wrong way round where a program splits them at the first corner, as Blender
-    and most exporters do; along the other diagonal they may be right."""
+    """Quads with a flipped triangle if they are split at the first corner, as Blender and most exporters do; the other
+    diagonal may be right."""
 
     @classmethod
     def from_json(cls, values: Mapping[str, float | None]) -> MapReport:
-        """Return the report that has these numbers, None for what is no number, and perhaps others beside them."""
+        """Return the report with these numbers, None for NaN; other keys are ignored."""
         return cls(**{name: _UNKNOWN if values[name] is None else values[name] for name in _NAMES})
 
 
@@ -94,13 +93,13 @@ class IslandReport:
 
 
 class Measurement:
-    """The map of an asset, face by face; all of its meshes are one, in the scene's scale, vertices welded.
+    """The map of an asset, face by face; its meshes are joined, in the scene's scale, with welded vertices.
 
     Attributes:
         vertices: (V, 3)
         face_offsets: (F + 1,)
         corner_vertices: (C,) of the welded meshes.
-        uv: (C, 2), 0 where a face has no map.
+        uv: (C, 2), 0 for faces without a map.
         mesh_of_face: (F,)
         has_map: (F,) bool.
         qc: (F,) as in `FaceDistortion`, like the next two.
@@ -113,7 +112,7 @@ class Measurement:
     """
 
     def __init__(self, meshes: Sequence[AssetMesh]) -> None:
-        """Measure; faces without UVs are counted and left out."""
+        """Measure the meshes; faces without UVs are counted only."""
         self.names = [mesh.name for mesh in meshes]
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
         self.face_offsets = np.append(0, np.cumsum(sizes))
@@ -137,7 +136,7 @@ class Measurement:
         self.counted = self.has_map & ~self.is_degenerate & ~self.is_collapsed
 
     def report(self) -> MapReport:
-        """Return what the whole map is like."""
+        """Return the report of the whole map."""
         mean, p99, largest = self._qc(self.counted)
         spread = _UNKNOWN
         if self.counted.any():
@@ -145,7 +144,7 @@ class Measurement:
             average = area_mean(density, weight)
             spread = area_mean((density - average) ** 2, weight) ** 0.5 / average
         uv = self.uv[np.repeat(self.has_map, np.diff(self.face_offsets))]
-        # Pairs as complex numbers: sorting rows takes ten times as long.
+        # Pairs as complex numbers, which sort ten times as fast as rows.
         tiles = np.unique(np.floor(uv - 1e-6 * np.sign(uv)).view(np.complex128))
         return MapReport(
             faces=len(self.has_map),
@@ -164,7 +163,7 @@ class Measurement:
         )
 
     def islands(self) -> Iterator[IslandReport]:
-        """Yield what every island is like, in the order of their numbers."""
+        """Yield the report of every island, in order."""
         island = self.island_of_face
         order = np.argsort(island, kind="stable")
         order = order[island[order] >= 0]
@@ -186,7 +185,7 @@ class Measurement:
             )
 
     def qc_range(self) -> tuple[float, float]:
-        """Return the values to show as the two ends of colours: 1, and what most of the area does not exceed."""
+        """Return the values at the two ends of the colors: 1, and what most of the area does not exceed."""
         (end,) = area_percentiles(self.qc[self.counted], self.area[self.counted], (_SHOWN,))
         return 1.0, float(np.fmax(end, 1.0 + _LEAST_SHOWN))
 
@@ -197,19 +196,19 @@ class Measurement:
         return self.uv[corners], self.qc[faces]
 
     def _qc(self, faces: np.ndarray) -> tuple[float, float, float]:
-        """Return mean, 99th percentile and maximum over some faces; not numbers where there are none."""
+        """Return mean, 99th percentile and maximum over some faces; NaN if there are none."""
         qc, weight = self.qc[faces], self.area[faces]
         (p99,) = area_percentiles(qc, weight, (99.0,))
         return area_mean(qc, weight), p99, float(qc.max()) if len(qc) else _UNKNOWN
 
     def _split_flips(self) -> np.ndarray:
-        """Return which faces, (F,) bool, are quads whose two triangles from the first corner are wound differently."""
+        """Return which faces, (F,) bool, are quads whose triangles from the first corner are wound differently."""
         quads = np.flatnonzero(self.counted & (np.diff(self.face_offsets) == 4))
         first = self.uv[self.face_offsets[:-1][quads]]
         one, two, three = (self.uv[self.face_offsets[:-1][quads] + k] - first for k in (1, 2, 3))
         areas = [a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] for a, b in ((one, two), (two, three))]
         result = np.zeros(len(self.counted), dtype=bool)
-        # Below the steps of single precision a triangle has no side.
+        # The orientation of smaller triangles is rounding.
         result[quads] = np.minimum(*areas) < -_ROUNDING * np.abs(np.maximum(*areas))
         result[quads] &= np.maximum(*areas) > _ROUNDING * np.abs(np.minimum(*areas))
         return result
@@ -218,9 +217,9 @@ class Measurement:
         return np.sqrt(self.image_area[faces] / self.area[faces])
 
     def _border_lengths(self) -> np.ndarray:
-        """Return the length of the edges around every island: those that another face of it does not share in the map.
+        """Return the length of the border of every island: edges that no other face of it shares in the map.
 
-        An edge is there twice within an island, with the same vertices and UVs at both ends.
+        An inner edge occurs twice in its island, with the same vertices and UVs at both ends.
         """
         face = np.repeat(np.arange(len(self.has_map)), np.diff(self.face_offsets))
         following = next_corner(self.face_offsets)
@@ -228,9 +227,9 @@ class Measurement:
         forward = vertices < vertices[following]
         start, end = np.where(forward, corner, following), np.where(forward, following, corner)
         island = self.island_of_face[face]
-        # One number for each place of the map, as for tiles.
-        place = np.unique(self.uv.astype(np.float64).view(np.complex128).ravel(), return_inverse=True)[1].ravel()
-        columns = (vertices[start], vertices[end], place[start], place[end], island)
+        # One index per distinct UV, as complex numbers.
+        point = np.unique(self.uv.astype(np.float64).view(np.complex128).ravel(), return_inverse=True)[1].ravel()
+        columns = (vertices[start], vertices[end], point[start], point[end], island)
         order = np.lexsort(columns)
         rows = np.column_stack(columns)[order]
         differs = (np.diff(rows, axis=0) != 0).any(axis=1)
@@ -242,12 +241,12 @@ class Measurement:
 
 
 def map_report(meshes: Sequence[AssetMesh]) -> MapReport:
-    """Measure the map of an asset; faces without UVs are counted and left out."""
+    """Measure the map of an asset; faces without UVs are counted only."""
     return Measurement(meshes).report()
 
 
 def _welded(mesh: AssetMesh) -> np.ndarray:
-    """Return the vertex that stands for each: files have one for every normal, which ends no island of a map."""
+    """Return a representative of coincident vertices: files have one for every normal, which ends no island."""
     return welding.coincident_vertices(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, welding.DISTANCES[0])
 
 
@@ -284,7 +283,7 @@ class Requirement:
         return RequirementError(f"'{text}' is no comparison such as 'qc_p99 < 1.5', nor several joined by 'and'.")
 
     def failures(self, report: MapReport) -> list[str]:
-        """Return what is not met, with the number that is there; what is not known is not met."""
+        """Return the terms that are not met, with the actual number; NaN meets none."""
         values = asdict(report)
         return [
             f"{text}, but {name} is {values[name]:.6g}"

@@ -1,4 +1,4 @@
-"""A picture of a UV layout coloured by distortion, as a PNG file; NumPy alone, since Blender's Python has no more."""
+"""A picture of a UV layout colored by distortion, as a PNG file; with NumPy only, like Blender's Python."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .._color_ramp import GOOD_TO_BAD, displayed_colors
 _BACKGROUND = (30, 30, 34)
 _TILE = (44, 44, 50)
 _INK = (225, 225, 225)
-# Rows or pixels of triangles at once: bounds the memory.
+# Rows or pixels of triangles at once, to limit memory.
 _BLOCK = 1 << 21
-# Files a tenth larger than at zlib's own level, in half the time.
+# Files are a tenth larger than at zlib's default level, in half the time.
 _COMPRESSION = 4
 
 # Glyphs of 5 x 7 pixels, a row per number, the highest bit to the left.
@@ -44,10 +44,10 @@ def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int)
     """Return the picture of a layout with its legend below, (size + 28, size, 3) uint8, the first row on top.
 
     Args:
-        uv: (T, 3, 2), triangles in the map. The square from 0 to 1 is shown, or more where triangles lie outside.
+        uv: (T, 3, 2), triangles in the map. Shows the square from 0 to 1, or more if triangles lie outside.
         values: (T,), quasi-conformal distortion of each.
-        low: the value of the first colour.
-        high: the value of the last colour, and of all above.
+        low: the value of the first color.
+        high: the value of the last color, and of all above.
         size: side of the square in pixels.
     """
     finite = np.isfinite(uv)
@@ -62,23 +62,23 @@ def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int)
     picture[:] = _BACKGROUND
     low_tile, high_tile = (np.clip((value - corner) / extent * size, 0, size).astype(int) for value in (0.0, 1.0))
     picture[low_tile[1] : high_tile[1], low_tile[0] : high_tile[0]] = _TILE
-    # The worst last, so that it is seen where several meet in one pixel.
+    # The worst last, on top of others in the same pixel.
     order = np.argsort(np.nan_to_num(values, nan=np.inf), kind="stable")
     _fill(picture, (uv[order] - corner) / extent * size, _colors(values[order], low, high))
     return np.concatenate([picture[::-1], _legend(size, low, high)])
 
 
 def _colors(values: np.ndarray, low: float, high: float) -> np.ndarray:
-    """Return displayed colours, (T, 3) uint8."""
+    """Return displayed colors, (T, 3) uint8."""
     return np.rint(255.0 * displayed_colors(values, low, high, GOOD_TO_BAD)).astype(np.uint8)
 
 
 def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
-    """Colour the pixels whose centres lie in triangles, (T, 3, 2) in pixels, the later over the earlier."""
+    """Color the pixels whose centers lie in triangles, (T, 3, 2) in pixels, the later over the earlier."""
     size = len(picture)
-    # Of equal places the last value that is assigned stays.
+    # The last of several values for one pixel stays.
     owner = np.full(size * size, -1)
-    # Corner by corner: along so short an axis NumPy takes ten times as long.
+    # Corner by corner, ten times as fast as along a short axis.
     a, b, c = points.transpose(1, 0, 2)
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     first, end = _centres(low[:, 1], high[:, 1], size)
@@ -89,7 +89,7 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
         for spans in _parts(right - left):
             column, span = _ranges(left[spans], right[spans])
             owner[row[spans][span] * size + column] = triangles.start + chosen[spans][span]
-    # A triangle within one pixel has that, or many of them would be seen nowhere.
+    # A triangle within one pixel fills it; otherwise many would be invisible.
     places = np.clip(np.floor(low), 0, size - 1).astype(int)
     small = np.flatnonzero((places == np.clip(np.floor(high), 0, size - 1)).all(axis=1))
     owner_of_small = np.full(size * size, -1)
@@ -100,13 +100,13 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
 
 
 def _centres(low: np.ndarray, high: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first of the pixels of a line whose centres lie from `low` to `high`, and the one after the last."""
+    """Return the first pixel of a line whose center lies between `low` and `high`, and the end of these pixels."""
     first = np.clip(np.ceil(low - 0.5), 0, size).astype(int)
     return first, np.maximum(first, np.clip(np.floor(high + 0.5), 0, size).astype(int))
 
 
 def _parts(counts: np.ndarray) -> Iterator[slice]:
-    """Yield slices of things that have so many parts, few enough in each to be looked at together."""
+    """Yield slices of items with these numbers of parts, limited in size to be processed at once."""
     ends = np.cumsum(counts)
     start = 0
     while start < len(counts):
@@ -117,7 +117,7 @@ def _parts(counts: np.ndarray) -> Iterator[slice]:
 
 
 def _ranges(first: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return all numbers of the ranges from `first` to before `end`, one after the other, and the range of each."""
+    """Return the concatenated ranges from `first` to `end`, and the range index of each number."""
     counts = end - first
     owner = np.repeat(np.arange(len(counts)), counts)
     within = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -125,7 +125,7 @@ def _ranges(first: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 
 def _spans(corners: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return from where to where horizontal lines, at `y` (N,), run in triangles, (N, 3, 2)."""
+    """Return the ends of horizontal lines, at `y` (N,), within triangles, (N, 3, 2)."""
     left, right = np.full(len(y), np.inf), np.full(len(y), -np.inf)
     for k in range(3):
         (start_x, start_y), (end_x, end_y) = corners[:, k].T, corners[:, (k + 1) % 3].T
@@ -139,7 +139,7 @@ def _spans(corners: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _legend(width: int, low: float, high: float) -> np.ndarray:
-    """Return the legend: a name, and the colours between the numbers that they stand for."""
+    """Return the legend: a name, and the colors between their values."""
     legend = np.empty((_LEGEND_HEIGHT, width, 3), dtype=np.uint8)
     legend[:] = _BACKGROUND
     cells = max(1, width - 2 * _LEGEND_WIDTH)
@@ -173,7 +173,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 
 def thumbnail(picture: np.ndarray, size: int) -> np.ndarray:
-    """Return the picture with sides of at most `size`, by the means of whole blocks of pixels."""
+    """Return the picture with sides of at most `size`, by averages of blocks of pixels."""
     step = -(-max(picture.shape[:2]) // size)
     height, width = (length // step * step for length in picture.shape[:2])
     total = np.zeros((height // step, width // step, 3))
