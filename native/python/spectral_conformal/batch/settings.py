@@ -152,5 +152,5 @@ def from_values(values: dict[str, Any]) -> BatchSettings:
     try:
         records = {name: dataclasses.replace(getattr(default, name), **chosen(name)) for name in _RECORDS}
         return BatchSettings(**chosen(""), **records)
-    except ValueError as error:
+    except (TypeError, ValueError) as error:
         raise SettingsError(str(error)) from error
