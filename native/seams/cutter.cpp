@@ -801,6 +801,64 @@ std::int64_t Cutter::vertices_beside(const SeamEdges& edges) const {
   return sum;
 }
 
+bool Cutter::is_sound() const {
+  return std::all_of(charts_.begin(), charts_.end(), [&](const auto& mapped) {
+    return mapped->solved && (sound_.contains(mapped) || defective_faces(*mapped).empty());
+  });
+}
+
+void Cutter::settle(const SeamFunctional& functional, const Progress& progress) {
+  constexpr double any_length = std::numeric_limits<double>::infinity();
+  while (!part_defects(any_length, progress).empty()) recent_ = std::exchange(fresh_, {});
+  double least = functional(seams_.edges(), charts_);
+  std::set<SeamEdges> kept;
+  std::int64_t solved_vertices = 0;
+  while (solved_vertices < sewing_vertices) {
+    std::vector<SeamEdges> chains = seams_.chains();
+    chains.erase(std::remove_if(chains.begin(), chains.end(), [&](const auto& chain) { return kept.count(chain) > 0; }),
+                 chains.end());
+    if (chains.empty()) return;
+    std::stable_sort(chains.begin(), chains.end(),
+                     [&](const SeamEdges& a, const SeamEdges& b) { return functional.price(a) > functional.price(b); });
+    chains.resize(std::min(chains.size(), sewn_at_once));
+    std::vector<TrialMaps> maps(chains.size());
+    std::vector<double> value(chains.size(), std::numeric_limits<double>::infinity());
+    try_in_parallel(
+        chains.size(),
+        [&](int i, const Progress& going_on) {
+          const auto k = static_cast<std::size_t>(i);
+          maps[k] = map_charts(seams_.without(chains[k]), chains[k], {}, going_on);
+          SeamEdges rest;
+          std::set_difference(seams_.edges().begin(), seams_.edges().end(), chains[k].begin(), chains[k].end(),
+                              std::back_inserter(rest));
+          const double found = functional(rest, maps[k]);
+          if (found < least && std::all_of(maps[k].begin(), maps[k].end(), [&](const auto& mapped) {
+                return current_.contains(mapped) || defective_faces(*mapped).empty();
+              })) {
+            value[k] = found;
+          }
+        },
+        progress);
+    for (std::size_t k = 0; k < chains.size(); ++k) {
+      remember(maps[k]);
+      kept.insert(chains[k]);
+      for (const auto& mapped : maps[k]) {
+        if (!current_.contains(mapped)) solved_vertices += mapped->chart.n_vertices();
+      }
+    }
+    const auto best = static_cast<std::size_t>(std::min_element(value.begin(), value.end()) - value.begin());
+    if (!std::isfinite(value[best])) continue;
+    least = value[best];
+    // The others may be worth it still, beside what is taken back.
+    for (std::size_t k = 0; k < chains.size(); ++k) {
+      if (std::isfinite(value[k])) kept.erase(chains[k]);
+    }
+    seams_.remove(chains[best]);
+    const MapQuality quality = map_quality(maps[best], options_.scale_limit);
+    take_maps(std::move(maps[best]), quality);
+  }
+}
+
 /// Longest first, as long as the maps stay good enough.
 void Cutter::sew(const Progress& progress) {
   if (!quality_.solved) return;

@@ -10,6 +10,7 @@
 #include "seams/cut_candidates.h"
 #include "seams/known_maps.h"
 #include "seams/piece_seams.h"
+#include "seams/seam_functional.h"
 #include "seams/trial_map.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/seam_suggestion.h"
@@ -43,9 +44,17 @@ class Cutter {
   /// where there are none; what was sewn up is then no longer in seams(). Throws Cancelled.
   SeamEdges step(double longest, const Progress& progress);
 
+  /// For seams that were found in another way, instead of step(): parts charts with defects, then takes back chains of
+  /// seams as long as that lowers the functional. Throws Cancelled.
+  void settle(const SeamFunctional& functional, const Progress& progress);
+  /// Whether no chart has defects.
+  bool is_sound() const;
+
   bool finished() const { return finished_; }
   const PieceSeams& seams() const { return seams_; }
   const MapQuality& quality() const { return quality_; }
+  /// The maps of the charts that seams() make.
+  const TrialMaps& charts() const { return charts_; }
   /// Vertices of all charts that were solved so far, which the time of the search goes with.
   std::int64_t solved_vertices() const { return solved_vertices_; }
 

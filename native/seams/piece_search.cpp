@@ -10,7 +10,10 @@
 
 #include "concurrency/parallel_calls.h"
 #include "seams/carried_seams.h"
+#include "seams/rigid_unfolding.h"
+#include "seams/seam_functional.h"
 #include "seams/seam_preferences.h"
+#include "seams/seam_price.h"
 
 namespace spectral_conformal {
 namespace {
@@ -35,9 +38,10 @@ constexpr std::size_t large_mesh = 200000;
 /// The energy above that of an isometry that is allowed on coarse copies, as a fraction of what is allowed in the end:
 /// finer ones have more of it with the same seams, and to cut them further takes longer.
 constexpr double coarse_energy = 0.85;
-/// About what it takes per vertex to look for small holes, and per corner to price edges.
+/// About what it takes per vertex to look for small holes, and per corner to price edges and to unfold.
 constexpr double filling_nanoseconds = 3000;
 constexpr double pricing_nanoseconds = 500;
+constexpr double unfolding_nanoseconds = 2000;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
   options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
@@ -78,6 +82,7 @@ void PieceSearch::step(double longest, const Progress& progress) {
   if (!cut.empty()) cuts_.push_back({std::move(cut), before});
   const bool ended = cutter_->finished() || steps_ >= max_steps;
   if (ended && levels_.empty()) {
+    take_unfolded(longest, progress);
     finish();
   } else if (ended) {
     refine(progress);
@@ -162,11 +167,15 @@ PieceSeams PieceSearch::priced(const Piece& piece, const PieceMirror& mirror) co
   call_while_listening(pricing_nanoseconds * static_cast<double>(piece.corner_vertices.size()),
                        [&] { made.emplace(piece, index_, mirror, mesh_.parts.symmetry); });
   PieceSeams seams = std::move(*made);
+  seams.scale_costs(cost_factors_of(seams.graph(), piece));
+  return seams;
+}
+
+std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const Piece& piece) const {
   std::vector<int> given_vertices;
   given_vertices.reserve(piece.vertices.size());
   for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);
-  seams.scale_costs(cost_factors(mesh_.options, seams.graph(), given_vertices));
-  return seams;
+  return cost_factors(mesh_.options, graph, given_vertices);
 }
 
 /// Goes on with the next finer level, cut as the one before.
@@ -198,6 +207,31 @@ PieceSeams PieceSearch::with_holes(const PieceSeams& filled, std::vector<SeamEdg
     seams.add(cut);
   }
   return seams;
+}
+
+/// Where the seams of a rigid unfolding are better than what was found, these.
+void PieceSearch::take_unfolded(double longest, const Progress& progress) {
+  // Where the length is limited, cuts come one by one.
+  if (std::isfinite(longest)) return;
+  PieceSeams unfolded = priced(piece(), mirror());
+  unfolded.forget_symmetry();
+  std::vector<double> price = cost_factors_of(unfolded.graph(), piece());
+  for (std::size_t e = 0; e < price.size(); ++e) price[e] *= seam_price(unfolded.graph().edges()[e]);
+  const SeamFunctional functional(cutter_->seams().graph(), price, mesh_.options.energy_limit);
+  SeamEdges edges;
+  call_while_listening(unfolding_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
+                       [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph(), price); });
+  if (edges.empty()) return;
+  unfolded.add(edges);
+  std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
+  cutter->solve(progress);
+  cutter->settle(functional, progress);
+  const auto value = [&](const Cutter& of) {
+    return of.is_sound() ? functional(of.seams().edges(), of.charts()) : std::numeric_limits<double>::infinity();
+  };
+  if (!(value(*cutter) < value(*cutter_))) return;
+  cutter_ = std::move(cutter);
+  cuts_.assign(1, {cutter_->seams().edges(), std::numeric_limits<double>::infinity()});
 }
 
 /// Keeps what was found, and gives the memory of the search back.

@@ -30,7 +30,8 @@ struct SearchedMesh {
 };
 
 /// The search for the seams of one piece, which looks at no other: on coarse copies of a large one first, each of which
-/// has the seams of the coarser one to begin with.
+/// has the seams of the coarser one to begin with. In the end the seams by which the piece unfolds rigidly take their
+/// place, where seam_functional judges them better.
 class PieceSearch {
  public:
   struct Cut {
@@ -75,6 +76,8 @@ class PieceSearch {
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const;
+  void take_unfolded(double longest, const Progress& progress);
+  std::vector<double> cost_factors_of(const SeamGraph& graph, const Piece& piece) const;
   void finish();
 
   const SearchedMesh& mesh_;

@@ -46,6 +46,9 @@ struct SeamSuggestion {
 /// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Of
 /// large charts all this is done on copies with few vertices first (see coarse_piece.h), and the charts themselves are
 /// cut where their copies are, and further where that is not enough. Charts that cannot be solved even so get no seams.
+/// Where the length is not limited, a chart is also taken apart into flat parts that unfold without distortion (see
+/// rigid_unfolding.h), seams that are not worth it are taken back, and of the two the seams are proposed that cost less
+/// (see seam_functional.h); such seams are one cut, and need not be mirrored.
 /// The numbering of vertices and faces makes no difference (see canonical_mesh.h). Throws InvalidMesh for arrays that
 /// do not describe a mesh, Cancelled, and std::bad_alloc where there is too little memory for the mesh, or for any of
 /// its charts; those that are too large while others are not get no seams.

@@ -42,8 +42,14 @@ def suggest_seams(
     once `scale_limit`, `qc_limit` and `energy_limit` are met or nothing helps. Charts that cover themselves in the map,
     or have flipped faces, are then parted until none does, unless `max_length` forbids that, and seams that the maps
     can do without are taken back. Where a plane x, y or z = constant mirrors a component's faces onto the mesh's, its
-    seams come in mirrored pairs or lie on the plane if the edges allow that. How vertices and faces are numbered makes
-    no difference.
+    seams come in mirrored pairs or lie on the plane if the edges allow that.
+
+    Hard surfaces, without a `max_length`, are unfolded instead: parts that are flat, or rolled like a pipe, are cut
+    from each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and
+    nothing is stretched. Of the two the seams are proposed that cost less: distortion by `energy_limit`, length by how
+    sharp the edges are, and islands (docs/paper.md has the formula).
+
+    How vertices and faces are numbered makes no difference.
 
     Args:
         vertices: (V, 3) positions, any unit.

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// A triangle in the plane, with what every pair of triangles needs.
+struct PlaneTriangle {
+  std::array<Complex, 3> corners;
+  std::array<Complex, 3> inwards;  ///< unit normal of each side; 0 for a side without length
+  std::array<double, 3> height;    ///< over each side, negative for a clockwise triangle
+  double size;                     ///< longest side
+  double reach;                    ///< largest coordinate
+
+  explicit PlaneTriangle(const std::array<Complex, 3>& c) : corners(c), size(0), reach(0) {
+    for (int k = 0; k < 3; ++k) {
+      const Complex side = c[(k + 1) % 3] - c[k];
+      const double length = std::abs(side);
+      inwards[k] = length > 0 ? Complex(0, 1) * (side / length) : Complex(0);
+      height[k] = over_side(k, c[(k + 2) % 3]);
+      size = std::max(size, length);
+      reach = std::max({reach, std::abs(c[k].real()), std::abs(c[k].imag())});
+    }
+  }
+  double over_side(int k, Complex p) const {
+    const Complex d = p - corners[k];
+    return inwards[k].real() * d.real() + inwards[k].imag() * d.imag();
+  }
+};
+
+/// Whether the two have at most `tolerance` in common across one of the sides of `a`. A collapsed triangle has nothing
+/// in common with any.
+inline bool separated_by_side(const PlaneTriangle& a, const PlaneTriangle& b, double tolerance) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.inwards[k] == 0.0) continue;
+    const double first = a.over_side(k, b.corners[0]);
+    const double second = a.over_side(k, b.corners[1]);
+    const double third = a.over_side(k, b.corners[2]);
+    const double top = std::min(std::max({first, second, third}), std::max(a.height[k], 0.0));
+    const double bottom = std::max(std::min({first, second, third}), std::min(a.height[k], 0.0));
+    if (top - bottom <= tolerance) return true;
+  }
+  return false;
+}
+
+}  // namespace spectral_conformal

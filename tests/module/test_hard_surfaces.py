@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams of hard surfaces are those that an artist would keep: along sharp edges, none across a flat face."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from .hard_surfaces import HARD_SURFACES
+
+
+def across_flat_faces(vertices, faces, seams):
+    """Return the length of the seams between faces of one plane, within a degree."""
+    normals = {}
+    for face in faces:
+        corners = vertices[face]
+        normal = np.cross(corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]).sum(axis=0)
+        for a, b in zip(face, [*face[1:], face[0]]):
+            normals.setdefault(frozenset((a, b)), []).append(normal / np.linalg.norm(normal))
+    flat = [edge for edge in seams.tolist() if np.dot(*normals[frozenset(edge)]) > np.cos(np.radians(1))]
+    return sum(np.linalg.norm(vertices[a] - vertices[b]) for a, b in flat)
+
+
+@pytest.mark.parametrize("name", HARD_SURFACES)
+def test_seams_that_an_artist_would_keep(name):
+    model = HARD_SURFACES[name]
+    vertices, faces = model.make()
+    seams = sc.suggest_seams(vertices, faces)
+    charts = sc.unwrap(vertices, faces, seam_edges=seams).charts
+    assert len(charts) in model.islands, model.reason
+    assert across_flat_faces(vertices, faces, seams) == 0
+    assert all((chart.status, chart.flipped, chart.overlapping) == ("solved", 0, 0) for chart in charts)
+    area = np.array([chart.area for chart in charts])
+    assert np.average([chart.mean_qc for chart in charts], weights=area) < 1.01
+    # The chamfer of the bolt, a hundredth of its area, stays with the shaft.
+    assert max(chart.max_qc for chart in charts) < (1.13 if name == "bolt" else 1.1)
+
+
+def test_numbering_makes_no_difference():
+    vertices, faces = HARD_SURFACES["rounded block"].make()
+    seams = {frozenset(edge) for edge in sc.suggest_seams(vertices, faces).tolist()}
+    rng = np.random.default_rng(3)
+    order, face_order = rng.permutation(len(vertices)), rng.permutation(len(faces))
+    image = np.argsort(order)
+    again = sc.suggest_seams(vertices[order], [np.roll(image[faces[f]], f) for f in face_order])
+    assert {frozenset(order[list(edge)].tolist()) for edge in again.tolist()} == seams
+
+
+def test_a_stricter_limit_leaves_no_more_distortion():
+    vertices, faces = HARD_SURFACES["bolt"].make()
+    worst = []
+    for limit in (4.5, 4.1, 4.01):
+        seams = sc.suggest_seams(vertices, faces, energy_limit=limit)
+        worst.append(max(chart.max_qc for chart in sc.unwrap(vertices, faces, seam_edges=seams).charts))
+    assert worst == sorted(worst, reverse=True)
+
+
+def test_edges_that_are_to_be_kept_out_of_sight_or_avoided_are_dearer():
+    vertices, faces = HARD_SURFACES["tube"].make()
+    away = np.where(vertices[:, 0] > 0, -1.0, 1.0)
+    seams = sc.suggest_seams(vertices, faces, vertex_preference=away)
+    lengthwise = [edge for edge in seams.tolist() if vertices[edge, 2].ptp() > 1]
+    assert lengthwise
+    assert (vertices[np.concatenate(lengthwise), 0] <= 1e-9).all()
