@@ -6,8 +6,8 @@ namespace spectral_conformal {
 
 /// What a seam along an edge costs an artist, for its length: 2 across a flat region, where every seam is seen and no
 /// texture expects one, falling with the dihedral angle theta between the normals of its faces, to 1/10
-/// from theta = 87 degrees on: max(1/10, 2 / (1 + (theta / 20 degrees)^2)). At 20 degrees, where shading begins to show an
-/// edge, a seam costs its length.
+/// from theta = 87 degrees on: max(1/10, 2 / (1 + (theta / 20 degrees)^2)). At 20 degrees, where shading begins to show
+/// an edge, a seam costs its length.
 double seam_price(const SeamGraph::Edge& edge);
 
 /// The angle between the normals of the edge's two faces, in radians, 0 to pi; of an edge that is cut, pi.
