@@ -21,12 +21,12 @@ def _parts() -> tuple[ModuleType, ...]:
     Imported here, so that a Python without Blender can import the core.
     """
     from . import handlers, manual, operators, preferences, properties, translations
-    from .overlay import extender_arrows, map_overlay
     from .ui import menus, panels
 
     return (
-        *(translations, properties, handlers, operators, preferences, manual),
-        *(menus, panels, extender_arrows, map_overlay),
+        *(translations, properties, operators, preferences, manual, menus, panels),
+        # First to go: it ends what the others have begun.
+        handlers,
     )
 
 

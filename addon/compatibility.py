@@ -2,8 +2,6 @@
 """Everything that differs between the Blender versions that this add-on runs in (3.4 and later)."""
 
 import ctypes
-import functools
-import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
@@ -22,6 +20,14 @@ SMOOTH_COLOR_SHADER = "SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SM
 LINE_SHADER = "POLYLINE_UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_POLYLINE_UNIFORM_COLOR"
 
 
+# The attributes in which Blender keeps flags of faces and edges; one is missing where its flag is set nowhere. Known of
+# the versions that were tried. In others the elements are asked one by one.
+_FLAG_ATTRIBUTES = {"hide": ".hide_poly", "select": ".select_poly"} if bpy.app.version < (5, 3) else {}
+if (4, 2) <= bpy.app.version < (4, 4):
+    _FLAG_ATTRIBUTES["use_seam"] = ".uv_seam"
+elif (4, 5) <= bpy.app.version < (5, 3):
+    _FLAG_ATTRIBUTES["use_seam"] = "uv_seam"
+
 # Whether the 3D viewport's menu of unwraps shows the UV editor's, entries of add-ons included. In 4.3 it opens it; no
 # 4.4 was tried.
 VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)
@@ -35,10 +41,9 @@ def data_of_no_file() -> Iterator[bpy.types.BlendData]:
     """
     manager = bpy.data.temp_data()
     data = manager.__enter__()
-    # Known of 3.4 to 5.2: this reference is the manager's own, not another one (`bpy_rna_data_context_enter`), so that
-    # the object would be freed twice. There are to be three: the manager's, that of `data`, and the argument's.
-    if sys.getrefcount(data) < 3:
-        ctypes.pythonapi.Py_IncRef(ctypes.py_object(data))
+    # Blender (3.4 to 5.2, `bpy_rna_data_context_enter`) returns the manager's own reference: the object would be freed
+    # twice. Should a later one return another, this keeps a small object, which costs next to nothing.
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(data))
     try:
         yield data
     finally:
@@ -168,31 +173,11 @@ def flags(mesh: bpy.types.Mesh, elements: str, name: str) -> np.ndarray:
     """
     collection = getattr(mesh, elements)
     values = np.zeros(len(collection), dtype=bool)
-    stored = _attribute_of_flag(elements, name)
-    if not stored or stored in mesh.attributes:
-        attribute = _attribute(mesh, stored, "BOOLEAN", len(collection)) if stored else None
+    stored = _FLAG_ATTRIBUTES.get(name)
+    if stored is None or stored in mesh.attributes:
+        attribute = stored and _attribute(mesh, stored, "BOOLEAN", len(collection))
         _read(attribute, "value", collection, name, values)
     return values
-
-
-@functools.cache
-def _attribute_of_flag(elements: str, name: str) -> str:
-    """Return the attribute in which this Blender keeps a flag, which is missing where the flag is set nowhere.
-
-    Empty where it keeps it otherwise. The names differ between versions, so that this one is asked.
-    """
-    probe = bpy.data.meshes.new(name)
-    try:
-        probe.from_pydata([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [], [(0, 1, 2)])
-        element = getattr(probe, elements)[0]
-        set_flags = []
-        for value in (False, True):
-            setattr(element, name, value)
-            set_flags.append({a.name for a in probe.attributes if a.data_type == "BOOLEAN" and a.data[0].value})
-        added = set_flags[1] - set_flags[0]
-        return added.pop() if len(added) == 1 else ""
-    finally:
-        bpy.data.meshes.remove(probe, do_unlink=False, do_ui_user=False)
 
 
 def _attribute(mesh: bpy.types.Mesh, name: str, data_type: str, count: int) -> bpy.types.bpy_prop_collection | None:

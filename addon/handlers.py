@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that the add-on does when Blender updates, undoes or loads: all handlers, in the order that matters.
+"""Everything the add-on does when Blender updates, undoes, loads or draws: all handlers, in the order that matters.
 
 They run often, most of the time for nothing that concerns the add-on, and leave as early as possible then.
 """
@@ -7,19 +7,18 @@ They run often, most of the time for nothing that concerns the add-on, and leave
 import bpy
 from bpy.app.handlers import persistent
 
-from . import identity, operators
-from .core.solve import kept_maps
-from .extenders import storage, tracking
-from .live import adjusted_map, following
-from .overlay import map_overlay
+from . import session
+from .extenders import tracking
+from .live import following
+from .overlay import extender_arrows, map_overlay
+from .session import Lifetime, edit_meshes
 
 
 @persistent
 def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     map_overlay.on_update(depsgraph)
     if bpy.context.mode != "EDIT_MESH":
-        tracking.forget_left()
-        following.forget_left()
+        edit_meshes.let_go_left()
         return
     meshes = _updated(depsgraph)
     if meshes:
@@ -35,33 +34,22 @@ def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) ->
 
 @persistent
 def _before_undo(*_arguments: object) -> None:
-    # What is dragged is in no undo step; undoing would leave half of it.
-    adjusted_map.give_up()
-    following.before_undo()
-
-
-@persistent
-def _after_undo(*_arguments: object) -> None:
-    tracking.follow_after_undo(_edited())
-    following.after_undo()
-    map_overlay.edited()
+    session.forget(Lifetime.EDIT_MODE)
 
 
 @persistent
 def _before_load(*_arguments: object) -> None:
-    operators.before_load()
-    following.forget()
-    tracking.forget()
-    storage.forget()
-    map_overlay.forget()
-    identity.forget()
-    kept_maps.forget()
+    session.forget(Lifetime.FILE)
+
+
+@persistent
+def _after_undo(*_arguments: object) -> None:
+    session.begin()
 
 
 @persistent
 def _after_load(*_arguments: object) -> None:
-    # A file brings a window manager with a switch of its own.
-    _begin()
+    session.begin()
     # From 5.0 on, meshes that were saved in edit mode are in it only afterwards.
     _begin_soon()
 
@@ -74,33 +62,18 @@ def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
     return [mesh for mesh in meshes.values() if mesh.is_editmode]
 
 
-def _edited() -> list[bpy.types.Mesh]:
-    """Return the meshes in edit mode; none, without looking at any, in another mode."""
-    if bpy.context.mode != "EDIT_MESH":
-        return []
-    meshes = [edit_object.data for edit_object in bpy.context.objects_in_mode_unique_data]
-    return [mesh for mesh in meshes if mesh.is_editmode]
-
-
 def _begin_soon() -> None:
-    """Take up what `_begin` does as soon as Blender is done with what it does now; never in background mode."""
+    """Begin as soon as Blender is done with what it does now; never in background mode."""
     _begin_never()
     if not bpy.app.background:
         # Registered anew: one that was due already would come within what Blender does now.
-        bpy.app.timers.register(_begin, first_interval=0.0, persistent=True)
+        bpy.app.timers.register(session.begin, first_interval=0.0, persistent=True)
 
 
 def _begin_never() -> None:
     """Take back what `_begin_soon` has arranged."""
-    if bpy.app.timers.is_registered(_begin):
-        bpy.app.timers.unregister(_begin)
-
-
-def _begin() -> None:
-    """Take up the meshes in edit mode, and the overlay, where the add-on or a file comes in the middle of it."""
-    tracking.follow(_edited())
-    following.see()
-    map_overlay.follow_switch()
+    if bpy.app.timers.is_registered(session.begin):
+        bpy.app.timers.unregister(session.begin)
 
 
 _HANDLERS = (
@@ -121,16 +94,16 @@ def register() -> None:
     """Add the handlers."""
     for event, handler in _HANDLERS:
         getattr(bpy.app.handlers, event).append(handler)
+    map_overlay.add_draw_handlers()
+    extender_arrows.add_draw_handlers()
+    session.follow(tracking.begin, following.begin, map_overlay.edited)
     # While add-ons are enabled Blender does not let them see its data.
     _begin_soon()
 
 
 def unregister() -> None:
-    """Remove the handlers and timers, and let all meshes go."""
+    """Remove the handlers, and end and forget everything."""
     for event, handler in _HANDLERS:
         getattr(bpy.app.handlers, event).remove(handler)
     _begin_never()
-    following.stop()
-    tracking.forget()
-    identity.forget()
-    kept_maps.forget()
+    session.forget(Lifetime.ADDON)

@@ -6,7 +6,7 @@ from bpy.props import FloatVectorProperty, IntProperty, PointerProperty
 from bpy.types import AddonPreferences, Context, PropertyGroup, UILayout
 from bpy.utils import register_class, unregister_class
 
-from . import names, user_preferences
+from . import editors, names, user_preferences
 from .core import native
 from .core.drawing import color_ramp
 from .core.words import texts
@@ -20,12 +20,12 @@ class SpectralUnwrapDefaults(UnwrapProperties, PropertyGroup):
 
 
 def _on_color(_preferences: AddonPreferences, context: Context) -> None:
-    map_overlay.redraw(context)
+    editors.redraw(context)
 
 
 def _on_limit(_preferences: AddonPreferences, context: Context) -> None:
     map_overlay.edited()
-    map_overlay.redraw(context)
+    editors.redraw(context)
 
 
 def _on_threads(preferences: AddonPreferences, _context: Context) -> None:

@@ -19,7 +19,7 @@ from bpy.props import (
 from bpy.types import Context, Mesh, PropertyGroup, Scene, WindowManager
 from bpy.utils import register_class, unregister_class
 
-from . import names
+from . import editors, names
 from .core.words import texts
 from .extenders import storage
 from .extenders.strength import STRENGTH
@@ -51,30 +51,26 @@ class SpectralExtender(PropertyGroup):
     second_id: IntProperty(**texts.SECOND_VERTEX_PROPERTY, options={"HIDDEN"})
 
 
-def _on_map_toggle(_overlay: PropertyGroup, _context: Context) -> None:
-    map_overlay.follow_switch()
-
-
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:
-    map_overlay.redraw(context)
+    editors.redraw(context)
 
 
 def _on_kind(overlay: PropertyGroup, context: Context) -> None:
     # What is shown now is measured in something else.
     overlay.use_range = False
-    map_overlay.redraw(context)
+    editors.redraw(context)
 
 
 def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
     if overlay.use_range:
         overlay.range_low, overlay.range_high = map_overlay.automatic(context)
-    map_overlay.redraw(context)
+    editors.redraw(context)
 
 
 class SpectralMapOverlay(PropertyGroup):
     """What the overlay of the UV map shows. Of the window manager: showing is no edit, and nothing to undo."""
 
-    show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_map_toggle)
+    show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_map_change)
     kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
     use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
     range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=1.0, update=_on_map_change)
@@ -119,7 +115,6 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
-    storage.forget()
     delattr(Scene, names.LIVE_UNWRAP_PROPERTY)
     for name in (names.EXTENDER_LAYER_PROPERTY, names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
         delattr(Mesh, name)

@@ -9,31 +9,28 @@ tells after an undo which list goes with it; lists seen in this session are reme
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem
 
-from .. import editors, identity, names
+from .. import editors, names, session
 from ..core.extenders import pairs as core
 from ..core.extenders.pairs import Extender
 from ..core.words import texts
-from ..identity import Identity
+from ..session import Remembered, identity
+from ..session.identity import Identity
 from .strength import STRENGTH_LIMIT
 
 
-@dataclass
-class _Session:
+class _Lists(Remembered):
     """Lists seen since the file was loaded, by the name of their layer, and lists of meshes before they had a layer."""
 
-    lists: dict[str, list[Extender]] = field(default_factory=dict)
-    without_layer: dict[Identity, list[Extender]] = field(default_factory=dict)
-    is_writing: bool = False
-
-
-_session = _Session()
+    def __init__(self) -> None:
+        self.by_layer: dict[str, list[Extender]] = {}
+        self.without_layer: dict[Identity, list[Extender]] = {}
+        self.is_writing = False
 
 
 def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
@@ -72,7 +69,7 @@ def show_strength(mesh: bpy.types.Mesh, index: int, strength: float) -> None:
 
 def changed(extender: bpy.types.PropertyGroup) -> bool:
     """Note that an extender has been changed through its properties; return whether it was by the user or a script."""
-    if _session.is_writing:
+    if session.of(_Lists).is_writing:
         return False
     _mark(extender.id_data)
     return True
@@ -80,7 +77,7 @@ def changed(extender: bpy.types.PropertyGroup) -> bool:
 
 def renamed(extender: bpy.types.PropertyGroup) -> None:
     """Note that an extender has been renamed through its properties, and give it a name of its own."""
-    if _session.is_writing:
+    if session.of(_Lists).is_writing:
         return
     # Members of a collection have no identity in Python; the path is one.
     path = extender.path_from_id()
@@ -175,7 +172,7 @@ def remove(mesh: bpy.types.Mesh, indices: Sequence[int]) -> None:
 def remember(mesh: bpy.types.Mesh) -> None:
     """Remember the list of a mesh for an undo of changes that are to come."""
     extenders = _read(mesh)
-    _session.lists[core.layer_name(names.EXTENDER_LAYER_PREFIX, extenders)] = extenders
+    session.of(_Lists).by_layer[core.layer_name(names.EXTENDER_LAYER_PREFIX, extenders)] = extenders
 
 
 def restore(mesh: bpy.types.Mesh) -> None:
@@ -183,10 +180,10 @@ def restore(mesh: bpy.types.Mesh) -> None:
     layers = _layer_names(mesh)
     if _layer_property(mesh) in layers:
         return
-    known = [name for name in layers if name in _session.lists]
+    known = [name for name in layers if name in session.of(_Lists).by_layer]
     if known:
-        extenders, name = _session.lists[known[0]], known[0]
-    elif not layers and (without_layer := _session.without_layer.get(identity.of(mesh))) is not None:
+        extenders, name = session.of(_Lists).by_layer[known[0]], known[0]
+    elif not layers and (without_layer := session.of(_Lists).without_layer.get(identity.of(mesh))) is not None:
         extenders, name = without_layer, ""
     else:
         return
@@ -196,17 +193,11 @@ def restore(mesh: bpy.types.Mesh) -> None:
     set_active(mesh, max(min(index, len(extenders) - 1), 0))
 
 
-def forget() -> None:
-    """Forget all lists of a file that is about to be left."""
-    _session.lists.clear()
-    _session.without_layer.clear()
-
-
 def _identify(bm: BMesh, mesh: bpy.types.Mesh, vertices: Sequence[int]) -> dict[int, int]:
     """Return the identifiers of vertices, given by index; those without one get one."""
     layer = _layer(bm, mesh)
     if layer is None:
-        _session.without_layer[identity.of(mesh)] = _read(mesh)
+        session.of(_Lists).without_layer[identity.of(mesh)] = _read(mesh)
         name = core.layer_name(names.EXTENDER_LAYER_PREFIX, _read(mesh))
         layer = bm.verts.layers.int.new(name)
         setattr(mesh, names.EXTENDER_LAYER_PROPERTY, name)
@@ -295,8 +286,8 @@ def _write(mesh: bpy.types.Mesh, extenders: Sequence[Extender]) -> None:
 @contextmanager
 def _writing() -> Iterator[None]:
     """Within, changes of properties do nothing but change them."""
-    _session.is_writing = True
+    session.of(_Lists).is_writing = True
     try:
         yield
     finally:
-        _session.is_writing = False
+        session.of(_Lists).is_writing = False

@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keeps track of the extenders of meshes in edit mode: their vertices, for what is drawn, and their lists after undo.
+"""Tracks the extenders of meshes in edit mode: their vertices, for what is drawn, and their lists after undo."""
 
-A track keeps Blender's Python wrapper of the edit mesh alive, because making or freeing one moves the UVs in memory, to
-which a running transform holds pointers. So wrappers are made in handlers (handlers.py), which run before a transform
-can start, and never while drawing.
-"""
-
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-import bmesh
 import bpy
 from bmesh.types import BMesh, BMVert
 
+from ..session import edit_meshes
 from . import storage
 
 
@@ -28,27 +23,39 @@ class Track:
     def is_current(self, mesh: bpy.types.Mesh) -> bool:
         """Return whether the vertices can still be used, and are those of the list."""
         return (
-            self.bm.is_valid
-            and len(self.bm.verts) == self.n_vertices
+            len(self.bm.verts) == self.n_vertices
             and self.vertex_ids == _vertex_ids(mesh)
             and all(vertex is None or vertex.is_valid for pair in self.ends for vertex in pair)
         )
 
 
-_tracks: dict[int, Track] = {}
+def begin() -> None:
+    """Track the meshes in edit mode, each with the list that goes with it."""
+    meshes = [edit_object.data for edit_object in edit_meshes.edited()]
+    for mesh in meshes:
+        storage.restore(mesh)
+    follow(meshes)
+
+
+def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
+    """Start to track those of the `meshes`, all in edit mode, that have extenders."""
+    for mesh in meshes:
+        if storage.of(mesh) and edit_meshes.kept(mesh) is None:
+            edit_meshes.keep(mesh)
+            storage.remember(mesh)
 
 
 def track(mesh: bpy.types.Mesh) -> Track | None:
-    """Return the track of a mesh, brought up to date; None while the mesh is not in edit mode or not yet tracked.
+    """Return the track of a mesh, brought up to date; None while the mesh is not in edit mode or not yet kept.
 
     Cheap as long as neither the list nor the topology has changed.
     """
-    tracked = _tracks.get(mesh.as_pointer())
-    if tracked is None or not tracked.bm.is_valid:
+    known = edit_meshes.kept(mesh)
+    if known is None:
         return None
-    if not tracked.is_current(mesh):
-        tracked = _tracks[mesh.as_pointer()] = _resolved(tracked.bm, mesh)
-    return tracked
+    if known.track is None or not known.track.is_current(mesh):
+        known.track = _resolved(known.bm, mesh)
+    return known.track
 
 
 def broken(mesh: bpy.types.Mesh) -> list[bool]:
@@ -68,31 +75,3 @@ def _resolved(bm: BMesh, mesh: bpy.types.Mesh) -> Track:
 
 def _vertex_ids(mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     return [(extender.first_id, extender.second_id) for extender in storage.of(mesh)]
-
-
-def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
-    """Start to track those of the `meshes`, all in edit mode, that have extenders; forget those that left it."""
-    forget_left()
-    for mesh in meshes:
-        if storage.of(mesh) and mesh.as_pointer() not in _tracks:
-            storage.remember(mesh)
-            _tracks[mesh.as_pointer()] = _resolved(bmesh.from_edit_mesh(mesh), mesh)
-
-
-def follow_after_undo(meshes: Sequence[bpy.types.Mesh]) -> None:
-    """Track the `meshes`, all in edit mode, anew after an undo or redo, with the lists that go with them."""
-    forget()
-    for mesh in meshes:
-        storage.restore(mesh)
-    follow(meshes)
-
-
-def forget_left() -> None:
-    """Let meshes go that have left edit mode."""
-    for key in [key for key, tracked in _tracks.items() if not tracked.bm.is_valid]:
-        del _tracks[key]
-
-
-def forget() -> None:
-    """Let all meshes go."""
-    _tracks.clear()

@@ -4,23 +4,38 @@
 from contextlib import ExitStack
 from dataclasses import replace
 from itertools import chain, compress
-from typing import ClassVar
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLoop
 
+from .. import session
 from ..core.extenders.adjustment import AdjustmentError, ExtenderAdjustment
 from ..core.words import texts
 from ..edit_mesh.read import read_mesh
 from ..edit_mesh.write import ensure_uv_map, write_loops
 from ..extenders import storage
 from ..extenders.strength import STRENGTH_LIMIT
+from ..session import Lifetime, Remembered, edit_meshes
 from ..unwrapping import island_list
 from ..unwrapping.last_settings import last_settings
 from . import following
 from .extenders import note_on_subsurf
+
+
+class _Adjusted(Remembered):
+    """The adjusted map that is shown now."""
+
+    lifetime = Lifetime.EDIT_MODE
+
+    def __init__(self) -> None:
+        self.shown: AdjustedMap | None = None
+
+    def end(self) -> None:
+        """Restore what was there before, where the operator that shows it cannot."""
+        if self.shown is not None:
+            self.shown.restore()
 
 
 class AdjustedMap:
@@ -34,9 +49,6 @@ class AdjustedMap:
         start: the strength before.
         note: what the user should know; may be empty.
     """
-
-    # The one that is shown now.
-    _shown: ClassVar["AdjustedMap | None"] = None
 
     def __init__(self, context: bpy.types.Context, index: int) -> None:
         """Take an extender of the active object's mesh, and its islands as they are now.
@@ -55,7 +67,7 @@ class AdjustedMap:
         # A file may have a strength that is no number, from which no drag could start.
         self.start = extender.strength if abs(extender.strength) <= STRENGTH_LIMIT else 0.0
         self._paused = ExitStack()
-        self._bm = bmesh.from_edit_mesh(self.mesh)
+        self._bm = edit_meshes.keep(self.mesh).bm
         ends = storage.ends(self._bm, self.mesh)[index]
         if -1 in ends:
             raise AdjustmentError(texts.broken_extender(storage.label(extender)))
@@ -91,9 +103,9 @@ class AdjustedMap:
             AdjustmentError: an island could not be solved at this strength; the map stays as it is.
         """
         if not self.is_shown:
-            give_up()
+            session.drop(_Adjusted)
             self._paused.enter_context(following.not_following())
-            AdjustedMap._shown = self
+            session.of(_Adjusted).shown = self
         storage.show_strength(self.mesh, self.index, strength)
         uv = self._adjustment.map([strength], is_final)
         write_loops(self._bm.loops.layers.uv[self._layer], self._loops, uv)
@@ -124,7 +136,7 @@ class AdjustedMap:
     @property
     def is_shown(self) -> bool:
         """Whether a strength is shown that has been neither kept nor restored."""
-        return AdjustedMap._shown is self
+        return session.of(_Adjusted).shown is self
 
     @property
     def is_valid(self) -> bool:
@@ -133,7 +145,7 @@ class AdjustedMap:
 
     def _end(self) -> None:
         if self.is_shown:
-            AdjustedMap._shown = None
+            session.of(_Adjusted).shown = None
         self._paused.close()
 
     def _exists(self) -> bool:
@@ -154,7 +166,7 @@ class AdjustedMap:
             self._write_before_in_object_mode()
             return
         # Edit mode may have been left and entered again.
-        bm = self._bm if self.is_valid else bmesh.from_edit_mesh(self.mesh)
+        bm = self._bm if self.is_valid else edit_meshes.keep(self.mesh).bm
         layer = bm.loops.layers.uv.get(self._layer)
         n_corners, loops = (self._n_corners, self._loops) if self.is_valid else self._find_loops(bm)
         if layer is not None and n_corners == self._n_corners:
@@ -176,12 +188,3 @@ class AdjustedMap:
         if self._is_map_added and uv_map is not None:
             self.mesh.uv_layers.remove(uv_map)
         self._is_map_added = False
-
-
-def give_up() -> bool:
-    """Restore what is shown, where its operator cannot: on undo, and when the add-on is disabled; whether there was."""
-    shown = AdjustedMap._shown
-    if shown is None:
-        return False
-    shown.restore()
-    return True

@@ -8,14 +8,15 @@ has changed in them is looked for a little later, by a timer, and in these meshe
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 
 import bpy
 
-from .. import names
-from ..core.errors import PrintOnce, ReadableError
+from .. import names, session
+from ..core.errors import ReadableError
 from ..core.extenders.adjustment import AdjustmentError
 from ..core.words import texts
+from ..session import Remembered, edit_meshes
+from ..session.problems import Printed, print_once
 from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
 from .snapshot import Edge, Snapshot
@@ -26,21 +27,32 @@ _REST = 0.3
 _MAX_LOAD = 0.2
 
 
-@dataclass
-class _State:
-    """Meshes by their address: as they were seen last, and those that have changed since."""
+class _Following(Remembered):
+    """How following goes.
 
-    snapshots: dict[int, Snapshot] = field(default_factory=dict)
-    changed: set[int] = field(default_factory=set)
-    is_busy: bool = False
-    is_undoing: bool = False
-    operator: int = 0
-    last_look: float = 0.0
-    look_seconds: float = 0.0
+    Attributes:
+        changed: addresses of the meshes that Blender has updated since they were looked at.
+        is_busy: whether what changes now is not to be followed.
+        operator: `last_operator.address()` when the meshes were looked at last.
+        last_look, look_seconds: when that was, and how long it took.
+    """
+
+    def __init__(self) -> None:
+        self.changed: set[int] = set()
+        self.is_busy = False
+        self.operator = 0
+        self.last_look = 0.0
+        self.look_seconds = 0.0
+
+    def end(self) -> None:
+        """Let no timer look any more."""
+        for timer in (look, _rest, _push_undo_step):
+            if bpy.app.timers.is_registered(timer):
+                bpy.app.timers.unregister(timer)
 
 
-_state = _State()
-_print_once = PrintOnce(texts.could_not_follow)
+def _state() -> _Following:
+    return session.of(_Following)
 
 
 def is_on(scene: bpy.types.Scene) -> bool:
@@ -50,100 +62,67 @@ def is_on(scene: bpy.types.Scene) -> bool:
 
 def on_update(scene: bpy.types.Scene, meshes: Sequence[bpy.types.Mesh]) -> None:
     """Let pins of `meshes` in edit mode, which Blender has just updated, be followed, and look for the rest later."""
-    if not is_on(scene) or _state.is_busy or _state.is_undoing:
+    if not is_on(scene) or _state().is_busy:
         return
     is_dragged = False
     with _guarded():
         for mesh in meshes:
-            _state.changed.add(mesh.as_pointer())
-            seen = _state.snapshots.get(mesh.as_pointer())
+            _state().changed.add(mesh.as_pointer())
+            seen = _seen(mesh)
             if seen and seen.pinned and seen.is_current:
                 _follow_pins(scene, seen)
                 is_dragged |= seen.pinned.is_dragged
-    _look_soon(is_dragged or last_operator.address() == _state.operator)
+    _look_soon(is_dragged or last_operator.address() == _state().operator)
 
 
 def on_extender_change(mesh: bpy.types.Mesh) -> None:
     """Let changes in the list of extenders of a mesh in edit mode be followed, once the hand rests."""
-    if is_on(bpy.context.scene) and not _state.is_busy and mesh.is_editmode:
-        _state.changed.add(mesh.as_pointer())
+    if is_on(bpy.context.scene) and not _state().is_busy and mesh.is_editmode:
+        _state().changed.add(mesh.as_pointer())
         _look_soon(wait_for_rest=True)
 
 
 def look() -> None:
     """Look for changes in the meshes that Blender has updated, and follow them. Blender calls this by a timer."""
     scene = bpy.context.scene
-    if not is_on(scene) or _state.is_busy or _state.is_undoing or any(map(_waits, _state.snapshots.values())):
+    state = _state()
+    if not is_on(scene) or state.is_busy or any(map(_waits, _all_seen())):
         return
     start = time.perf_counter()
     with _guarded():
         _look(scene)
-    _state.last_look = time.perf_counter()
-    _state.look_seconds = _state.last_look - start
+    state.last_look = time.perf_counter()
+    state.look_seconds = state.last_look - start
 
 
-def see() -> None:
+def begin() -> None:
     """Take what is in the meshes in edit mode as it is: whatever has changed is not followed."""
-    _state.snapshots.clear()
-    _state.changed.clear()
+    _forget_seen()
     if is_on(bpy.context.scene):
         with _guarded(), _window(bpy.context.scene):
-            for edit_object in _edited():
+            for edit_object in edit_meshes.edited():
                 _renew(edit_object)
 
 
-def forget() -> None:
-    """Let all meshes go, which are about to change or to leave edit mode."""
-    _state.snapshots.clear()
-    _state.changed.clear()
-
-
-def forget_left() -> None:
-    """Let meshes go that have left edit mode."""
-    for key in [key for key, seen in _state.snapshots.items() if not seen.bm.is_valid]:
-        del _state.snapshots[key]
-
-
-def before_undo() -> None:
-    """Follow nothing until `after_undo`."""
-    _state.is_undoing = True
-    forget()
-
-
-def after_undo() -> None:
-    """Take what was undone as it is now."""
-    _state.is_undoing = False
-    see()
-
-
 def toggled() -> None:
-    """Begin, or stop, with what there is now; problems are told again."""
-    _print_once.forget()
-    see()
-
-
-def stop() -> None:
-    """Let go of everything: meshes and timers."""
-    _state.is_undoing = False
-    forget()
-    for timer in (look, _rest, _push_undo_step):
-        if bpy.app.timers.is_registered(timer):
-            bpy.app.timers.unregister(timer)
+    """Begin, or stop, with what there is now; problems are printed again."""
+    session.drop(Printed)
+    begin()
 
 
 @contextmanager
 def not_following() -> Iterator[None]:
     """Within, nothing is followed, and what changed within is not followed afterwards."""
-    if _state.is_busy:
+    if _state().is_busy:
         yield
         return
     # Also where it is off: it may be turned on within.
-    _state.is_busy = True
+    _state().is_busy = True
     try:
         yield
     finally:
-        _state.is_busy = False
-        see()
+        _state().is_busy = False
+        begin()
 
 
 def follow_extenders(edit_object: bpy.types.Object, strengths: Mapping[Edge, float]) -> str:
@@ -153,15 +132,14 @@ def follow_extenders(edit_object: bpy.types.Object, strengths: Mapping[Edge, flo
 
 
 def _look(scene: bpy.types.Scene) -> None:
-    before = dict(_state.snapshots)
-    changed, _state.changed = _state.changed, set()
-    for seen in before.values():
+    changed, _state().changed = _state().changed, set()
+    for seen in _all_seen():
         if seen.pinned and seen.is_current:
             _follow_pins(scene, seen)
     new_seams, new_strengths = {}, {}
     with _window(scene):
-        for edit_object in _edited():
-            seen = before.get(edit_object.data.as_pointer())
+        for edit_object in edit_meshes.edited():
+            seen = _seen(edit_object.data)
             if seen and edit_object.data.as_pointer() not in changed and seen.is_current:
                 seen.note_operators()
                 continue
@@ -174,14 +152,14 @@ def _look(scene: bpy.types.Scene) -> None:
             new_strengths[edit_object] = seen.changed_strengths(now)
             if seen.pinned and now.pinned:
                 now.pinned.goes_on_from(seen.pinned)
-        _state.operator = last_operator.address()
+        _state().operator = last_operator.address()
         is_written = bool(new_seams) and seams.follow(bpy.context, new_seams)
         for edit_object, strengths in new_strengths.items():
             # Unwrapping after changed seams uses the extenders, except that it keeps other islands as they are.
             if strengths and not new_seams:
                 is_written |= _follow_strengths(edit_object, strengths)
     if is_written:
-        see()
+        begin()
         _push_undo_step()
 
 
@@ -189,25 +167,32 @@ def _follow_strengths(edit_object: bpy.types.Object, strengths: Mapping[Edge, fl
     try:
         extenders.follow(edit_object, strengths)
     except AdjustmentError as error:
-        _print_once(error)
+        print_once(error, texts.could_not_follow)
         return False
     return True
 
 
-def _edited() -> list[bpy.types.Object]:
-    """Return one object for every mesh in edit mode."""
-    if bpy.context.mode != "EDIT_MESH":
-        return []
-    # While a file is opened they are not in it yet.
-    return [edit_object for edit_object in bpy.context.objects_in_mode_unique_data if edit_object.data.is_editmode]
+def _seen(mesh: bpy.types.Mesh) -> Snapshot | None:
+    known = edit_meshes.kept(mesh)
+    return known and known.seen
+
+
+def _all_seen() -> list[Snapshot]:
+    return [known.seen for known in edit_meshes.all_kept() if known.seen]
+
+
+def _forget_seen() -> None:
+    for known in edit_meshes.all_kept():
+        known.seen = None
+    _state().changed.clear()
 
 
 def _renew(edit_object: bpy.types.Object) -> Snapshot | None:
     now = snapshot.take(edit_object)
-    if now is None:
-        _state.snapshots.pop(edit_object.data.as_pointer(), None)
-    else:
-        _state.snapshots[edit_object.data.as_pointer()] = now
+    if now is not None:
+        edit_meshes.keep(edit_object.data).seen = now
+    elif (known := edit_meshes.kept(edit_object.data)) is not None:
+        known.seen = None
     return now
 
 
@@ -227,7 +212,7 @@ def _rest() -> float | None:
     """Follow pins that have come to rest; called by a timer."""
     scene = bpy.context.scene
     with _guarded():
-        for seen in filter(_waits, _state.snapshots.values()):
+        for seen in filter(_waits, _all_seen()):
             if not seen.is_current:
                 seen.pinned.waits = False
                 continue
@@ -241,8 +226,8 @@ def _rest() -> float | None:
 
 def _look_soon(wait_for_rest: bool) -> None:
     """Look as soon as the load allows, or with `wait_for_rest` only once Blender has updated nothing for a while."""
-    passed = time.perf_counter() - _state.last_look
-    pause = max(_REST if wait_for_rest else 0.0, _state.look_seconds / _MAX_LOAD - passed)
+    passed = time.perf_counter() - _state().last_look
+    pause = max(_REST if wait_for_rest else 0.0, _state().look_seconds / _MAX_LOAD - passed)
     if wait_for_rest and bpy.app.timers.is_registered(look):
         bpy.app.timers.unregister(look)
     _call_after(look, pause)
@@ -273,13 +258,14 @@ def _push_undo_step() -> None:
 @contextmanager
 def _guarded() -> Iterator[None]:
     """Keep the changes made within from being followed, and errors from reaching Blender; print each once."""
-    outer, _state.is_busy = _state.is_busy, True
+    state = _state()
+    outer, state.is_busy = state.is_busy, True
     try:
         yield
     except ReadableError as error:
-        _print_once(error)
+        print_once(error, texts.could_not_follow)
     except Exception as error:  # noqa: BLE001 - an error in a handler would come again with every movement of the mouse
-        forget()
-        _print_once(error)
+        _forget_seen()
+        print_once(error, texts.could_not_follow)
     finally:
-        _state.is_busy = outer
+        state.is_busy = outer

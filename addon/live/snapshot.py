@@ -5,13 +5,11 @@ Blender tells only that a mesh has changed: what has changed is the difference f
 over the edges and once over the corners; all arrays of the mesh, which take several times as long, are read only where
 it has pins, because the map before a movement of pins is not to be had afterwards.
 
-A snapshot keeps Blender's Python wrapper of the edit mesh alive, because making or freeing one moves the UVs in memory,
-to which a running transform holds pointers. So snapshots are taken in handlers and timers, never during a transform.
+Snapshots are taken in handlers and timers, never during a transform (`session.edit_meshes`).
 """
 
 from dataclasses import dataclass
 
-import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMesh
@@ -19,6 +17,7 @@ from bmesh.types import BMesh
 from .. import compatibility, user_preferences
 from ..edit_mesh.read import read_mesh
 from ..extenders import storage
+from ..session import edit_meshes
 from ..unwrapping.last_settings import last_settings
 from . import last_operator
 from .pins import PinnedMap
@@ -92,11 +91,10 @@ class Snapshot:
 def take(edit_object: bpy.types.Object) -> Snapshot | None:
     """Return the mesh of an object in edit mode as it is now; None if it has no UV map, or too many faces to follow."""
     mesh = edit_object.data
-    bm = bmesh.from_edit_mesh(mesh)
+    bm = edit_meshes.keep(mesh).bm
     layer = bm.loops.layers.uv.active
     if layer is None or len(bm.faces) > user_preferences.read("live_max_faces", user_preferences.LIVE_MAX_FACES):
         return None
-    # The pinned map first: reading makes and frees wrappers.
     pinned = _pinned_map(edit_object) if compatibility.has_pins(bm, layer) else None
     seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
     forces, _, _ = storage.resolve(bm, mesh)

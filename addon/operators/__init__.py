@@ -3,8 +3,6 @@
 
 import bpy
 
-from ..unwrapping import island_list, last_result
-from . import extender_adjust, inspect_map, job_operator
 from .extender_adjust import MESH_OT_spectral_extender_adjust
 from .extender_list import (
     MESH_OT_spectral_extender_add,
@@ -36,15 +34,6 @@ _CLASSES = (
 )
 
 
-def before_load() -> None:
-    """End what is under way, and forget what the file that is about to be left has to do with."""
-    job_operator.end_all()
-    extender_adjust.end_running()
-    inspect_map.end_running(bpy.context)
-    last_result.forget()
-    island_list.forget()
-
-
 def register() -> None:
     """Register all operators."""
     for cls in _CLASSES:
@@ -52,10 +41,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End what is under way and unregister all operators.
-
-    Blender drops running operators whose class goes without calling `cancel`.
-    """
-    before_load()
+    """Unregister all operators."""
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

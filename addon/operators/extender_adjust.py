@@ -13,7 +13,6 @@ from ..core.extenders.typed_number import TypedNumber
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..extenders.strength import STRENGTH, STRENGTH_LIMIT
-from ..live import adjusted_map
 from ..live.adjusted_map import AdjustedMap
 from ..ui import progress
 from .extender_list import INDEX, ExtenderOperator
@@ -149,9 +148,3 @@ class MESH_OT_spectral_extender_adjust(ExtenderOperator, bpy.types.Operator):
 
     def _end(self, context: bpy.types.Context) -> None:
         progress.clear_status(context)
-
-
-def end_running() -> None:
-    """End a running drag as Esc does: Blender lets go of an operator that is unregistered without telling it."""
-    if adjusted_map.give_up():
-        progress.clear_status(bpy.context)

@@ -72,15 +72,9 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         map_overlay.point_at(context, None if found is None else (found.shown.name_full, found.face))
 
     def _end(self, context: bpy.types.Context) -> set[str]:
-        end_running(context)
+        map_overlay.point_at(context, None)
+        progress.clear_status(context)
         return {"FINISHED"}
-
-
-def end_running(context: bpy.types.Context) -> None:
-    """Leave nothing shown and nothing kept, from anywhere."""
-    map_overlay.point_at(context, None)
-    under_mouse.forget()
-    progress.clear_status(context)
 
 
 def _select_island(context: bpy.types.Context, found: FaceBelow, extend: bool) -> None:

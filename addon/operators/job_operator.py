@@ -9,10 +9,11 @@ from typing import Any, Protocol
 
 import bpy
 
-from .. import user_preferences
+from .. import session, user_preferences
 from ..core.solve.progress import Progress
 from ..core.solve.worker import Worker
 from ..core.words import texts
+from ..session import Remembered
 from ..ui import progress
 from ..ui.progress import WindowProgress
 from .reporting_operator import ReportingOperator
@@ -117,8 +118,9 @@ class _Running:
         if self.is_ended:
             return
         self.is_ended = True
-        if JobOperator._running is self:
-            JobOperator._running = None
+        jobs = session.of(_Jobs)
+        if jobs.running is self:
+            jobs.running = None
         try:
             self.hide(context)
         finally:
@@ -133,15 +135,29 @@ class _Running:
             self._timer = self._window_manager.event_timer_add(_TIMER_SECONDS, window=context.window)
 
 
+class _Jobs(Remembered):
+    """The job that a window waits for."""
+
+    def __init__(self) -> None:
+        self.running: _Running | None = None
+
+    def end(self) -> None:
+        """End it, from anywhere: nothing of it is left, shown or waiting."""
+        if self.running is not None:
+            self.running.end(bpy.context)
+
+
+def running() -> _Running | None:
+    """Return the job that a window waits for."""
+    return session.of(_Jobs).running
+
+
 class JobOperator(ReportingOperator):
     """Mixin of an operator whose work is the generator `job`.
 
     Executed, Blender waits for it. Invoked in a window, its work runs in a thread, so that Blender's windows live on
     and Esc cancels; one job at a time.
     """
-
-    # The job that a window waits for. An annotation makes bpy 4.2 and 4.5 crash on leaving Python.
-    _running = None
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Yield every `Work`, and where `is_interactive` every `Choice`, take its `Done`, return the status.
@@ -154,9 +170,9 @@ class JobOperator(ReportingOperator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where a mesh is in edit mode, one job at a time."""
-        running = JobOperator._running
-        if running is not None and running.is_wanted:
-            cls.poll_message_set(texts.is_running(running.label))
+        current = running()
+        if current is not None and current.is_wanted:
+            cls.poll_message_set(texts.is_running(current.label))
             return False
         return context.mode == "EDIT_MESH"
 
@@ -177,9 +193,9 @@ class JobOperator(ReportingOperator):
         # Without a window, as for scripts and application timers, nobody would end the job.
         if bpy.app.background or context.window is None:
             return self.execute(context)
-        if JobOperator._running is not None:
-            JobOperator._running.end(context)
-        self._job = JobOperator._running = _Running(self.bl_label, self.job(context, is_interactive=True))
+        if running() is not None:
+            running().end(context)
+        self._job = session.of(_Jobs).running = _Running(self.bl_label, self.job(context, is_interactive=True))
         status = self._ending(context, self._advance, None)
         if "RUNNING_MODAL" in status:
             context.window_manager.modal_handler_add(self)
@@ -204,52 +220,46 @@ class JobOperator(ReportingOperator):
         return status
 
     def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        running = self._job
-        if running.is_ended:
+        job = self._job
+        if job.is_ended:
             return {"CANCELLED"}
         is_left = context.mode != "EDIT_MESH"
-        if running.choice is not None and not is_left:
-            status = running.choice.handle(context, event)
+        if job.choice is not None and not is_left:
+            status = job.choice.handle(context, event)
             if "FINISHED" in status:
-                answer = running.choice.answer
-                running.hide(context)
-                return self._advance(context, Done(context, answer, running.is_late))
+                answer = job.choice.answer
+                job.hide(context)
+                return self._advance(context, Done(context, answer, job.is_late))
             if "RUNNING_MODAL" in status:
                 return status
         if is_left or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
             self.report({"INFO"}, texts.cancelled(self.bl_label))
             return {"CANCELLED"}
         if event.type == "TIMER":
-            if running.worker is not None and running.worker.wait(0.0):
-                worker = running.worker
-                running.hide(context)
-                return self._advance(context, Done(context, worker.result(), running.is_late))
-            running.update(context)
+            if job.worker is not None and job.worker.wait(0.0):
+                worker = job.worker
+                job.hide(context)
+                return self._advance(context, Done(context, worker.result(), job.is_late))
+            job.update(context)
             return {"PASS_THROUGH"}
         return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
 
     def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:
         """Let the job go on, at its start with None, until it ends or a window has to wait."""
-        running, start = self._job, None if done is None else time.monotonic()
+        job, start = self._job, None if done is None else time.monotonic()
         while True:
             try:
-                step = running.job.send(done)
+                step = job.job.send(done)
             except StopIteration as end:
                 return end.value
             if not callable(step):
-                running.ask(context, step)
+                job.ask(context, step)
                 return {"RUNNING_MODAL"}
             worker = Worker(step, user_preferences.read("threads", 0))
             # What the job did itself since its first step counts, too: meanwhile Blender did not hear the artist.
             start = time.monotonic() if start is None else start
             left = _SECONDS_BEFORE_MODAL - (time.monotonic() - start)
             if not worker.wait(max(left, _TIMER_SECONDS)) or left <= 0.0:
-                running.wait(context, worker)
+                job.wait(context, worker)
                 return {"RUNNING_MODAL"}
-            done = Done(context, worker.result(), running.is_late)
-
-
-def end_all() -> None:
-    """End the job that is under way, if there is one, from anywhere: nothing of it is left, shown or waiting."""
-    if JobOperator._running is not None:
-        JobOperator._running.end(bpy.context)
+            done = Done(context, worker.result(), job.is_late)

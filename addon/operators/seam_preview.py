@@ -12,7 +12,6 @@ from ..core.measure import quality
 from ..core.measure.quality import MapQuality
 from ..core.seams import suggestion as seam_suggestion
 from ..core.seams.suggestion import Suggestion
-from ..core.solve import kept_maps
 from ..core.solve.progress import Progress
 from ..core.solve.solution import solve_all
 from ..core.solve.worker import Worker
@@ -20,6 +19,7 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..overlay import map_overlay
 from ..overlay.seam_lines import SeamLines
+from ..session import kept_maps
 from ..ui.progress import HeaderText, clear_status, show_status
 from ..unwrapping.seams import Target
 
@@ -127,7 +127,7 @@ class SeamPreview:
         """Remove everything shown."""
         if self._measuring is not None:
             self._measuring.cancel()
-        self._lines.remove(context)
+        self._lines.remove()
         map_overlay.preview(context, {})
         if self._keys is not None:
             self._keys.end()

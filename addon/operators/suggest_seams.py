@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from .. import names
+from .. import names, session
 from ..core.measure.summary import summarize
 from ..core.seams.suggestion import Options, Preferences, Search, Suggestion
 from ..core.solve.progress import Progress
@@ -16,14 +16,20 @@ from ..core.solve.solution import Solution, solve_all
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..live import following
+from ..session import Remembered
 from ..unwrapping import outcome, seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
 from .job_operator import Done, Job, JobOperator
 from .seam_preview import SeamPreview, length_text
 
-# The last search, so that other settings of Adjust Last Operation need no search.
-_search = Search()
+
+class Searched(Remembered):
+    """The last search, so that other settings of Adjust Last Operation need none."""
+
+    def __init__(self) -> None:
+        """Know no answer yet."""
+        self.search = Search()
 
 
 class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
@@ -202,7 +208,7 @@ class _Found:
 
 def _find(target: Target, options: Options, preferences: Preferences, report_progress: Progress) -> _Found:
     """Search for cuts; any thread may call it."""
-    suggestion = _search.suggest(target.polygons, options, report_progress, preferences)
+    suggestion = session.of(Searched).search.suggest(target.polygons, options, report_progress, preferences)
     if suggestion.cuts:
         return _Found(suggestion)
     return _Found(suggestion, solve_all(target.polygons, target.settings.options, report_progress))

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangles coloured by a value per face, or by a checker in the UV map, for the 3D viewport and the UV editor."""
 
-import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import gpu
 import numpy as np
+
+from .. import session
+from ..session import Lifetime, Remembered
 
 Color = tuple[float, float, float]
 
@@ -61,13 +63,28 @@ class Colors:
     opacity: float = 1.0
 
 
-@functools.cache
+class _Shaders(Remembered):
+    """The compiled shaders, by the arguments of `shader`."""
+
+    lifetime = Lifetime.ADDON
+
+    def __init__(self) -> None:
+        self.made: dict[tuple[bool, bool], gpu.types.GPUShader] = {}
+
+
 def shader(is_flat: bool, is_displayed: bool = True) -> gpu.types.GPUShader:
     """Return the shader that places the triangles by their positions, or with `is_flat` by their UVs.
 
     Blender's editors take linear colours. Not `is_displayed`, they are written as they are, for a framebuffer of one's
     own.
     """
+    made, key = session.of(_Shaders).made, (is_flat, is_displayed)
+    if key not in made:
+        made[key] = _compiled(is_flat, is_displayed)
+    return made[key]
+
+
+def _compiled(is_flat: bool, is_displayed: bool) -> gpu.types.GPUShader:
     info = gpu.types.GPUShaderCreateInfo()
     for kind, name in _CONSTANTS:
         info.push_constant(kind, name)

@@ -13,13 +13,12 @@ import numpy as np
 from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 
-from .. import editors
 from ..core.drawing import arrow_shapes
 from ..core.drawing.arrow_shapes import ArrowSize
-from ..core.errors import PrintOnce
 from ..core.words import texts
 from ..extenders import storage, tracking
 from ..extenders.tracking import Track
+from . import draw_handlers
 from .fill import fill_triangles
 
 _Point = tuple[float, float]
@@ -34,19 +33,13 @@ _DIMMED = 0.3
 _SIZE = ArrowSize()
 _OUTLINE_PIXELS = 1.5
 
-_print_once = PrintOnce(lambda problem: texts.not_drawn(texts.EXTENDERS_LABEL, problem))
 
-_handles: list[tuple[type, object]] = []
-
-
-def _draw_in_viewport() -> None:
-    context = bpy.context
+def _draw_in_viewport(context: bpy.types.Context) -> None:
     if context.mode == "EDIT_MESH" and context.space_data.overlay.show_overlays:
         _draw(context, _places_in_viewport)
 
 
-def _draw_in_uv_editor() -> None:
-    context = bpy.context
+def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     space = context.space_data
     if context.mode == "EDIT_MESH" and space.show_uvedit and space.overlay.show_overlays:
         _draw(context, _places_in_uv_editor)
@@ -54,12 +47,9 @@ def _draw_in_uv_editor() -> None:
 
 def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None:
     """Draw the arrows of all meshes in edit mode; the active one of the active object's mesh last, highlighted."""
-    try:
-        corners, colors = _triangles(context, places_of)
-        if len(corners):
-            fill_triangles(corners, colors)
-    except Exception as error:  # noqa: BLE001 - it would come again with every redraw
-        _print_once(error)
+    corners, colors = _triangles(context, places_of)
+    if len(corners):
+        fill_triangles(corners, colors)
 
 
 def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:
@@ -137,18 +127,7 @@ def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, 
     return places
 
 
-def register() -> None:
-    """Add the draw handlers; in background mode nothing is drawn."""
-    if bpy.app.background:
-        return
+def add_draw_handlers() -> None:
+    """Draw from now on."""
     for space, draw in ((bpy.types.SpaceView3D, _draw_in_viewport), (bpy.types.SpaceImageEditor, _draw_in_uv_editor)):
-        _handles.append((space, space.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")))
-
-
-def unregister() -> None:
-    """Remove the draw handlers, and what they have drawn."""
-    for space, handle in _handles:
-        space.draw_handler_remove(handle, "WINDOW")
-    _handles.clear()
-    editors.redraw(bpy.context)
-    _print_once.forget()
+        draw_handlers.add(space, draw, "POST_PIXEL", texts.EXTENDERS_LABEL)

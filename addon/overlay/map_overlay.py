@@ -13,16 +13,17 @@ import bpy
 import gpu
 import numpy as np
 
-from .. import editors, names, user_preferences
+from .. import editors, names, session
 from ..core import choices
-from ..core.errors import PrintOnce
 from ..core.measure.map_view import IslandNumbers, MapView, automatic_range, joined_numbers
-from ..core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
 from ..core.words import texts
 from ..edit_mesh import read_map
-from . import colored_triangles, legend
+from ..session import Remembered
+from ..session.problems import print_once
+from . import colored_triangles, draw_handlers, legend
 from .colored_triangles import Colors
 from .in_front import in_front_of_faces
+from .shown_mesh import ShownMesh
 
 # Nearer than this fraction of the distance nothing lies before the faces; edges and vertices are drawn nearer still.
 _NEARER = 0.0003
@@ -31,94 +32,31 @@ _QUIET_SECONDS = 0.3
 _NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS})
 
 
-class _ShownMesh:
-    """What is known and drawn of the mesh of one object."""
+class Overlay(Remembered):
+    """What the overlay has read and shows, as long as it is on.
+
+    Attributes:
+        meshes: by the full names of their objects.
+        range: the automatic range, kept while the mesh is edited: colors that change all the time say nothing.
+        numbers: of the maps shown last, together.
+        preview: UVs, (C, 2), shown in place of those of objects, by their full names: a map that an artist may choose.
+        pointed_at: the face whose numbers the legend has, by the name of its object and its index.
+        edited_at: when a shown mesh was edited last.
+    """
 
     def __init__(self) -> None:
-        self._view: MapView | None = None
-        self._is_stale = True
-        self._trusts_faces = False
-        self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
-        self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
-        self._places: gpu.types.GPUVertBuf | None = None
-        self.is_too_large = False
-        self.islands_known = False
+        """Show nothing yet."""
+        self.meshes: dict[str, ShownMesh] = {}
+        self.range: dict[tuple, tuple[float, float]] = {}
+        self.numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
+        self.preview: dict[str, np.ndarray] = {}
+        self.pointed_at: tuple[str, int] | None = None
+        self.edited_at = 0.0
 
-    def edited(self) -> None:
-        self._is_stale = True
-
-    def view(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
-        """Return what the object shows now; None without faces or a UV map."""
-        if self._is_stale:
-            self._read(context, shown, self._view and self._view.mesh)
-        return self._view
-
-    def confirm(self, context: bpy.types.Context, shown: bpy.types.Object) -> MapView | None:
-        """Return what `view` returns, after reading again what it took for granted to be fast."""
-        if self._trusts_faces:
-            self._read(context, shown, None)
-        return self._view
-
-    def _read(self, context: bpy.types.Context, shown: bpy.types.Object, before: PolygonMesh | None) -> None:
-        self._is_stale = False
-        most = user_preferences.read("overlay_max_faces", user_preferences.MAX_FACES)
-        self.is_too_large = read_map.n_faces(context, shown) > most
-        arrays = None
-        if not self.is_too_large:
-            arrays = read_map.read_map(context, shown, _preview.get(shown.name_full), before)
-        are_known = arrays is not None and before is not None
-        self._trusts_faces = are_known and arrays.face_offsets is before.face_offsets
-        self._show(arrays)
-
-    def _show(self, arrays: PolygonMesh | None) -> None:
-        """Take up what was read, and keep what it does not change."""
-        before = self._view
-        if arrays is None and before is None:
-            return
-        has_mesh = arrays is not None and before is not None and arrays.equals(before.mesh, SURFACE)
-        if has_mesh and arrays.equals(before.mesh, MAP):
-            return
-        self._view = None if arrays is None else MapView(arrays, before if has_mesh else None)
-        self._batches.clear()
-        self._in_editor.clear()
-        self.islands_known = False
-        if not has_mesh:
-            self._places = None
-
-    def batch(self, kind: str, density: float, in_editor: bool) -> gpu.types.GPUBatch | None:
-        """Return the triangles to draw for the view that was asked for last; None for none."""
-        known, key = (self._in_editor if in_editor else self._batches), (kind, density)
-        if key not in known:
-            known.clear()
-            uv, values = self._view.triangle_map(kind, density)
-            chosen = np.repeat(self._view.is_in_uv_editor(), 3) if in_editor else np.ones(1, dtype=bool)
-            if not chosen.all():
-                places = colored_triangles.places(self._view.triangle_positions()[chosen]) if chosen.any() else None
-                uv, values = uv[chosen], values[chosen]
-            else:
-                if self._places is None:
-                    self._places = self._places_of_all()
-                places = self._places
-            known[key] = colored_triangles.batch(places, uv, values) if len(values) else None
-        return known[key]
-
-    def _places_of_all(self) -> gpu.types.GPUVertBuf | None:
-        positions = self._view.triangle_positions()
-        return colored_triangles.places(positions) if len(positions) else None
-
-
-_shown: dict[str, _ShownMesh] = {}
-# The automatic range, kept while the mesh is edited: colours that change all the time tell nothing.
-_range: dict[tuple, tuple[float, float]] = {}
-# The numbers of the maps shown last, together.
-_numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
-_handles: list[tuple[type, object]] = []
-# UVs shown in place of those of objects, by their full names: a map that an artist may choose.
-_preview: dict[str, np.ndarray] = {}
-# The face whose numbers the legend has, by the name of its object and its index.
-_pointed_at: tuple[str, int] | None = None
-_print_once = PrintOnce(lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
-_edited_at = 0.0
+    def end(self) -> None:
+        """Stop waiting for the mesh to be left alone."""
+        if bpy.app.timers.is_registered(_look_at_islands):
+            bpy.app.timers.unregister(_look_at_islands)
 
 
 def settings() -> bpy.types.PropertyGroup:
@@ -131,61 +69,35 @@ def is_on() -> bool:
     return settings().show
 
 
-def follow_switch() -> None:
-    """Take up drawing, or end it and forget everything, as the switch says, whoever has turned it."""
-    if is_on():
-        _add_handlers()
-    else:
-        _remove_handlers()
-    redraw(bpy.context)
-
-
 def edited() -> None:
     """Look at the shown meshes again when they are drawn next."""
-    global _edited_at  # noqa: PLW0603 - the overlay is one, like the list of its handlers
-    if not _handles:
-        return
-    _edited_at = time.monotonic()
-    for shown in _shown.values():
+    overlay = session.of(Overlay)
+    overlay.edited_at = time.monotonic()
+    for shown in overlay.meshes.values():
         shown.edited()
 
 
 def on_update(depsgraph: bpy.types.Depsgraph) -> None:
     """Look at the shown meshes again if Blender has updated a geometry."""
-    if _handles and any(update.is_updated_geometry for update in depsgraph.updates):
+    if is_on() and any(update.is_updated_geometry for update in depsgraph.updates):
         edited()
-
-
-def forget() -> None:
-    """Forget all meshes, as names mean others in another file."""
-    global _pointed_at  # noqa: PLW0603 - see point_at
-    _pointed_at = None
-    _preview.clear()
-    _shown.clear()
-    _range.clear()
-    _numbers.clear()
 
 
 def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
     """Show these UVs, (C, 2), of objects in edit mode by their full names, in place of their own; none to end that."""
-    if maps or _preview:
-        _preview.clear()
-        _preview.update(maps)
+    overlay = session.of(Overlay)
+    if maps or overlay.preview:
+        overlay.preview = dict(maps)
         edited()
-        redraw(context)
+        editors.redraw(context)
 
 
 def point_at(context: bpy.types.Context, face: tuple[str, int] | None) -> None:
     """Let the legend have the numbers of a face, given the full name of its object and its index; None for no face."""
-    global _pointed_at  # noqa: PLW0603 - there is one mouse
-    if face != _pointed_at:
-        _pointed_at = face
-        redraw(context)
-
-
-def redraw(context: bpy.types.Context) -> None:
-    """Draw all editors that show the overlay again."""
-    editors.redraw(context)
+    overlay = session.of(Overlay)
+    if face != overlay.pointed_at:
+        overlay.pointed_at = face
+        editors.redraw(context)
 
 
 def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -195,16 +107,17 @@ def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     return [each for each in context.selected_objects if each.type == "MESH"] if context.mode == "OBJECT" else []
 
 
-def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, _ShownMesh, MapView]]:
+def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh, MapView]]:
     """Return the objects that have a map to show, with it."""
     objects = shown_objects(context)
     keys = [each.name_full for each in objects]
-    for gone in set(_shown).difference(keys):
-        del _shown[gone]
+    overlay = session.of(Overlay)
+    for gone in set(overlay.meshes).difference(keys):
+        del overlay.meshes[gone]
     found = []
     for key, each in zip(keys, objects):
-        shown = _shown.setdefault(key, _ShownMesh())
-        view = shown.view(context, each)
+        shown = overlay.meshes.setdefault(key, ShownMesh())
+        view = shown.view(context, each, overlay.preview.get(key))
         if view is not None:
             found.append((each, shown, view))
     return found
@@ -214,10 +127,11 @@ def automatic(context: bpy.types.Context) -> tuple[float, float]:
     """Return the range of the colours that follows the shown maps."""
     found, chosen = views(context), settings()
     key = (chosen.kind, chosen.image_size, *(each.name_full for each, *_ in found))
-    if found and key not in _range:
-        _range.clear()
-        _range[key] = automatic_range([view for *_, view in found], chosen.kind, chosen.image_size)
-    return _range[key] if found else (0.0, 1.0)
+    known = session.of(Overlay).range
+    if found and key not in known:
+        known.clear()
+        known[key] = automatic_range([view for *_, view in found], chosen.kind, chosen.image_size)
+    return known[key] if found else (0.0, 1.0)
 
 
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
@@ -232,18 +146,6 @@ def colors() -> Colors:
     """Return the colours that the overlay has now."""
     chosen = settings()
     return legend.colors_of(chosen.kind, chosen.opacity)
-
-
-def _guarded(draw: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
-    """Return a function for Blender to call, which prints an error once instead of with every redraw."""
-
-    def guarded() -> None:
-        try:
-            draw(bpy.context)
-        except Exception as error:  # noqa: BLE001 - it would come again with every redraw
-            _print_once(error)
-
-    return guarded
 
 
 def _draw_in_viewport(context: bpy.types.Context) -> None:
@@ -271,7 +173,7 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     space = context.space_data
     if not (space.show_uvedit and space.overlay.show_overlays and context.mode == "EDIT_MESH"):
         return
-    if _preview:
+    if session.of(Overlay).preview:
         # It would lie among the UVs that there are.
         return
     ready = list(_ready(context))
@@ -287,7 +189,7 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
         gpu.state.blend_set("NONE")
 
 
-def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, _ShownMesh, MapView]]:
+def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, ShownMesh, MapView]]:
     """Yield what can be drawn now: flipped and overlapping faces only once they are known."""
     needs_islands = settings().kind in _NEEDS_ISLANDS
     for found in views(context):
@@ -307,8 +209,8 @@ def _draw_legend(context: bpy.types.Context) -> None:
         return
     if context.area.type == "IMAGE_EDITOR" and not (space.show_uvedit and context.mode == "EDIT_MESH"):
         return
-    found = views(context)
-    too_large = [each.name for each in shown_objects(context) if _shown[each.name_full].is_too_large]
+    found, overlay = views(context), session.of(Overlay)
+    too_large = [each.name for each in shown_objects(context) if overlay.meshes[each.name_full].is_too_large]
     if not (found or too_large):
         return
     chosen = settings()
@@ -317,22 +219,23 @@ def _draw_legend(context: bpy.types.Context) -> None:
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
         lines.extend(_active_island_lines(context, found))
     for each, shown, view in found:
-        if _pointed_at is not None and each.name_full == _pointed_at[0] and _pointed_at[1] < len(view.qc):
-            lines.extend(_face_lines(shown, view, _pointed_at[1], chosen.image_size))
+        name, face = overlay.pointed_at or ("", -1)
+        if each.name_full == name and face < len(view.qc):
+            lines.extend(_face_lines(shown, view, face, chosen.image_size))
     legend.draw(context, chosen.kind, colors(), shown_range(context), lines)
 
 
 def _joined_numbers(shown: Sequence[MapView]) -> IslandNumbers:
     """Return the numbers of all shown maps together."""
-    key = tuple(shown)
-    if key not in _numbers:
-        _numbers.clear()
-        _numbers[key] = joined_numbers(shown)
-    return _numbers[key]
+    known, key = session.of(Overlay).numbers, tuple(shown)
+    if key not in known:
+        known.clear()
+        known[key] = joined_numbers(shown)
+    return known[key]
 
 
 def _active_island_lines(
-    context: bpy.types.Context, found: Sequence[tuple[bpy.types.Object, _ShownMesh, MapView]]
+    context: bpy.types.Context, found: Sequence[tuple[bpy.types.Object, ShownMesh, MapView]]
 ) -> Sequence[str]:
     """Return the lines on the island of the active object's active face; none without one."""
     for each, _, view in found:
@@ -345,7 +248,7 @@ def _active_island_lines(
     return ()
 
 
-def _face_lines(shown: _ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:
+def _face_lines(shown: ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:
     values = [float(view.values(kind, image_size)[face]) for kind in (choices.LOOK_ANGLE, choices.LOOK_SIZE)]
     density = float(view.values(choices.LOOK_DENSITY, image_size)[face])
     defects = [bool(each[face]) for each in (view.flipped, view.overlapping)] if shown.islands_known else [False] * 2
@@ -360,55 +263,46 @@ def _look_at_islands_later(context: bpy.types.Context) -> None:
 
 def _look_at_islands() -> float | None:
     """Look at the islands of the shown meshes, unless an edit was just made; returns when to try again."""
-    if not _handles:
+    if not is_on():
         return None
-    left = _QUIET_SECONDS - (time.monotonic() - _edited_at)
+    overlay = session.of(Overlay)
+    left = _QUIET_SECONDS - (time.monotonic() - overlay.edited_at)
     if left > 0.0:
         return left
     try:
         found = views(bpy.context)
         for each, shown, _view in found:
             if not shown.islands_known:
-                view = shown.confirm(bpy.context, each)
+                view = shown.confirm(bpy.context, each, overlay.preview.get(each.name_full))
                 # Looked at here, and not while drawing.
                 shown.islands_known = view is not None and len(view.island_of_face) > 0
-                _range.clear()
-                redraw(bpy.context)
+                overlay.range.clear()
+                editors.redraw(bpy.context)
         if found and all(shown.islands_known for _, shown, _ in found):
             _joined_numbers([view for *_, view in views(bpy.context)])
     except Exception as error:  # noqa: BLE001 - a timer that fails is lost without a word
-        _print_once(error)
+        print_once(error, lambda problem: texts.not_drawn(texts.MAP_OVERLAY_LABEL, problem))
     return None
 
 
-def _add_handlers() -> None:
-    if _handles or bpy.app.background:
-        return
-    for space, draw, kind in (
+def _while_on(draw: Callable[[bpy.types.Context], None]) -> Callable[[bpy.types.Context], None]:
+    """Return a function that draws while the switch is on, and otherwise lets go of what was read."""
+
+    def drawn(context: bpy.types.Context) -> None:
+        if is_on():
+            draw(context)
+        else:
+            session.drop(Overlay)
+
+    return drawn
+
+
+def add_draw_handlers() -> None:
+    """Draw from now on whenever the switch is on: nothing else says whether the overlay is drawn."""
+    for space, draw, when in (
         (bpy.types.SpaceView3D, _draw_in_viewport, "POST_VIEW"),
         (bpy.types.SpaceView3D, _draw_legend, "POST_PIXEL"),
         (bpy.types.SpaceImageEditor, _draw_in_uv_editor, "POST_VIEW"),
         (bpy.types.SpaceImageEditor, _draw_legend, "POST_PIXEL"),
     ):
-        _handles.append((space, space.draw_handler_add(_guarded(draw), (), "WINDOW", kind)))
-
-
-def _remove_handlers() -> None:
-    for space, handle in _handles:
-        space.draw_handler_remove(handle, "WINDOW")
-    _handles.clear()
-    forget()
-
-
-def register() -> None:
-    """Nothing is drawn before `follow_switch`."""
-
-
-def unregister() -> None:
-    """Draw nothing any more and forget everything."""
-    _remove_handlers()
-    redraw(bpy.context)
-    if bpy.app.timers.is_registered(_look_at_islands):
-        bpy.app.timers.unregister(_look_at_islands)
-    colored_triangles.shader.cache_clear()
-    _print_once.forget()
+        draw_handlers.add(space, _while_on(draw), when, texts.MAP_OVERLAY_LABEL)

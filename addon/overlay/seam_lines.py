@@ -9,11 +9,11 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from .. import compatibility, editors
-from ..core.errors import PrintOnce
 from ..core.seams import suggestion as seam_suggestion
 from ..core.seams.suggestion import Suggestion
 from ..core.words import texts
 from ..edit_mesh.read import EditMesh
+from .draw_handlers import DrawHandler
 from .in_front import in_front_of_faces
 
 _COLOR = (0.1, 1.0, 0.55)
@@ -33,23 +33,21 @@ class SeamLines:
         self._suggestion = suggestion
         self._batches: list[tuple[gpu.types.GPUBatch, float, float]] | None = None
         self._count = 0
-        self._print = PrintOnce(lambda problem: texts.not_drawn(texts.SUGGEST_SEAMS_LABEL, problem))
-        self._handle = None
+        self._handle: DrawHandler | None = None
 
     def show(self, context: bpy.types.Context, count: int) -> None:
         """Draw the first `count` cuts in full, the others fainter."""
         self._count, self._batches = count, None
         # In background mode nothing is drawn.
         if self._handle is None and not bpy.app.background:
-            self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
+            self._handle = DrawHandler(bpy.types.SpaceView3D, self._draw, "POST_VIEW", texts.SUGGEST_SEAMS_LABEL)
         editors.redraw(context, "VIEW_3D")
 
-    def remove(self, context: bpy.types.Context) -> None:
+    def remove(self) -> None:
         """Draw nothing any more."""
         if self._handle is not None:
-            bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+            self._handle.remove()
             self._handle = None
-        editors.redraw(context, "VIEW_3D")
 
     def points(self, start: int, end: int) -> np.ndarray:
         """Return the ends of the edges of cuts `start` to `end` - 1 in world space, (2 n, 3), edge after edge."""
@@ -61,13 +59,7 @@ class SeamLines:
             parts.append(ends @ world[:3, :3].T + world[:3, 3])
         return np.concatenate(parts)
 
-    def _draw(self) -> None:
-        try:
-            self._fill()
-        except Exception as error:  # noqa: BLE001 - an error while drawing would come again with every redraw
-            self._print(error)
-
-    def _fill(self) -> None:
+    def _draw(self, context: bpy.types.Context) -> None:
         shader = gpu.shader.from_builtin(compatibility.LINE_SHADER)
         if self._batches is None:
             total = len(self._suggestion.cuts)
@@ -77,10 +69,10 @@ class SeamLines:
                 for start, end, width, opacity in parts
                 if len(points := self.points(start, end))
             ]
-        scale = bpy.context.preferences.system.ui_scale
+        scale = context.preferences.system.ui_scale
         shader.bind()
         shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        with in_front_of_faces(bpy.context.region_data):
+        with in_front_of_faces(context.region_data):
             for depth_test, visibility in (("NONE", _THROUGH_MESH), ("LESS_EQUAL", 1.0)):
                 gpu.state.depth_test_set(depth_test)
                 for batch, width, opacity in self._batches:

@@ -5,13 +5,9 @@ from dataclasses import dataclass
 
 import bpy
 from bpy_extras import view3d_utils
-from mathutils.bvhtree import BVHTree
 
 from ..core.measure.map_view import MapView
 from . import map_overlay
-
-# The trees of the maps that were looked at, which take a moment to build.
-_trees: dict[MapView, BVHTree] = {}
 
 
 @dataclass(frozen=True)
@@ -71,30 +67,15 @@ def _in_viewport(
     origin = view3d_utils.region_2d_to_origin_3d(region, region_3d, place)
     towards = origin + view3d_utils.region_2d_to_vector_3d(region, region_3d, place)
     nearest, found = float("inf"), None
-    views = map_overlay.views(context)
-    for gone in set(_trees).difference(view for *_, view in views):
-        del _trees[gone]
-    for shown, _, view in views:
+    for shown, mesh, view in map_overlay.views(context):
         if not shown.visible_in_viewport_get(space) or abs(shown.matrix_world.determinant()) < 1e-30:
             continue
         inverse = shown.matrix_world.inverted()
         start, end = inverse @ origin, inverse @ towards
-        hit, _, triangle, _ = _tree(view).ray_cast(start, end - start)
+        hit, _, triangle, _ = mesh.tree().ray_cast(start, end - start)
         if hit is None:
             continue
         distance = (shown.matrix_world @ hit - origin).length
         if distance < nearest:
             nearest, found = distance, FaceBelow(shown, view, int(view.triangles[1][triangle]))
     return found
-
-
-def _tree(view: MapView) -> BVHTree:
-    if view not in _trees:
-        vertices = view.mesh.corner_vertices.take(view.triangles[0])
-        _trees[view] = BVHTree.FromPolygons(view.mesh.vertices.tolist(), vertices.tolist(), all_triangles=True)
-    return _trees[view]
-
-
-def forget() -> None:
-    """Forget all trees."""
-    _trees.clear()

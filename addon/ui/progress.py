@@ -7,8 +7,10 @@ from contextlib import contextmanager, nullcontext
 
 import bpy
 
+from .. import session
 from ..core.solve.progress import Progress
 from ..core.words import texts
+from ..session import Remembered
 
 # Events that pass during a solve in the background: they move the view, or do nothing.
 _VIEW_EVENTS = frozenset(
@@ -49,29 +51,39 @@ class WindowProgress:
         clear_status(context)
 
 
-# The workspaces whose status bar has a text of the add-on; the user may switch to another meanwhile.
-_workspaces: list[bpy.types.WorkSpace] = []
+class _StatusTexts(Remembered):
+    """The workspaces whose status bar has a text of the add-on; the user may switch to another meanwhile."""
+
+    def __init__(self) -> None:
+        self.workspaces: list[bpy.types.WorkSpace] = []
+
+    def end(self) -> None:
+        self.clear(bpy.context)
+
+    def clear(self, context: bpy.types.Context) -> None:
+        windows = context.window_manager.windows
+        while self.workspaces:
+            workspace = self.workspaces.pop()
+            if workspace == context.workspace:
+                workspace.status_text_set(None)
+            elif _exists(workspace) and len(windows):
+                # Blender sets it in the workspace of the context, and needs a window. In one call that one wins.
+                window = nullcontext() if context.window else context.temp_override(window=windows[0])
+                with window, context.temp_override(workspace=workspace):
+                    workspace.status_text_set(None)
 
 
 def show_status(context: bpy.types.Context, text: str) -> None:
     """Show a text in the status bar instead of Blender's, until `clear_status`."""
     context.workspace.status_text_set(text)
-    if context.workspace not in _workspaces:
-        _workspaces.append(context.workspace)
+    known = session.of(_StatusTexts).workspaces
+    if context.workspace not in known:
+        known.append(context.workspace)
 
 
 def clear_status(context: bpy.types.Context) -> None:
     """Give the status bar back to Blender in all workspaces, in any context."""
-    windows = context.window_manager.windows
-    while _workspaces:
-        workspace = _workspaces.pop()
-        if workspace == context.workspace:
-            workspace.status_text_set(None)
-        elif _exists(workspace) and len(windows):
-            # Blender sets it in the workspace of the context, and needs a window. In one call that takes precedence.
-            window = nullcontext() if context.window else context.temp_override(window=windows[0])
-            with window, context.temp_override(workspace=workspace):
-                workspace.status_text_set(None)
+    session.of(_StatusTexts).clear(context)
 
 
 def _exists(data_block: bpy.types.ID) -> bool:

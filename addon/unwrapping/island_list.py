@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .. import identity, names
+from .. import names, session
 from ..core.mesh.charts import is_island
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.solve import chart_records
@@ -17,7 +17,8 @@ from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_mesh
-from ..identity import Identity
+from ..session import Remembered, identity
+from ..session.identity import Identity
 
 # More would make the list slow and are not read.
 _MAX_ROWS = 500
@@ -46,8 +47,16 @@ class _Island:
         return self.chart.status != "solved" or is_island(polygons, self.domain, self.chart.faces)
 
 
-_islands: list[_Island] = []
-_lines: list[tuple[str, str]] = []
+class _LastResult(Remembered):
+    """The islands of the list, in its order, and what was reported of the last result, as (level, text)."""
+
+    def __init__(self) -> None:
+        self.islands: list[_Island] = []
+        self.lines: list[tuple[str, str]] = []
+
+
+def _last() -> _LastResult:
+    return session.of(_LastResult)
 
 
 def show(
@@ -60,7 +69,7 @@ def show(
 
     With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list.
     """
-    _lines[:] = reports
+    _last().lines = list(reports)
     charts = [solution.charts for solution in solutions]
     others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
     _fill([*(others if others_stay else ()), *_islands_of(edit_meshes, charts)])
@@ -72,7 +81,7 @@ def update(edit_mesh: EditMesh, charts: Sequence[Any]) -> None:
     for chart in charts:
         solved[chart.faces] = True
     others = _others([edit_mesh], [solved])
-    if len(others) < len(_islands):
+    if len(others) < len(_last().islands):
         _fill([*others, *_islands_of([edit_mesh], [charts])])
 
 
@@ -96,17 +105,17 @@ def _others(edit_meshes: Sequence[EditMesh], solved: Sequence[np.ndarray]) -> li
         topology, faces = by_mesh[island.mesh]
         return island.topology == topology and not faces[island.chart.faces].any()
 
-    return [island for island in _islands if stays(island)]
+    return [island for island in _last().islands if stays(island)]
 
 
 def _fill(islands: Sequence[_Island]) -> None:
     """Make these the list, the worst first."""
     order = _worst_first([island.chart for island in islands])
-    _islands[:] = [islands[index] for index in order[:_MAX_ROWS].tolist()]
+    _last().islands = [islands[index] for index in order[:_MAX_ROWS].tolist()]
     window_manager = bpy.context.window_manager
     rows = getattr(window_manager, names.ISLANDS_PROPERTY)
     rows.clear()
-    for island in _islands:
+    for island in _last().islands:
         chart = island.chart
         row = rows.add()
         row.name = _text(chart)
@@ -116,7 +125,7 @@ def _fill(islands: Sequence[_Island]) -> None:
 
 def lines() -> list[tuple[str, str]]:
     """Return what was reported of the last result, as (level, text)."""
-    return _lines
+    return _last().lines
 
 
 def select(context: bpy.types.Context, index: int) -> None:
@@ -124,9 +133,9 @@ def select(context: bpy.types.Context, index: int) -> None:
 
     Where its mesh is not in edit mode any more, or has other faces or islands now, the list says so.
     """
-    if not 0 <= index < len(_islands):
+    if not 0 <= index < len(_last().islands):
         return
-    island = _islands[index]
+    island = _last().islands[index]
     for edit_object in context.objects_in_mode_unique_data if context.mode == "EDIT_MESH" else ():
         if identity.of(edit_object.data) is not island.mesh:
             continue
@@ -140,14 +149,8 @@ def select(context: bpy.types.Context, index: int) -> None:
             bpy.ops.ed.undo_push(message=texts.SELECT_ISLAND_LABEL)
         return
     gone = ("WARNING", translate(texts.ISLAND_GONE))
-    if gone not in _lines:
-        _lines.append(gone)
-
-
-def forget() -> None:
-    """Forget the faces, as another file has other meshes, and what was said."""
-    _islands.clear()
-    _lines.clear()
+    if gone not in lines():
+        lines().append(gone)
 
 
 def _worst_first(charts: Sequence[Any]) -> np.ndarray:

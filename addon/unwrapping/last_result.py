@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import identity
+from .. import session
 from ..core.solve.solution import Solution
 from ..edit_mesh.read import EditMesh
-from ..identity import Identity
+from ..session import Remembered, identity
+from ..session.identity import Identity
 
 
 @dataclass(frozen=True)
@@ -25,33 +26,33 @@ class _Result:
     topology: int
 
 
-_results: dict[Identity, _Result] = {}
+class _Results(Remembered):
+    """What failed, by mesh."""
+
+    def __init__(self) -> None:
+        self.by_mesh: dict[Identity, _Result] = {}
 
 
 def remember(edit_meshes: Sequence[EditMesh], solutions: Sequence[Solution]) -> None:
     """Remember what failed. Faces that were not unwrapped this time keep what is remembered of them."""
+    results = session.of(_Results).by_mesh
     for edit_mesh, solution in zip(edit_meshes, solutions):
         polygons = edit_mesh.polygons
         failed = solution.failed_islands.copy()
         mesh = identity.of(edit_mesh.mesh)
-        before = _results.get(mesh)
+        before = results.get(mesh)
         if before is not None and before.topology == polygons.topology and before.failed_islands.max(initial=-1) >= 0:
             kept = ~polygons.selected_faces & (before.failed_islands >= 0)
             failed[kept] = before.failed_islands[kept] + failed.max(initial=-1) + 1
-        _results[mesh] = _Result(failed, polygons.topology)
+        results[mesh] = _Result(failed, polygons.topology)
 
 
 def is_remembered(mesh: bpy.types.Mesh) -> bool:
     """Return whether a mesh was unwrapped since the file was opened, whether it has changed or not."""
-    return identity.of(mesh) in _results
+    return identity.of(mesh) in session.of(_Results).by_mesh
 
 
 def failed_islands(edit_mesh: EditMesh) -> np.ndarray | None:
     """Return the failed island of every face, (F,) intp, -1 for others; None without one for its topology."""
-    result = _results.get(identity.of(edit_mesh.mesh))
+    result = session.of(_Results).by_mesh.get(identity.of(edit_mesh.mesh))
     return result.failed_islands if result is not None and result.topology == edit_mesh.polygons.topology else None
-
-
-def forget() -> None:
-    """Forget everything, as another file has other meshes."""
-    _results.clear()

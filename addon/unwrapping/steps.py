@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import bpy
 
 from ..core.layout.placement import Placement, place
-from ..core.solve import kept_maps
 from ..core.solve.options import Settings
 from ..core.solve.progress import Progress
 from ..core.solve.solution import Solution, solve_all
 from ..edit_mesh import selection
 from ..edit_mesh.read import EditMesh, read_meshes
 from ..edit_mesh.write import write_all
+from ..session import kept_maps
 
 # Makes the context manager entered while UVs are written: live unwrapping must not follow the pins that move.
 WhileWriting = Callable[[], AbstractContextManager[None]]

@@ -45,7 +45,7 @@ def inside(faces: int, result: Path) -> None:
             bpy.ops.object.mode_set(mode="EDIT")
             bpy.ops.mesh.select_all(action="SELECT")
             bpy.ops.mesh.quads_convert_to_tris()
-            overlay = sys.modules["spectral_unwrap.overlay.map_overlay"]
+            overlay, session = (sys.modules[f"spectral_unwrap.{name}"] for name in ("overlay.map_overlay", "session"))
             bm = bmesh.from_edit_mesh(mesh)
             layer = bm.loops.layers.uv.active
             bm.faces.ensure_lookup_table()
@@ -53,7 +53,7 @@ def inside(faces: int, result: Path) -> None:
             parts = []
             for index in range(ROUNDS + 1):
                 bm.faces[index].loops[0][layer].uv.x += 1e-3
-                for shown in overlay._shown.values():  # noqa: SLF001 - the parts are what is measured
+                for shown in session.of(overlay.Overlay).meshes.values():
                     shown.edited()
                 start = time.perf_counter()
                 ((_, shown, view),) = overlay.views(bpy.context)

@@ -63,13 +63,14 @@ def operators(
     _make(bpy, meshes, bystanders)
     phases = _Phases()
     # Without them each call solves everything.
-    kept_maps = importlib.import_module("spectral_unwrap.core.solve.kept_maps")
+    session = importlib.import_module("spectral_unwrap.session")
+    kept_maps = importlib.import_module("spectral_unwrap.session.kept_maps")
     memory_before = runs.peak_megabytes()
     ours: list[tuple[float, float, dict[str, float], dict[str, float]]] = []
     others: dict[str, list[tuple[float, float]]] = {method: [] for method in _known(bpy, methods)}
     start = time.perf_counter()
     while len(ours) < MIN_ROUNDS or (time.perf_counter() - start < seconds and len(ours) < MAX_ROUNDS):
-        kept_maps.forget()
+        session.drop(kept_maps.KeptMaps)
         phases.begin()
         elapsed, processor = _seconds(bpy.ops.uv.spectral_unwrap)
         if not ours:
@@ -100,7 +101,7 @@ def operators(
         "native_phases": native,
     }
     if is_profiled:
-        kept_maps.forget()
+        session.drop(kept_maps.KeptMaps)
         result["profile"] = _profile(bpy.ops.uv.spectral_unwrap)
     return result
 

@@ -49,7 +49,7 @@ MODULES = {
 }
 # The one file that may use more, this and no other of it: Blender's context manager of temporary data lets go of a
 # reference that it has given away, and only Python's own function can make up for that.
-REFERENCES = {"ctypes.pythonapi.Py_IncRef", "ctypes.py_object", "sys.getrefcount"}
+REFERENCES = {"ctypes.pythonapi.Py_IncRef", "ctypes.py_object"}
 MORE = {ROOT / "addon" / "compatibility.py": REFERENCES}
 BUILTINS = {"open", "exec", "eval", "compile", "__import__", "input", "breakpoint"}
 METHODS = {
@@ -59,7 +59,7 @@ METHODS = {
     *("addon_utils", "script_paths", "user_resource", "online_access", "filepath", "environ", "getenv"),
 }
 # Blender's operators that the add-on calls.
-OPERATORS = {"uv.unwrap", "view3d.zoom", "ed.undo_push"}
+OPERATORS = {"view3d.zoom", "ed.undo_push"}
 
 # What the compiled part would need to reach outside the process, and the one file that may, with its reason.
 CALLS = {

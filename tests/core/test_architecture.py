@@ -32,13 +32,14 @@ STANDARD = {
 BELOW = {
     "core": set(),
     "locale": set(),
-    "extenders": {"core"},
-    "edit_mesh": {"core", "extenders"},
-    "unwrapping": {"core", "extenders", "edit_mesh"},
-    "live": {"core", "extenders", "edit_mesh", "unwrapping"},
-    "overlay": {"core", "extenders", "edit_mesh"},
-    "ui": {"core", "extenders", "unwrapping"},
-    "operators": {"core", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
+    "session": {"core"},
+    "extenders": {"core", "session"},
+    "edit_mesh": {"core", "session", "extenders"},
+    "unwrapping": {"core", "session", "extenders", "edit_mesh"},
+    "live": {"core", "session", "extenders", "edit_mesh", "unwrapping"},
+    "overlay": {"core", "session", "extenders", "edit_mesh"},
+    "ui": {"core", "session", "extenders", "unwrapping"},
+    "operators": {"core", "session", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
 }
 # The same of the folders of core; choices.py, errors.py and native.py beside them are for all.
 BELOW_IN_CORE = {
@@ -51,9 +52,9 @@ BELOW_IN_CORE = {
     "seams": {"mesh", "solve", "words"},
     "extenders": {"mesh", "solve", "layout", "words"},
 }
-# Identifiers, what differs between versions of Blender, its editors and meshes, what the user prefers: no folder, and
+# Identifiers, what differs between versions of Blender, its editors, what the user prefers: no folder, and
 # below all but core.
-GROUND = {"addon.names", "addon.compatibility", "addon.editors", "addon.identity", "addon.user_preferences"}
+GROUND = {"addon.names", "addon.compatibility", "addon.editors", "addon.user_preferences"}
 
 IDENTIFIERS = (
     *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),
@@ -132,7 +133,7 @@ def test_core_imports_numpy_and_itself_only(path):
 @pytest.mark.parametrize("path", sorted(set(ADDON.rglob("*.py")) - set(CORE.rglob("*.py"))), ids=relative)
 def test_blender_layer_reaches_the_solver_through_core_only(path):
     # What it may use of them is for test_access.py.
-    for_references = ("ctypes", "sys") if path == ADDON / "compatibility.py" else ()
+    for_references = ("ctypes",) if path == ADDON / "compatibility.py" else ()
     allowed = {"numpy", *BLENDER, *STANDARD, *for_references}
     for name in imports(path):
         assert "spectral_conformal" not in name

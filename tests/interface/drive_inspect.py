@@ -34,6 +34,11 @@ def open_suzanne():
     yield from drive.show_uvs()
 
 
+def remembered():
+    """Return what the add-on remembers of the overlay."""
+    return part_of_addon("session").of(part_of_addon("overlay.map_overlay").Overlay)
+
+
 def selected():
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
     return {face.index for face in bm.faces if face.select}
@@ -53,9 +58,8 @@ def look_at_suggestions():
     with override("VIEW_3D"):
         bpy.ops.mesh.mark_seam(clear=True)
         bpy.ops.uv.spectral_suggest_seams("INVOKE_DEFAULT")
-    running = job_operator.JobOperator
-    yield from drive.until(lambda: running._running is not None and running._running.choice is not None)
-    choice = running._running.choice
+    yield from drive.until(lambda: job_operator.running() is not None and job_operator.running().choice is not None)
+    choice = job_operator.running().choice
     total = choice.count
     yield from drive.until(lambda: choice._overlaid == total)
     yield
@@ -69,7 +73,7 @@ def look_at_suggestions():
     screenshot("preview_of_fewer_seams")
     assert not np.array_equal(shown().qc, all_cuts)
     xdotool("key", "Escape")
-    yield from drive.until(lambda: running._running is None)
+    yield from drive.until(lambda: job_operator.running() is None)
     yield
     np.testing.assert_array_equal(shown().qc, own)
     np.testing.assert_array_equal(session.uv(), before)
@@ -87,12 +91,12 @@ def steps():
     yield from drive.search("Inspect Map")
     yield from drive.until(lambda: map_overlay.is_on())
     point_at("VIEW_3D", 0.5, 0.52)
-    yield from drive.until(lambda: map_overlay._pointed_at is not None)
+    yield from drive.until(lambda: remembered().pointed_at is not None)
     yield from drive.until(lambda: all(found.islands_known for _, found, _ in map_overlay.views(bpy.context)))
     yield
     screenshot("inspect_viewport")
     ((_, _, view),) = map_overlay.views(bpy.context)
-    face = map_overlay._pointed_at[1]
+    face = remembered().pointed_at[1]
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
     bm.faces.ensure_lookup_table()
     assert bm.faces[face].normal.y < 0.0, "the nearest face looks to the front"
@@ -105,13 +109,13 @@ def steps():
     region = drive.region_of("IMAGE_EDITOR")
     x, y = region.view2d.view_to_region(*map(float, middle), clip=False)
     drive.move_mouse(region.x + x, region.y + y)
-    yield from drive.until(lambda: map_overlay._pointed_at == (bpy.context.edit_object.name_full, 0))
+    yield from drive.until(lambda: remembered().pointed_at == (bpy.context.edit_object.name_full, 0))
     yield
     screenshot("inspect_uv_editor")
     xdotool("key", "Escape")
     yield
     yield
-    assert map_overlay._pointed_at is None
+    assert remembered().pointed_at is None
     np.testing.assert_array_equal(session.uv(), before)
     with override("VIEW_3D"):
         bpy.ops.mesh.select_all(action="SELECT")

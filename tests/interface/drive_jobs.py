@@ -36,7 +36,7 @@ def solving():
 
 
 def running():
-    return sys.modules["spectral_unwrap.operators.job_operator"].JobOperator._running
+    return sys.modules["spectral_unwrap.operators.job_operator"].running()
 
 
 def start(window=None):

@@ -26,6 +26,16 @@ def shown():
     return bpy.context.window_manager.spectral_map_overlay
 
 
+def remembered():
+    """Return what the add-on remembers of the overlay."""
+    return part_of_addon("session").of(part_of_addon("overlay.map_overlay").Overlay)
+
+
+def is_drawn():
+    """Tell whether the overlay has read what there is to draw."""
+    return bool(remembered().meshes)
+
+
 def open_suzanne():
     with override("VIEW_3D"):
         bpy.ops.mesh.primitive_monkey_add()
@@ -155,7 +165,6 @@ def status_bar(name):
 
 def leave_while_inspecting():
     """Nothing of Inspect Map stays when the add-on is disabled, nor when the workspace is left meanwhile."""
-    overlay = part_of_addon("overlay.map_overlay")
     point_at("VIEW_3D", 0.5, 0.5)
     yield
     yield
@@ -193,15 +202,14 @@ def leave_while_inspecting():
     assert np.abs(status_bar("status_after_disabling") - keys).max() > 0.1, "the text stays without the add-on"
     assert np.abs(is_of_viewport(picture("overlay_after_disabling")) - colored).mean() > 0.01, "the colours stay"
     addon_utils.enable("spectral_unwrap")
-    yield from drive.until(lambda: bool(part_of_addon("overlay.map_overlay")._handles) == shown().show, 20.0)
-    assert overlay._pointed_at is None
+    yield from drive.until(lambda: is_drawn() == shown().show, 20.0)
+    assert remembered().pointed_at is None
 
 
 def check_switch(name):
     """Check that the switch of the overlay tells whether it is drawn; return that."""
     screenshot(name)
-    overlay = part_of_addon("overlay.map_overlay")
-    assert bool(overlay._handles) == shown().show, (name, overlay._handles, shown().show)
+    assert is_drawn() == shown().show, (name, shown().show)
     return shown().show
 
 

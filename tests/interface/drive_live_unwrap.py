@@ -170,7 +170,7 @@ def steps():
     looks = []
 
     def rests():
-        looks.append(look._state.last_look)
+        looks.append(look._state().last_look)
         return len(looks) > 3 and len(set(looks[-4:])) == 1
 
     yield from drive.until(rests)

@@ -74,7 +74,7 @@ def view():
 
 
 def steps():
-    operator = importlib.import_module("spectral_unwrap.operators.unwrap").UV_OT_spectral_unwrap
+    jobs = importlib.import_module("spectral_unwrap.operators.job_operator")
     history = bpy.context.window_manager.operators
     yield from drive.open_uv_editing()
     yield from open_landscape()
@@ -82,7 +82,7 @@ def steps():
     before, done = uv(), list(history)
 
     yield from unwrap_by_mouse()
-    assert operator._running is not None
+    assert jobs.running() is not None
     assert not bpy.ops.uv.spectral_unwrap.poll()
     # Keys do nothing, the wheel moves the view.
     view_before = view()
@@ -90,10 +90,10 @@ def steps():
     yield from drive.until(lambda: view() != view_before)
     screenshot("solving")
     assert bpy.context.mode == "EDIT_MESH"
-    assert operator._running is not None
+    assert jobs.running() is not None
     xdotool("key", "Escape")
     yield
-    assert operator._running is None
+    assert jobs.running() is None
     yield from drive.until(lambda: not solving())
     yield
     screenshot("cancelled")
@@ -102,7 +102,7 @@ def steps():
 
     yield from unwrap_by_mouse()
     let_end.set()
-    yield from drive.until(lambda: operator._running is None)
+    yield from drive.until(lambda: jobs.running() is None)
     yield
     after = uv()
     assert drive.last_operator()

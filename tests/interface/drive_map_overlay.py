@@ -163,8 +163,7 @@ def steps():
     yield from sidebar.click_sidebar(sidebar.SHOW_MAP)
     yield from drive.until(lambda: not shown.show)
     yield
-    assert not overlay._handles
-    assert not overlay._shown
+    assert not part_of_addon("session").of(overlay.Overlay).meshes
     assert np.abs(pixel(faces_of_columns()[1], "map_overlay_off") - COLORS["middle"]).max() > 0.1
 
 

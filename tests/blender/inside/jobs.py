@@ -104,7 +104,7 @@ class Invoked:
     def left_nothing(self):
         """Return whether nothing of the job is left."""
         shown = self.status and self.status[-1] is not None
-        return not (shown or self.timers or job_operator.JobOperator._running is not None)
+        return not (shown or self.timers or job_operator.running() is not None)
 
 
 def defaults(operator):

@@ -13,7 +13,8 @@ from tests.blender.inside import digest, scenes
 core_options = importlib.import_module("spectral_unwrap.core.solve.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seams.suggestion")
-kept_maps = importlib.import_module("spectral_unwrap.core.solve.kept_maps")
+session = importlib.import_module("spectral_unwrap.session")
+kept_maps = importlib.import_module("spectral_unwrap.session.kept_maps")
 adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
 placement = importlib.import_module("spectral_unwrap.core.layout.placement")
@@ -70,7 +71,7 @@ class Started:
     """An unwrap that solves in a thread, as the operator's job does."""
 
     def __init__(self, settings):
-        kept_maps.forget()  # all is to be solved
+        session.drop(kept_maps.KeptMaps)  # all is to be solved
         self.settings = settings
         self.edit_meshes = steps.read(bpy.context, settings)
         self.worker = worker.Worker(lambda progress: steps.solve(self.edit_meshes, settings, progress))
@@ -110,7 +111,7 @@ def test_escape_at_every_report_of_an_unwrap(name, uv_map, monkeypatch):
 
 def interrupting_at(at):
     """Return a context manager like `progress.blocking` whose function is interrupted at its call number `at`."""
-    kept_maps.forget()  # all is to be solved
+    session.drop(kept_maps.KeptMaps)  # all is to be solved
     calls = []
 
     class Blocking:
@@ -135,10 +136,10 @@ def interrupting_at(at):
 def test_interrupted_script_at_every_report(operator, monkeypatch):
     PREPARE[operator]()
     call = getattr(bpy.ops.uv, operator)
-    module = importlib.import_module(f"spectral_unwrap.operators.{operator.removeprefix('spectral_')}")
     # Searched anew every time.
-    if hasattr(module, "_search"):
-        monkeypatch.setattr(module._search, "suggest", core_suggestion.suggest)
+    monkeypatch.setattr(
+        core_suggestion.Search, "suggest", lambda _search, *question: core_suggestion.suggest(*question)
+    )
     before, at = everything(), 0
     while True:
         blocking, calls = interrupting_at(at)
@@ -202,7 +203,7 @@ def test_interrupted_while_writing(uv_map, monkeypatch):
 
 def searched(target, options, report):
     """Search for seams, then solve the meshes that are cut open, as the operator does."""
-    kept_maps.forget()
+    session.drop(kept_maps.KeptMaps)
     cuts = core_suggestion.suggest(target.polygons, options, report)
     edit_meshes = seams.read_cut_open(bpy.context, target, cuts)
     steps.solve(edit_meshes, target.settings, report)

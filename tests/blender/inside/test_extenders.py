@@ -318,11 +318,11 @@ def test_a_file_that_was_saved_in_edit_mode_is_followed(tmp_path, capfd):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     # As Blender does by itself with a window.
-    module("handlers")._begin()
+    module("session").begin()
     mesh = bpy.data.meshes["Grid"]
     assert mesh.is_editmode
     assert module("extenders.tracking").track(mesh) is not None
-    assert list(module("live.following")._state.snapshots) == [mesh.as_pointer()]
+    assert module("session.edit_meshes").kept(mesh).seen is not None
     assert "Traceback" not in "".join(capfd.readouterr())
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from tests.blender.inside import scenes
 
-identity = importlib.import_module("spectral_unwrap.identity")
+identity = importlib.import_module("spectral_unwrap.session.identity")
+session = importlib.import_module("spectral_unwrap.session")
 
 
 class Keys:
@@ -56,7 +57,7 @@ def test_meshes_made_anew_are_told_by_their_names_in_proportion_to_their_number(
         assert [identity.of(mesh) for mesh in meshes] == before
         counted = keys.asked - asked_before
         bpy.data.batch_remove(meshes)
-        identity.forget()
+        session.forget(session.Lifetime.FILE)
         return counted
 
     few, many = asked(5), asked(40)

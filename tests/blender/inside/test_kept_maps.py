@@ -9,7 +9,8 @@ import numpy as np
 from tests.blender.inside import digest, scenes
 
 core_options = importlib.import_module("spectral_unwrap.core.solve.options")
-kept_maps = importlib.import_module("spectral_unwrap.core.solve.kept_maps")
+session = importlib.import_module("spectral_unwrap.session")
+kept_maps = importlib.import_module("spectral_unwrap.session.kept_maps")
 steps = importlib.import_module("spectral_unwrap.unwrapping.steps")
 
 ROWS, COLUMNS = 9, 10  # faces
@@ -51,7 +52,7 @@ def test_another_margin_solves_nothing_and_the_map_is_the_same():
     grid = prepare()
     expected = {}
     for margin in (0.001, 0.05):
-        kept_maps.forget()
+        session.drop(kept_maps.KeptMaps)
         bpy.ops.uv.spectral_unwrap(margin=margin)
         expected[margin] = digest.active_uv(grid.data)
     assert reused() == [True, True]
@@ -64,4 +65,4 @@ def test_another_file_begins_with_nothing():
     prepare()
     reused()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    assert not kept_maps._kept
+    assert kept_maps.KeptMaps not in session._memory

@@ -413,8 +413,7 @@ def test_nothing_is_seen_outside_edit_mode(monkeypatch):
             raise AssertionError("the updates are looked through")
 
     handlers._on_depsgraph_update(bpy.context.scene, NoUpdates())
-    assert module("live.following")._state.snapshots == {}
-    assert module("extenders.tracking")._tracks == {}
+    assert module("session.edit_meshes").all_kept() == []
 
 
 def add_extender(edited, first, second, **options):

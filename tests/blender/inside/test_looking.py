@@ -15,6 +15,8 @@ native = importlib.import_module("spectral_unwrap.core.native")
 choices = importlib.import_module("spectral_unwrap.core.choices")
 texts = importlib.import_module("spectral_unwrap.core.words.texts")
 map_overlay = importlib.import_module("spectral_unwrap.overlay.map_overlay")
+session = importlib.import_module("spectral_unwrap.session")
+shown_mesh = importlib.import_module("spectral_unwrap.overlay.shown_mesh")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
 map_view = importlib.import_module("spectral_unwrap.core.measure.map_view")
 island_list = importlib.import_module("spectral_unwrap.unwrapping.island_list")
@@ -58,7 +60,7 @@ def test_values_are_those_of_the_module(mode):
     np.testing.assert_allclose(view.values(choices.LOOK_ANGLE), expected.qc, atol=1e-6)
     assert view.numbers().max_qc == pytest.approx(expected.qc.max())
     assert view.triangle_map(choices.LOOK_ANGLE)[1].max() == pytest.approx(expected.qc.max(), rel=1e-6)
-    map_overlay.forget()
+    session.drop(map_overlay.Overlay)
 
 
 def test_modifiers_count_in_object_mode():
@@ -67,7 +69,7 @@ def test_modifiers_count_in_object_mode():
     grid.modifiers.new("Mirror", "MIRROR")
     ((_, _, view),) = map_overlay.views(bpy.context)
     assert len(view.qc) == 2 * len(grid.data.polygons)
-    map_overlay.forget()
+    session.drop(map_overlay.Overlay)
 
 
 def test_hidden_faces_are_not_shown():
@@ -92,7 +94,7 @@ def test_offsets_are_read_again_where_the_corners_are_others():
 
 def test_what_was_taken_for_granted_is_read_again():
     grid = stretched_grid()
-    shown = map_overlay._ShownMesh()
+    shown = shown_mesh.ShownMesh()
     shown.view(bpy.context, grid)
     view = shown.confirm(bpy.context, grid)
     right = view.mesh
@@ -212,7 +214,6 @@ def test_another_map_can_be_shown_in_place_of_the_mesh_s_own():
     before = scenes.state(grid)
     window_manager = bpy.context.window_manager
     try:
-        map_overlay._handles.append(None)  # as if it were drawn
         map_overlay.preview(bpy.context, {grid.name_full: even})
         ((_, _, other),) = map_overlay.views(bpy.context)
         assert other.qc == pytest.approx(1.0, abs=1e-6)
@@ -220,8 +221,7 @@ def test_another_map_can_be_shown_in_place_of_the_mesh_s_own():
         ((_, _, again),) = map_overlay.views(bpy.context)
         assert again.qc == pytest.approx(own.qc)
     finally:
-        map_overlay._handles.clear()
-        map_overlay.forget()
+        session.drop(map_overlay.Overlay)
     assert scenes.state(grid) == before
     assert not window_manager.spectral_map_overlay.show
 

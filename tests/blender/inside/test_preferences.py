@@ -78,6 +78,7 @@ def test_threads_are_limited_where_solves_begin(preferences):
 
 
 def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
+    session = importlib.import_module(f"{ADDON}.session")
     map_overlay = importlib.import_module(f"{ADDON}.overlay.map_overlay")
     snapshot = importlib.import_module(f"{ADDON}.live.snapshot")
     texts = importlib.import_module(f"{ADDON}.core.words.texts")
@@ -87,12 +88,12 @@ def test_meshes_beyond_the_limit_are_neither_colored_nor_followed(preferences):
     try:
         for most, is_read in ((15, False), (16, True)):
             preferences.overlay_max_faces = preferences.live_max_faces = most
-            map_overlay.forget()
+            session.drop(map_overlay.Overlay)
             assert len(map_overlay.views(bpy.context)) == int(is_read)
-            assert map_overlay._shown[grid.name_full].is_too_large is not is_read
+            assert session.of(map_overlay.Overlay).meshes[grid.name_full].is_too_large is not is_read
             assert (snapshot.take(grid) is not None) is is_read
     finally:
-        map_overlay.forget()
+        session.drop(map_overlay.Overlay)
     assert texts.too_many_faces(["Grid"])[1] == "Grid"
 
 

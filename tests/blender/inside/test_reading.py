@@ -20,16 +20,15 @@ subsurf = importlib.import_module("spectral_unwrap.edit_mesh.subsurf")
 def test_reading_makes_nothing_in_the_file(monkeypatch):
     grid = scenes.grid(3, 2)
     scenes.edit(grid)
-    read.read_mesh(grid)  # which asks Blender for the names of flags, the first time
     monkeypatch.setattr(compatibility, "bpy", SimpleNamespace(data=SimpleNamespace(temp_data=bpy.data.temp_data)))
     monkeypatch.setattr(read, "bpy", SimpleNamespace(types=bpy.types))
-    assert len(read.read_mesh(grid).polygons.selected_faces) == 6
+    polygons = read.read_mesh(grid).polygons
+    assert (len(polygons.selected_faces), len(polygons.uv)) == (6, 24)
 
 
 def test_reading_leaves_the_graph_of_objects_alone():
     grid = scenes.grid(3, 2)
     scenes.edit(grid)
-    read.read_mesh(grid)  # as above
     bpy.context.view_layer.update()
     updates = []
 

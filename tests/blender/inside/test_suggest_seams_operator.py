@@ -175,7 +175,7 @@ def test_a_property_that_changes_nothing_of_the_search_needs_no_other(monkeypatc
     core = module("core.seams.suggestion")
     searched = []
     suggest = core.suggest
-    monkeypatch.setattr(module("operators.suggest_seams"), "_search", core.Search())
+    module("session").drop(module("operators.suggest_seams").Searched)
     monkeypatch.setattr(core, "suggest", lambda *arguments: searched.append(1) or suggest(*arguments))
     head = suzanne()
     scenes.edit(head)

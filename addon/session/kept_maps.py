@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The maps of the islands that were solved last, as long as a file is open: what has not changed is not solved again.
+"""The maps of the islands that were solved last: what has not changed is not solved again.
 
 A margin that is adjusted, a seam that is marked or a step of the seam preview changes few islands or none.
 """
 
 from typing import Any
 
-from .. import native
+from ..core import native
+from . import Remembered, of
 
 # Enough for three million triangles.
 _MAX_MEGABYTES = 256
 
-_kept: list[Any] = []
+
+class KeptMaps(Remembered):
+    """Holds a `spectral_conformal.KeptMaps`."""
+
+    def __init__(self) -> None:
+        """Make it, empty."""
+        self.maps = native.spectral_conformal().hosts.KeptMaps(_MAX_MEGABYTES)
 
 
 def of_session() -> Any:  # noqa: ANN401 - of the native module
@@ -20,11 +27,4 @@ def of_session() -> Any:  # noqa: ANN401 - of the native module
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
-    if not _kept:
-        _kept.append(native.spectral_conformal().hosts.KeptMaps(_MAX_MEGABYTES))
-    return _kept[0]
-
-
-def forget() -> None:
-    """Forget all maps."""
-    _kept.clear()
+    return of(KeptMaps).maps

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the overlay knows and draws of the mesh of one object."""
+
+import bpy
+import gpu
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from .. import user_preferences
+from ..core.measure.map_view import MapView
+from ..core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
+from ..edit_mesh import read_map
+from . import colored_triangles
+
+
+class ShownMesh:
+    """A mesh and its map as they were read last.
+
+    Attributes:
+        is_too_large: whether it has more faces than the preferences allow to read.
+        islands_known: whether its islands, flips and overlaps have been looked for.
+    """
+
+    def __init__(self) -> None:
+        """Read nothing before `view`."""
+        self._view: MapView | None = None
+        self._is_stale = True
+        self._trusts_faces = False
+        self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self._places: gpu.types.GPUVertBuf | None = None
+        self._tree: BVHTree | None = None
+        self.is_too_large = False
+        self.islands_known = False
+
+    def edited(self) -> None:
+        """Read again when asked next."""
+        self._is_stale = True
+
+    def view(
+        self, context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
+    ) -> MapView | None:
+        """Return what the object shows now, with `other_uv` in place of its own UVs; None without faces or a UV map."""
+        if self._is_stale:
+            self._read(context, shown, other_uv, self._view and self._view.mesh)
+        return self._view
+
+    def confirm(
+        self, context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
+    ) -> MapView | None:
+        """Return what `view` returns, after reading again what it took for granted to be fast."""
+        if self._trusts_faces:
+            self._read(context, shown, other_uv, None)
+        return self._view
+
+    def _read(
+        self,
+        context: bpy.types.Context,
+        shown: bpy.types.Object,
+        other_uv: np.ndarray | None,
+        before: PolygonMesh | None,
+    ) -> None:
+        self._is_stale = False
+        max_faces = user_preferences.read("overlay_max_faces", user_preferences.MAX_FACES)
+        self.is_too_large = read_map.n_faces(context, shown) > max_faces
+        arrays = None if self.is_too_large else read_map.read_map(context, shown, other_uv, before)
+        are_known = arrays is not None and before is not None
+        self._trusts_faces = are_known and arrays.face_offsets is before.face_offsets
+        self._show(arrays)
+
+    def _show(self, arrays: PolygonMesh | None) -> None:
+        """Take up what was read, and keep what it does not change."""
+        before = self._view
+        if arrays is None and before is None:
+            return
+        has_mesh = arrays is not None and before is not None and arrays.equals(before.mesh, SURFACE)
+        if has_mesh and arrays.equals(before.mesh, MAP):
+            return
+        self._view = None if arrays is None else MapView(arrays, before if has_mesh else None)
+        self._batches.clear()
+        self._in_editor.clear()
+        self.islands_known = False
+        if not has_mesh:
+            self._places = self._tree = None
+
+    def batch(self, kind: str, density: float, in_editor: bool) -> gpu.types.GPUBatch | None:
+        """Return the triangles to draw for the view that was asked for last; None for none."""
+        known, key = (self._in_editor if in_editor else self._batches), (kind, density)
+        if key not in known:
+            known.clear()
+            uv, values = self._view.triangle_map(kind, density)
+            chosen = np.repeat(self._view.is_in_uv_editor(), 3) if in_editor else np.ones(1, dtype=bool)
+            if not chosen.all():
+                places = colored_triangles.places(self._view.triangle_positions()[chosen]) if chosen.any() else None
+                uv, values = uv[chosen], values[chosen]
+            else:
+                if self._places is None:
+                    self._places = self._places_of_all()
+                places = self._places
+            known[key] = colored_triangles.batch(places, uv, values) if len(values) else None
+        return known[key]
+
+    def tree(self) -> BVHTree:
+        """Return the triangles of the view that was asked for last, to be hit by rays; made when first asked for."""
+        if self._tree is None:
+            mesh = self._view.mesh
+            vertices = mesh.corner_vertices.take(self._view.triangles[0])
+            self._tree = BVHTree.FromPolygons(mesh.vertices.tolist(), vertices.tolist(), all_triangles=True)
+        return self._tree
+
+    def _places_of_all(self) -> gpu.types.GPUVertBuf | None:
+        positions = self._view.triangle_positions()
+        return colored_triangles.places(positions) if len(positions) else None
