@@ -2,6 +2,7 @@
 """Dependencies point one way: bpy layer -> core -> spectral_conformal."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -28,33 +29,26 @@ STANDARD = {
     "typing",
 }
 
-# What a folder of the add-on may import of it, besides itself and what stands below all folders.
-BELOW = {
-    "core": set(),
-    "locale": set(),
-    "session": {"core"},
-    "extenders": {"core", "session"},
-    "edit_mesh": {"core", "session", "extenders"},
-    "unwrapping": {"core", "session", "extenders", "edit_mesh"},
-    "live": {"core", "session", "extenders", "edit_mesh", "unwrapping"},
-    "overlay": {"core", "session", "extenders", "edit_mesh"},
-    "ui": {"core", "session", "extenders", "unwrapping"},
-    "operators": {"core", "session", "extenders", "edit_mesh", "unwrapping", "live", "overlay", "ui"},
-}
-# The same of the folders of core; choices.py, errors.py and native.py beside them are for all.
-BELOW_IN_CORE = {
-    "words": set(),
-    "drawing": set(),
-    "mesh": set(),
-    "solve": {"mesh", "words"},
-    "layout": {"mesh", "solve", "words"},
-    "measure": {"mesh", "solve", "words"},
-    "seams": {"mesh", "solve", "words"},
-    "extenders": {"mesh", "solve", "layout", "words"},
-}
-# Identifiers, what differs between versions of Blender, its editors, what the user prefers: no folder, and
-# below all but core.
-GROUND = {"addon.names", "addon.compatibility", "addon.editors", "addon.user_preferences"}
+TABLES = (ADDON.parent / "docs" / "developing.md").read_text(encoding="utf-8")
+
+
+def rows(pattern):
+    """Return what the rows of the tables of folders whose first cell has a pattern say, as {name: other cells}."""
+    found = re.findall(rf"^\| {pattern} \| (.*?) \| (.*?) \|$", TABLES, re.MULTILINE)
+    return {name: cells for name, *cells in found}
+
+
+def folders(pattern):
+    """Return what each folder may import besides itself and what is for all."""
+    imports = {name: set(allowed.split(", ")) - {"nothing"} for name, (_, allowed) in rows(pattern).items()}
+    assert imports
+    assert set().union(*imports.values()) <= set(imports)
+    return imports
+
+
+BELOW = folders(r"`addon/(\w+)/`")
+BELOW_IN_CORE = folders(r"`addon/core/(\w+)/`")
+GROUND = {f"addon.{name}" for name in re.findall(r"`(\w+)\.py`", rows("(ground)")["ground"][0])}
 
 IDENTIFIERS = (
     *("uv.spectral", "mesh.spectral", "spectral_extenders", ".spectral"),
@@ -147,6 +141,7 @@ def folder_of(module):
 
 def test_folders_import_downwards_only():
     known, upwards = modules(), []
+    assert {path.parent.name for path in ADDON.glob("*/__init__.py")} == set(BELOW)
     for module, path in sorted(known.items()):
         folder = folder_of(module)
         allowed = {folder} | BELOW.get(folder, set())
@@ -176,6 +171,7 @@ def folder_of_core(module):
 
 def test_what_stands_below_all_folders_imports_nothing_of_the_add_on():
     known = modules()
+    assert GROUND
     for module in GROUND:
         assert imported_modules(known[module], known) == set()
 
