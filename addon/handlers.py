@@ -8,7 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import session
-from .extenders import tracking
+from .extenders import storage
 from .live import following
 from .overlay import extender_arrows, map_overlay
 from .session import Lifetime, edit_meshes
@@ -22,7 +22,7 @@ def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
         return
     meshes = _updated(depsgraph)
     if meshes:
-        tracking.follow(meshes)
+        storage.follow(meshes)
         following.on_update(scene, meshes)
 
 
@@ -96,7 +96,7 @@ def register() -> None:
         getattr(bpy.app.handlers, event).append(handler)
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
-    session.follow(tracking.begin, following.begin, map_overlay.edited)
+    session.follow(storage.begin, following.begin, map_overlay.edited)
     # While add-ons are enabled Blender does not let them see its data.
     _begin_soon()
 

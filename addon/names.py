@@ -47,7 +47,6 @@ EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
 ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
 REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"
 ADJUST_EXTENDER_OPERATOR = "mesh.spectral_extender_adjust"
-SELECT_EXTENDER_OPERATOR = "mesh.spectral_extender_select"
 
 EXTENDER_LIST = "MESH_UL_spectral_extenders"
 ISLAND_LIST = "UV_UL_spectral_islands"

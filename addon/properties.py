@@ -22,7 +22,6 @@ from bpy.utils import register_class, unregister_class
 from . import editors, names
 from .core.words import texts
 from .extenders import storage
-from .extenders.strength import STRENGTH
 from .live import following
 from .overlay import map_overlay
 from .unwrapping import island_list
@@ -33,10 +32,6 @@ def _on_change(extender: PropertyGroup, _context: Context) -> None:
         following.on_extender_change(extender.id_data)
 
 
-def _on_rename(extender: PropertyGroup, _context: Context) -> None:
-    storage.renamed(extender)
-
-
 def _on_toggle(_scene: Scene, _context: Context) -> None:
     following.toggled()
 
@@ -44,8 +39,8 @@ def _on_toggle(_scene: Scene, _context: Context) -> None:
 class SpectralExtender(PropertyGroup):
     """One extender of a mesh."""
 
-    name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, update=_on_rename)
-    strength: FloatProperty(**STRENGTH, update=_on_change)
+    name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, update=_on_change)
+    strength: FloatProperty(**storage.STRENGTH, update=_on_change)
     use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, default=True, update=_on_change)
     first_id: IntProperty(**texts.FIRST_VERTEX_PROPERTY, options={"HIDDEN"})
     second_id: IntProperty(**texts.SECOND_VERTEX_PROPERTY, options={"HIDDEN"})

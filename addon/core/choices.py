@@ -11,7 +11,3 @@ LOOK_CHECKER = "CHECKER"
 # Where unwrapped islands go.
 PACK = "PACK"
 KEEP = "KEEP"
-
-# Which of the selected vertices an extender connects.
-PAIRS_IN_ORDER = "IN_ORDER"
-PAIRS_TO_ACTIVE = "TO_ACTIVE"

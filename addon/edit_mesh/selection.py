@@ -2,7 +2,6 @@
 """The selection of the meshes in edit mode."""
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import compress
 
 import bmesh
@@ -75,19 +74,10 @@ def _stuck_corners(bm: BMesh, layer: BMLayerItem, faces: Sequence[bool], sticky:
     return [flag or key(loop) in keys for face, flag in zip(bm.faces, faces) for loop in face.loops]
 
 
-@dataclass(frozen=True)
-class SelectedVertices:
-    """Indices of the selected vertices of a mesh, those with a known order in that order, and the active one."""
+def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> tuple[list[int], int | None]:
+    """Return the indices of the selected vertices of a mesh in edit mode, and of the active one of them.
 
-    vertices: list[int]
-    in_order: list[int]
-    active: int | None
-
-
-def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> SelectedVertices:
-    """Return the selected vertices of a mesh in edit mode.
-
-    In the UV editor without sync selection these are the vertices with a selected UV, without a known order.
+    In the UV editor without sync selection these are the vertices with a selected UV, none of which is active.
     """
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.index_update()
@@ -95,55 +85,10 @@ def selected_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh) -> Selec
     if selects_uvs(context) and layer is not None:
         corners = compatibility.selected_uv_corners(bm, layer)
         loops = compress((loop for face in bm.faces for loop in face.loops), corners.tolist())
-        return SelectedVertices(sorted({loop.vert.index for loop in loops if loop.face.select}), [], None)
-    history = [element for element in list(bm.select_history) if isinstance(element, BMVert)]
+        return sorted({loop.vert.index for loop in loops if loop.face.select}), None
     active = bm.select_history.active
-    return SelectedVertices(
-        [vertex.index for vertex in bm.verts if vertex.select],
-        [vertex.index for vertex in history],
-        active.index if isinstance(active, BMVert) else None,
-    )
-
-
-def select_only_vertices(context: bpy.types.Context, mesh: bpy.types.Mesh, vertices: Sequence[int]) -> None:
-    """Make visible ones of these vertices of one mesh, in their order, the whole selection of all meshes in edit mode.
-
-    Turns vertex selection on. In the UV editor without sync selection, the UVs of the vertices become the whole UV
-    selection instead, so that the editor still shows the same faces.
-    """
-    uv_only = selects_uvs(context)
-    if not uv_only:
-        _, *others = context.tool_settings.mesh_select_mode
-        context.tool_settings.mesh_select_mode = (True, *others)
-    for edit_object in context.objects_in_mode_unique_data:
-        bm = bmesh.from_edit_mesh(edit_object.data)
-        bm.verts.ensure_lookup_table()
-        chosen = [bm.verts[index] for index in vertices] if edit_object.data == mesh else []
-        if uv_only:
-            _select_uvs_of(bm, chosen)
-        else:
-            _select_vertices(bm, [vertex for vertex in chosen if not vertex.hide])
-        bmesh.update_edit_mesh(edit_object.data, loop_triangles=False, destructive=False)
-
-
-def _select_vertices(bm: BMesh, vertices: Sequence[BMVert]) -> None:
-    for elements in (bm.faces, bm.edges, bm.verts):
-        for element in elements:
-            element.select = False
-    bm.select_history.clear()
-    for vertex in vertices:
-        vertex.select = True
-        bm.select_history.add(vertex)
-    bm.select_flush_mode()
-    compatibility.derive_uv_selection(bm)
-
-
-def _select_uvs_of(bm: BMesh, vertices: Sequence[BMVert]) -> None:
-    layer = bm.loops.layers.uv.active
-    if layer is not None:
-        chosen = set(vertices)
-        flags = [loop.vert in chosen for face in bm.faces for loop in face.loops]
-        compatibility.select_uv_corners(bm, layer, flags)
+    selected = [vertex.index for vertex in bm.verts if vertex.select]
+    return selected, active.index if isinstance(active, BMVert) else None
 
 
 def selects_uvs(context: bpy.types.Context) -> bool:

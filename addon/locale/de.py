@@ -26,8 +26,6 @@ TEXTS = {
         "Inseln folgen bewegten Pins und geänderten Extendern; bei geänderten Nähten wird neu abgewickelt"
     ),
     "Extender": "Extender",
-    "Select": "Auswählen",
-    "Remove": "Entfernen",
     "Add Extender": "Extender hinzufügen",
     "Push pairs of selected vertices apart in the map, or pull them together": (
         "Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"
@@ -40,8 +38,6 @@ TEXTS = {
     "Drag to change the strength of the active extender; its island follows": (
         "Durch Ziehen die Stärke des aktiven Extenders ändern; seine Insel folgt"
     ),
-    "Select Extender Vertices": "Punkte des Extenders auswählen",
-    "Select the two vertices of the active extender": "Die beiden Punkte des aktiven Extenders auswählen",
     "Spectral": "Spektral",
     "Seams": "Nähte",
     "Unwrap": "Abwickeln",
@@ -68,7 +64,6 @@ TEXTS = {
         "Die Verzerrung jeder Fläche als Attribut des Meshs speichern, für Rendering, Geometry Nodes und Skripte"
     ),
     "Extenders": "Extender",
-    "Add to Active": "Mit dem aktiven verbinden",
     "Vertex gone": "Punkt fehlt",
     # Settings of Spectral Unwrap.
     "Method": "Methode",
@@ -284,8 +279,6 @@ TEXTS = {
     "Large": "Groß",
     "Color of faces larger in the map than most": ("Farbe von Flächen, die in der UV-Map größer sind als die meisten"),
     # Extenders.
-    "Pairs": "Paare",
-    "Which vertices form pairs": "Welche Punkte Paare bilden",
     "Above 0 pushes apart, below 0 pulls together; 1 is moderate": (
         "Über 0 drückt auseinander, unter 0 zieht zusammen; 1 ist mäßig"
     ),
@@ -354,20 +347,9 @@ TEXTS = {
     "Fit every island into its former bounding box, in its former orientation": (
         "Jede Insel in ihren früheren Hüllquader einpassen, in ihrer früheren Ausrichtung"
     ),
-    "In Order": "Der Reihe nach",
-    "Connect the selected vertices in pairs, in the order of selection: the first with the second, the third "
-    "with the fourth, and so on": (
-        "Die ausgewählten Punkte paarweise in der Reihenfolge ihrer Auswahl verbinden: den ersten mit dem "
-        "zweiten, den dritten mit dem vierten und so weiter"
-    ),
-    "To Active": "Mit dem aktiven",
-    "Connect every selected vertex with the active one, selected last": (
-        "Jeden ausgewählten Punkt mit dem aktiven verbinden, dem zuletzt ausgewählten"
-    ),
     # What is said of a selection, and why something cannot be done.
-    "Select two or more vertices, one after the other": "Zwei oder mehr Punkte nacheinander auswählen",
-    "Select the vertices to connect, and last the one to connect them with": (
-        "Die zu verbindenden Punkte auswählen, zuletzt den, mit dem sie verbunden werden sollen"
+    "Select two vertices, or several and last the one to connect the others with": (
+        "Zwei Punkte auswählen, oder mehrere und zuletzt den, der mit den anderen verbunden werden soll"
     ),
     "No vertex is active; Shift-click the one to connect the others with": (
         "Kein Punkt ist aktiv; den Punkt mit Umschalt+Klick auswählen, mit dem die anderen verbunden werden sollen"
@@ -548,10 +530,6 @@ TEXTS = {
     ),
     "{operator}: strength {strength}   {note}": "{operator}: Stärke {strength}   {note}",
     "Removed broken extenders: {n}": "Defekte Extender entfernt: {n}",
-    "{name} lost vertices: {n}; remove it": "{name} fehlen Punkte: {n}; entfernen",
-    "{name} has hidden vertices: {n}; reveal them to select them": (
-        "{name} hat verborgene Punkte: {n}; einblenden, um sie auszuwählen"
-    ),
     "Added {extenders}": "{extenders} hinzugefügt",
     "Added {extenders} for the next unwrap; {operator} acts at once": (
         "{extenders} für das nächste Abwickeln hinzugefügt; „{operator}“ wirkt sofort"
@@ -611,14 +589,6 @@ TEXTS = {
     ),
     "The margin must be a number, not {margin}": "Der Rand muss eine Zahl sein, nicht {margin}",
     "Extender without a name": "Extender ohne Namen",
-    "{n} vertices are selected, {unordered} of them without an order; Shift-click them one after the other, "
-    "or use {operator}": (
-        "{n} Punkte sind ausgewählt, davon ohne Reihenfolge: {unordered}; sie nacheinander mit Umschalt+Klick "
-        "auswählen oder „{operator}“ benutzen"
-    ),
-    "{n} vertices are selected, so one has no partner; select an even number": (
-        "{n} Punkte sind ausgewählt, darum hat einer keinen Partner; eine gerade Anzahl auswählen"
-    ),
     "{n} island had no former bounds and was packed into the UV tile": (
         "{n} Insel hatte keinen früheren UV-Bereich und wurde in die UV-Kachel gepackt"
     ),

@@ -3,11 +3,10 @@
 
 import bpy
 
-from .extender_adjust import MESH_OT_spectral_extender_adjust
-from .extender_list import (
+from .extenders import (
     MESH_OT_spectral_extender_add,
+    MESH_OT_spectral_extender_adjust,
     MESH_OT_spectral_extender_remove,
-    MESH_OT_spectral_extender_select,
 )
 from .inspect_map import UV_OT_spectral_inspect
 from .select import (
@@ -30,7 +29,6 @@ _CLASSES = (
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,
     MESH_OT_spectral_extender_remove,
-    MESH_OT_spectral_extender_select,
 )
 
 

@@ -13,7 +13,7 @@ from .. import session, user_preferences
 from ..core.solve.progress import Progress
 from ..core.solve.worker import Worker
 from ..core.words import texts
-from ..session import Remembered
+from ..session import Lifetime, Remembered
 from ..ui import progress
 from ..ui.progress import WindowProgress
 from .reporting_operator import ReportingOperator
@@ -136,7 +136,9 @@ class _Running:
 
 
 class _Jobs(Remembered):
-    """The job that a window waits for."""
+    """The job that a window waits for; undo ends it, as it takes away what the job works on."""
+
+    lifetime = Lifetime.EDIT_MODE
 
     def __init__(self) -> None:
         self.running: _Running | None = None

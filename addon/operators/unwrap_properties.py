@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
 from ..core.words import texts
-from ..extenders.strength import STRENGTH_LIMIT
+from ..extenders.storage import STRENGTH_LIMIT
 
 
 class UnwrapProperties:

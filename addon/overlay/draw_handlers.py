@@ -14,21 +14,21 @@ from ..session.problems import print_once
 class DrawHandler:
     """Draws over the main regions of a kind of editor until it is removed; an error is printed once."""
 
-    def __init__(self, space: type, draw: Callable[[bpy.types.Context], None], when: str, label: str) -> None:
+    def __init__(self, space: type, draw: Callable[[bpy.types.Context], None], when: str, name: str) -> None:
         """Call `draw` from now on.
 
         Args:
             space: the kind of editor, such as `bpy.types.SpaceView3D`.
             draw: what draws.
             when: "POST_VIEW" to draw in the coordinates of the view, "POST_PIXEL" to draw in pixels.
-            label: what an error says was not drawn.
+            name: of what an error says was not drawn.
         """
 
         def guarded() -> None:
             try:
                 draw(bpy.context)
             except Exception as error:  # noqa: BLE001 - it would come again with every redraw
-                print_once(error, lambda problem: texts.not_drawn(label, problem))
+                print_once(error, lambda problem: texts.not_drawn(name, problem))
 
         self._space = space
         self._handle = space.draw_handler_add(guarded, (), "WINDOW", when)
@@ -52,7 +52,7 @@ class _OfAddon(Remembered):
             handler.remove()
 
 
-def add(space: type, draw: Callable[[bpy.types.Context], None], when: str, label: str) -> None:
+def add(space: type, draw: Callable[[bpy.types.Context], None], when: str, name: str) -> None:
     """Draw as a `DrawHandler` does as long as the add-on is enabled; in background mode nothing is drawn."""
     if not bpy.app.background:
-        session.of(_OfAddon).handlers.append(DrawHandler(space, draw, when, label))
+        session.of(_OfAddon).handlers.append(DrawHandler(space, draw, when, name))

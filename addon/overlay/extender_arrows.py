@@ -9,17 +9,18 @@ vertices are connected.
 from collections.abc import Callable, Iterator
 
 import bpy
+import gpu
 import numpy as np
-from bmesh.types import BMVert
+from bmesh.types import BMesh, BMVert
 from bpy_extras import view3d_utils
+from gpu_extras.batch import batch_for_shader
 
+from .. import compatibility
 from ..core.drawing import arrow_shapes
-from ..core.drawing.arrow_shapes import ArrowSize
 from ..core.words import texts
-from ..extenders import storage, tracking
-from ..extenders.tracking import Track
+from ..extenders import storage
+from ..session import edit_meshes
 from . import draw_handlers
-from .fill import fill_triangles
 
 _Point = tuple[float, float]
 # A function that returns the places on the screen, in pixels, of two vertices of a mesh; None where one is not shown.
@@ -30,8 +31,8 @@ _ATTRACT = (0.2, 0.66, 1.0, 1.0)
 _OUTLINE = (0.0, 0.0, 0.0, 0.7)
 _ACTIVE_OUTLINE = (1.0, 1.0, 1.0, 1.0)
 _DIMMED = 0.3
-_SIZE = ArrowSize()
-_OUTLINE_PIXELS = 1.5
+# Width of the lines in pixels, and of their outline.
+_WIDTH, _OUTLINE_WIDTH = 2.5, 5.5
 
 
 def _draw_in_viewport(context: bpy.types.Context) -> None:
@@ -47,44 +48,42 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
 
 def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None:
     """Draw the arrows of all meshes in edit mode; the active one of the active object's mesh last, highlighted."""
-    corners, colors = _triangles(context, places_of)
-    if len(corners):
-        fill_triangles(corners, colors)
-
-
-def _triangles(context: bpy.types.Context, places_of: Callable[..., _Places]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners (N, 2) of the triangles to fill, in pixels, and their colours (N, 4)."""
-    scale = context.preferences.system.ui_scale
-    sizes = [
-        ArrowSize(_SIZE.shaft, _SIZE.head_length, _SIZE.head_width, margin).scaled(scale)
-        for margin in (_OUTLINE_PIXELS, 0.0)
-    ]
-    corners, colors = [np.empty((0, 2))], [np.empty((0, 4))]
+    scale, shader = context.preferences.system.ui_scale, gpu.shader.from_builtin(compatibility.LINE_SHADER)
+    gpu.state.blend_set("ALPHA")
     for start, end, outward, fill, outline in _arrows(context, places_of):
-        for size, color in zip(sizes, (outline, fill)):
-            points = arrow_shapes.arrow(start, end, outward, size).reshape(-1, 2)
-            corners.append(points)
-            colors.append(np.tile(color, (len(points), 1)))
-    return np.concatenate(corners), np.concatenate(colors)
+        lines = arrow_shapes.arrow(start, end, outward, scale).reshape(-1, 2)
+        points = np.column_stack([lines, np.zeros(len(lines))]).tolist()
+        batch = batch_for_shader(shader, "LINES", {"pos": points})
+        shader.bind()
+        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        for width, color in ((_OUTLINE_WIDTH, outline), (_WIDTH, fill)):
+            shader.uniform_float("lineWidth", width * scale)
+            shader.uniform_float("color", color)
+            batch.draw(shader)
+    gpu.state.blend_set("NONE")
 
 
 def _arrows(context: bpy.types.Context, places_of: Callable[..., _Places]) -> Iterator[tuple]:
-    """Yield start, end, whether the arrow points outward, its colour and that of its outline; the active one last."""
+    """Yield start, end, whether the arrow points outward, its color and that of its outline; the active one last."""
     last = []
     for edit_object in context.objects_in_mode_unique_data:
         mesh = edit_object.data
-        if not storage.of(mesh):
+        vertices = storage.vertices(mesh) if storage.of(mesh) else None
+        if vertices is None:
             continue
-        track = tracking.track(mesh)
-        if track is None:
-            continue
-        places = places_of(context, edit_object, track)
+        places = places_of(context, edit_object, edit_meshes.kept(mesh).bm)
         active = storage.active_index(mesh) if edit_object == context.edit_object else -1
-        for index, (extender, ends) in enumerate(zip(storage.of(mesh), track.ends)):
+        for index, (extender, ends) in enumerate(zip(storage.of(mesh), vertices)):
             found = places(*ends) if None not in ends else None
             if found is None:
                 continue
-            arrow = (*found, extender.strength >= 0.0, *_colors(extender, index == active))
+            colors = (
+                _REPEL if extender.strength >= 0.0 else _ATTRACT,
+                _ACTIVE_OUTLINE if index == active else _OUTLINE,
+            )
+            if not extender.use:
+                colors = tuple((*color[:3], color[3] * _DIMMED) for color in colors)
+            arrow = (*found, extender.strength >= 0.0, *colors)
             if index == active:
                 last.append(arrow)
             else:
@@ -92,13 +91,7 @@ def _arrows(context: bpy.types.Context, places_of: Callable[..., _Places]) -> It
     yield from last
 
 
-def _colors(extender: bpy.types.PropertyGroup, is_active: bool) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return the colour of an arrow and of its outline; those of an extender that is off are dimmed."""
-    pair = (_REPEL if extender.strength >= 0.0 else _ATTRACT, _ACTIVE_OUTLINE if is_active else _OUTLINE)
-    return tuple(color if extender.use else (*color[:3], color[3] * _DIMMED) for color in pair)
-
-
-def _places_in_viewport(context: bpy.types.Context, edit_object: bpy.types.Object, _track: Track) -> _Places:
+def _places_in_viewport(context: bpy.types.Context, edit_object: bpy.types.Object, _bm: BMesh) -> _Places:
     region, view, world = context.region, context.region_data, edit_object.matrix_world
 
     def places(first: BMVert, second: BMVert) -> tuple[_Point, _Point] | None:
@@ -110,19 +103,17 @@ def _places_in_viewport(context: bpy.types.Context, edit_object: bpy.types.Objec
     return places
 
 
-def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, track: Track) -> _Places:
-    layer = track.bm.loops.layers.uv.active
-    view = context.region.view2d
+def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, bm: BMesh) -> _Places:
+    layer, view = bm.loops.layers.uv.active, context.region.view2d
 
     def copies(vertex: BMVert) -> np.ndarray:
         return np.array([tuple(loop[layer].uv) for loop in vertex.link_loops if not loop.face.hide])
 
     def places(first: BMVert, second: BMVert) -> tuple[_Point, _Point] | None:
-        uvs = [copies(vertex) for vertex in (first, second)] if layer is not None else []
-        if not all(map(len, uvs)) or not uvs:
+        uvs = [copies(vertex) for vertex in (first, second)] if layer is not None else [()]
+        if not all(map(len, uvs)):
             return None
-        nearest = arrow_shapes.nearest_pair(*uvs)
-        return tuple(view.view_to_region(*map(float, uv), clip=False) for uv in nearest)
+        return tuple(view.view_to_region(*map(float, uv), clip=False) for uv in arrow_shapes.nearest_pair(*uvs))
 
     return places
 
@@ -130,4 +121,4 @@ def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, 
 def add_draw_handlers() -> None:
     """Draw from now on."""
     for space, draw in ((bpy.types.SpaceView3D, _draw_in_viewport), (bpy.types.SpaceImageEditor, _draw_in_uv_editor)):
-        draw_handlers.add(space, draw, "POST_PIXEL", texts.EXTENDERS_LABEL)
+        draw_handlers.add(space, draw, "POST_PIXEL", name=texts.EXTENDERS_LABEL)

@@ -305,4 +305,4 @@ def add_draw_handlers() -> None:
         (bpy.types.SpaceImageEditor, _draw_in_uv_editor, "POST_VIEW"),
         (bpy.types.SpaceImageEditor, _draw_legend, "POST_PIXEL"),
     ):
-        draw_handlers.add(space, _while_on(draw), when, texts.MAP_OVERLAY_LABEL)
+        draw_handlers.add(space, _while_on(draw), when, name=texts.MAP_OVERLAY_LABEL)

@@ -40,7 +40,7 @@ class SeamLines:
         self._count, self._batches = count, None
         # In background mode nothing is drawn.
         if self._handle is None and not bpy.app.background:
-            self._handle = DrawHandler(bpy.types.SpaceView3D, self._draw, "POST_VIEW", texts.SUGGEST_SEAMS_LABEL)
+            self._handle = DrawHandler(bpy.types.SpaceView3D, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL)
         editors.redraw(context, "VIEW_3D")
 
     def remove(self) -> None:

@@ -15,9 +15,8 @@ import bpy
 from . import Lifetime, Remembered, of
 
 if TYPE_CHECKING:
-    from bmesh.types import BMesh
+    from bmesh.types import BMesh, BMVert
 
-    from ..extenders.tracking import Track
     from ..live.snapshot import Snapshot
 
 
@@ -26,14 +25,14 @@ class KeptMesh:
 
     Attributes:
         bm: its edit mesh.
-        track: the vertices of its extenders, once they were looked for.
+        extenders: the vertices of its extenders, once they were looked for, and what they hold for.
         seen: the mesh as live unwrapping saw it last, where it is followed.
     """
 
     def __init__(self, bm: BMesh) -> None:
         """Know nothing but the edit mesh."""
         self.bm = bm
-        self.track: Track | None = None
+        self.extenders: tuple[tuple, list[tuple[BMVert | None, BMVert | None]]] | None = None
         self.seen: Snapshot | None = None
 
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 import bpy
 
 from .. import compatibility, names
-from ..core import choices
 from ..core.words import texts
 from .icons import draw_operator
 
@@ -26,14 +25,10 @@ class UV_MT_spectral(bpy.types.Menu):
         draw_operator(layout, names.STORE_OPERATOR)
         layout.separator()
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.ADD_EXTENDER_OPERATOR).pairs = choices.PAIRS_IN_ORDER
-        draw_operator(
-            layout, names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL
-        ).pairs = choices.PAIRS_TO_ACTIVE
+        draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR).index = -1
         layout.operator_context = "EXEC_REGION_WIN"
-        draw_operator(layout, names.SELECT_EXTENDER_OPERATOR).index = -1
         draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR).broken = False
 
 

@@ -9,7 +9,7 @@ import bpy
 from .. import names, user_preferences
 from ..core import choices
 from ..core.words import texts
-from ..extenders import storage, tracking
+from ..extenders import storage
 from ..unwrapping import island_list
 from . import unwrap_settings
 from .icons import draw_operator
@@ -31,7 +31,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         _flag: int = 0,
     ) -> None:
         """Draw one extender: which way it acts, or that it is broken; its name; its strength; whether it is on."""
-        is_broken = tracking.broken(mesh)[index]
+        is_broken = storage.broken(mesh)[index]
         row = layout.row(align=True)
         content = row.row(align=True)
         content.active = extender.use
@@ -201,9 +201,7 @@ class _ExtendersPanel(_Panel):
         """Draw the list and the operators on it."""
         layout, mesh = self.layout, context.edit_object.data
         layout.operator_context = "EXEC_REGION_WIN"
-        column = layout.column(align=True)
-        draw_operator(column, names.ADD_EXTENDER_OPERATOR).pairs = choices.PAIRS_IN_ORDER
-        column.operator(names.ADD_EXTENDER_OPERATOR, text=texts.ADD_TO_ACTIVE_LABEL).pairs = choices.PAIRS_TO_ACTIVE
+        draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         if not storage.of(mesh):
             return
         layout.template_list(
@@ -212,10 +210,8 @@ class _ExtendersPanel(_Panel):
         column = layout.column()
         column.operator_context = "INVOKE_REGION_WIN"
         draw_operator(column, names.ADJUST_EXTENDER_OPERATOR).index = -1
-        row = layout.row(align=True)
-        draw_operator(row, names.SELECT_EXTENDER_OPERATOR, text=texts.SELECT_LABEL).index = -1
-        draw_operator(row, names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_LABEL).broken = False
-        if any(tracking.broken(mesh)):
+        draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR).broken = False
+        if any(storage.broken(mesh)):
             remove = layout.operator(
                 names.REMOVE_EXTENDER_OPERATOR, text=texts.REMOVE_BROKEN_EXTENDERS_LABEL, icon="ERROR"
             )

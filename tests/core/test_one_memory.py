@@ -16,7 +16,7 @@ CHANGES = {
     *("popitem", "remove", "reverse", "setdefault", "sort", "symmetric_difference_update", "update"),
 }
 # What the calls at the top of a module may make, as it cannot change.
-CONSTANTS = {"ArrowSize", "TypeVar", "frozenset", "getattr", "hasattr", "tuple", "_panels", "Path(__file__).with_name"}
+CONSTANTS = {"TypeVar", "frozenset", "getattr", "hasattr", "tuple", "_panels", "Path(__file__).with_name"}
 CACHES = {"cache", "lru_cache", "functools.cache", "functools.lru_cache"}
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 

@@ -243,10 +243,7 @@ def _add_extender(rng, edited):
             vertices[index].select_set(True)
             bm.select_history.add(vertices[index])
         bmesh.update_edit_mesh(mesh)
-    properties = {
-        "pairs": str(rng.choice(["IN_ORDER", "TO_ACTIVE"])),
-        "strength": float(rng.choice([1.0, -1.0, 0.0, 1e4, -1e4])),
-    }
+    properties = {"strength": float(rng.choice([1.0, -1.0, 0.0, 1e4, -1e4]))}
     return Call(
         f"add extender {properties}",
         lambda: bpy.ops.mesh.spectral_extender_add(**properties),
@@ -279,10 +276,8 @@ def _adjust_extender(rng, edited):
 
 
 def _choose_extender(rng, edited):
-    if not bpy.ops.mesh.spectral_extender_select.poll():
+    if not bpy.ops.mesh.spectral_extender_remove.poll():
         return _add_extender(rng, edited)
-    if rng.random() < 0.5:
-        return Call("select extender", lambda: bpy.ops.mesh.spectral_extender_select(), SELECTION)
     broken = bool(rng.random() < 0.5)
     return Call(
         f"remove extender, broken={broken}",

@@ -4,18 +4,15 @@
 blender --factory-startup --python drive_extenders.py -- <folder for the screenshots> <file for the verdict>
 """
 
-import bmesh
 import bpy
 import numpy as np
 
 from tests.interface import driving as drive
 from tests.interface.extender_sidebar import (
     ADD,
-    ADD_TO_ACTIVE,
     ICON,
     NAME,
     REMOVE,
-    SELECT,
     USE,
     check_undo_and_redo,
     click_sidebar,
@@ -41,7 +38,7 @@ def add_by_clicking():
 
     three = one + [("Extender.001", 1.0, True), ("Extender.002", 1.0, True)]
     yield from click_vertices(35, 41, 24)
-    yield from click_sidebar(ADD_TO_ACTIVE)
+    yield from click_sidebar(ADD)
     screenshot("extenders_added")
     assert sorted(pairs()) == [(6, 0), (35, 24), (41, 24)]
     yield from check_undo_and_redo(one, three)
@@ -91,9 +88,6 @@ def change_in_the_list():
 
     yield from click_sidebar(row(0, ICON))
     assert bpy.context.edit_object.data.spectral_extenders_active == 0
-    yield from click_sidebar(SELECT)
-    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
-    assert [vertex.index for vertex in bm.verts if vertex.select] == [0, 6]
     yield from click_sidebar(REMOVE)
     yield from check_undo_and_redo(named, named[1:])
     yield from press("ctrl+z")

@@ -115,8 +115,8 @@ def save_and_reopen():
     yield
     assert (listed(), pairs()) == before
     screenshot("extenders_reopened")
-    tracking = importlib.import_module("spectral_unwrap.extenders.tracking")
-    assert tracking.track(bpy.context.edit_object.data) is not None, "no arrows are drawn"
+    storage = importlib.import_module("spectral_unwrap.extenders.storage")
+    assert storage.vertices(bpy.context.edit_object.data) is not None, "no arrows are drawn"
     yield from type_strength(0, "3")
     yield from check_undo_and_redo(before[0], [("Extender", 3.0, True), *before[0][1:]])
 

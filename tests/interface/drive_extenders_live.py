@@ -71,8 +71,8 @@ def drag_and_disable():
     assert listed() == start
     np.testing.assert_array_equal(uv(), before)
     # Without another update of the mesh, the arrows are there again.
-    tracking = sys.modules["spectral_unwrap.extenders.tracking"]
-    assert tracking.track(bpy.context.edit_object.data) is not None
+    storage = sys.modules["spectral_unwrap.extenders.storage"]
+    assert storage.vertices(bpy.context.edit_object.data) is not None
     screenshot("extender_enabled_again")
 
 

@@ -39,8 +39,6 @@ SUGGEST_SEAMS_DESCRIPTION = (
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins and changed extenders, and unwrap again when seams change"
 EXTENDER_NAME = "Extender"
-SELECT_LABEL = "Select"
-REMOVE_LABEL = "Remove"
 ADD_EXTENDER_LABEL = "Add Extender"
 ADD_EXTENDER_DESCRIPTION = "Push pairs of selected vertices apart in the map, or pull them together"
 REMOVE_EXTENDER_LABEL = "Remove Extender"
@@ -49,8 +47,6 @@ REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
 REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders that lost a vertex"
 ADJUST_EXTENDER_LABEL = "Adjust Extender"
 ADJUST_EXTENDER_DESCRIPTION = "Drag to change the strength of the active extender; its island follows"
-SELECT_EXTENDER_LABEL = "Select Extender Vertices"
-SELECT_EXTENDER_DESCRIPTION = "Select the two vertices of the active extender"
 SIDEBAR_TAB = "Spectral"
 SEAMS_LABEL = "Seams"
 UNWRAP_PANEL_LABEL = "Unwrap"
@@ -70,7 +66,6 @@ STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Extenders"
-ADD_TO_ACTIVE_LABEL = "Add to Active"
 VERTEX_GONE_LABEL = "Vertex gone"
 
 # Names and descriptions of the operators' properties.
@@ -258,7 +253,6 @@ ANGLE_HIGH_PROPERTY = {"name": "Angles Distorted", "description": "Color of the 
 SIZE_LOW_PROPERTY = {"name": "Small", "description": "Color of faces smaller in the map than most"}
 SIZE_MIDDLE_PROPERTY = {"name": "Even", "description": "Color of faces of median size"}
 SIZE_HIGH_PROPERTY = {"name": "Large", "description": "Color of faces larger in the map than most"}
-PAIRS_PROPERTY = {"name": "Pairs", "description": "Which vertices form pairs"}
 STRENGTH_PROPERTY = {
     "name": "Strength",
     "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
@@ -312,24 +306,8 @@ PLACEMENT_ITEMS = (
     (choices.PACK, "Pack", "Scale islands by their surface area and pack them upright into the UV tile"),
     (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
 )
-EXTENDER_PAIRS_ITEMS = (
-    (
-        choices.PAIRS_IN_ORDER,
-        "In Order",
-        (
-            "Connect the selected vertices in pairs, in the order of selection: the first with the second, the third "
-            "with the fourth, and so on"
-        ),
-    ),
-    (
-        choices.PAIRS_TO_ACTIVE,
-        "To Active",
-        "Connect every selected vertex with the active one, selected last",
-    ),
-)
 
-SELECT_PAIR = "Select two or more vertices, one after the other"
-SELECT_WITH_ACTIVE = "Select the vertices to connect, and last the one to connect them with"
+SELECT_PAIR = "Select two vertices, or several and last the one to connect the others with"
 NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
 NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in different islands; remove the seams between them"
 HELD_BY_PINS = "The extender has no effect: pins hold its island; unpin it or use soft pins"
@@ -657,16 +635,6 @@ def removed_broken(count: int) -> str:
     return translate("Removed broken extenders: {n}").format(n=count)
 
 
-def broken_extender_selected(name: str, gone: int) -> str:
-    """Return the warning that an extender has lost vertices and selects the others."""
-    return translate("{name} lost vertices: {n}; remove it").format(name=name, n=gone)
-
-
-def hidden_vertices(name: str, hidden: int) -> str:
-    """Return the warning that vertices of an extender are hidden and not selected."""
-    return translate("{name} has hidden vertices: {n}; reveal them to select them").format(name=name, n=hidden)
-
-
 def added_extenders(count: int, existing: int, follows: bool) -> str:
     """Return the report of Add Extender: `existing` pairs had one already; `follows` if the map has followed."""
     parts, extenders = [], _count(count, _EXTENDERS)
@@ -803,20 +771,6 @@ def no_margin(margin: float) -> str:
 def unnamed_extender() -> str:
     """Return the name of an extender without a name."""
     return translate("Extender without a name")
-
-
-def without_order(selected: int, ordered: int) -> str:
-    """Return what to do if only some of the selected vertices have a known order."""
-    sentence = translate(
-        "{n} vertices are selected, {unordered} of them without an order; Shift-click them one after the other, "
-        "or use {operator}"
-    )
-    return sentence.format(n=selected, unordered=selected - ordered, operator=translate(ADD_TO_ACTIVE_LABEL))
-
-
-def without_partner(selected: int) -> str:
-    """Return what to do if an odd number of vertices is selected."""
-    return translate("{n} vertices are selected, so one has no partner; select an even number").format(n=selected)
 
 
 def without_bounds(count: int) -> str:

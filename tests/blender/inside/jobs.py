@@ -124,6 +124,16 @@ def suggest_seams(monkeypatch, **properties):
     return _waiting(monkeypatch, "operators.suggest_seams", "UV_OT_spectral_suggest_seams", operator, properties)
 
 
+def adjust_extender(monkeypatch, **properties):
+    """Invoke Adjust Extender; it waits for the mouse, which has moved to 0."""
+    operator_class = importlib.import_module("spectral_unwrap.operators.extenders").MESH_OT_spectral_extender_adjust
+    values = {**defaults(bpy.ops.mesh.spectral_extender_adjust), **properties}
+    dragged = Invoked(monkeypatch, operator_class, is_waiting=False, **values)
+    if dragged.is_running:
+        dragged.send("MOUSEMOVE", "NOTHING", mouse_x=0, shift=False)
+    return dragged
+
+
 def _waiting(monkeypatch, module, name, operator, properties):
     operator_class = getattr(importlib.import_module(f"spectral_unwrap.{module}"), name)
     with monkeypatch.context() as patch:

@@ -77,7 +77,6 @@ def work():
             vertex.select_set(edited == grid and vertex.index in (0, 40))
     assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
     assert bpy.ops.mesh.spectral_extender_adjust(strength=0.5) == {"FINISHED"}
-    assert bpy.ops.mesh.spectral_extender_select() == {"FINISHED"}
     assert bpy.ops.mesh.spectral_extender_remove() == {"FINISHED"}
 
 

@@ -1,21 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cancelled or interrupted at any moment, no operator that waits leaves anything behind."""
 
-import contextlib
 import importlib
 
 import bpy
 import numpy as np
 import pytest
 
-from tests.blender.inside import digest, scenes
+from tests.blender.inside import digest, jobs, scenes
 
 core_options = importlib.import_module("spectral_unwrap.core.solve.options")
 seams = importlib.import_module("spectral_unwrap.unwrapping.seams")
 core_suggestion = importlib.import_module("spectral_unwrap.core.seams.suggestion")
 session = importlib.import_module("spectral_unwrap.session")
 kept_maps = importlib.import_module("spectral_unwrap.session.kept_maps")
-adjusted_map = importlib.import_module("spectral_unwrap.live.adjusted_map")
 native = importlib.import_module("spectral_unwrap.core.native")
 placement = importlib.import_module("spectral_unwrap.core.layout.placement")
 progress = importlib.import_module("spectral_unwrap.ui.progress")
@@ -242,20 +240,18 @@ def test_a_cancelled_search_is_not_remembered():
     assert repr(search.suggest(target.polygons, options)) == repr(expected)
 
 
-@pytest.mark.parametrize("uv_map", [True, False], ids=["with a UV map", "without"])
-def test_escape_after_any_step_of_a_drag(uv_map):
-    grid, other = prepare(uv_map)
+def test_escape_after_any_step_of_a_drag(monkeypatch):
+    grid, other = prepare()
     for edited in (grid, other):
         for vertex in scenes.edit_mesh(edited).verts:
             vertex.select_set(edited == grid and vertex.index in (0, 47))
     assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
     before = everything()
     for steps in range(4):
-        adjusted = adjusted_map.AdjustedMap(bpy.context, 0)
-        for strength in (0.5, -3.0, 8.0)[:steps]:
-            # The strong attraction has no map; the one before stays.
-            with contextlib.suppress(adjusted_map.AdjustmentError):
-                adjusted.show(strength)
-        adjusted.restore()
+        dragged = jobs.adjust_extender(monkeypatch)
+        # The strong attraction has no map; the one before stays.
+        for key in ("5", "-", "9")[:steps]:
+            dragged.send(key, ascii=key)
+        assert dragged.send("ESC") == {"CANCELLED"}
         assert digest.changes(before, everything()) == []
     assert np.isclose(grid.data.spectral_extenders[0].strength, 1.0)

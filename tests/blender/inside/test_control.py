@@ -132,7 +132,7 @@ def test_adjusting_tells_that_it_does_not_subdivide(reports, monkeypatch, subdiv
     add_extender(grid, 1, 140, 1.0)
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     settings = module("core.solve.options").Settings(use_subsurf=subdivide)
-    monkeypatch.setattr(module("live.adjusted_map"), "last_settings", lambda: settings)
+    monkeypatch.setattr(module("live.extenders"), "last_settings", lambda: settings)
     reports()
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
     assert any("ignores the Subdivision Surface" in text for _, text in reports()) == subdivide
@@ -175,26 +175,26 @@ def test_adjusting_leaves_other_islands_and_hidden_faces_alone():
 
 
 def test_adjusting_what_cannot_be_adjusted_changes_nothing(reports):
-    grid = hill(uv_map=False)
+    grid = hill()
     add_extender(grid, 0, 140, 1.0)
     for edge in scenes.edit_mesh(grid).edges:
         edge.seam = all(vertex.co.x == 6.0 for vertex in edge.verts)
+    before = scenes.read_uv(grid)
     with pytest.raises(RuntimeError, match="vertices lie in different islands"):
         bpy.ops.mesh.spectral_extender_adjust(strength=2.0)
     with pytest.raises(RuntimeError, match="This extender does not exist"):
         bpy.ops.mesh.spectral_extender_adjust(index=7)
     assert grid.data.spectral_extenders[0].strength == 1.0
-    assert not grid.data.uv_layers
+    np.testing.assert_array_equal(scenes.read_uv(grid), before)
 
 
-def test_adjusting_a_mesh_without_map_makes_one():
+def test_adjusting_a_mesh_without_map_asks_for_one():
     grid = hill(uv_map=False)
     add_extender(grid, 1, 140, 1.0)
-    assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
-    low, high = scenes.bounds(scenes.read_uv(grid))
-    assert low.min() >= 0.0
-    assert high.max() <= 1.0
-    assert area(grid) > 0.1
+    with pytest.raises(RuntimeError, match="UV map"):
+        bpy.ops.mesh.spectral_extender_adjust(strength=2.0)
+    assert not grid.data.uv_layers
+    assert grid.data.spectral_extenders[0].strength == 1.0
 
 
 def test_the_area_blend_evens_the_scale():

@@ -2,14 +2,13 @@
 """Adjust Extender dragged by the mouse: map, list and arrows follow, and all is given back unless it ends well."""
 
 import sys
-from types import FunctionType, SimpleNamespace
 
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
 import numpy as np
 import pytest
 
-from tests.blender.inside import scenes
+from tests.blender.inside import jobs, scenes
 from tests.blender.inside.test_control import add_extender, hill
 
 
@@ -18,47 +17,23 @@ def module(name):
 
 
 class Dragged:
-    """Drives the modal operator without a window."""
+    """Drives the operator without a window."""
 
-    def __init__(self, has_window=True, strength=1.0):
-        self.operator_class = module("operators.extender_adjust").MESH_OT_spectral_extender_adjust
-        # What a bpy operator instance would have.
-        self.operator = SimpleNamespace(index=-1, strength=strength, reported=[])
-        self.operator.report = lambda levels, text: self.operator.reported.append(text)
-        for cls in reversed(self.operator_class.__mro__):
-            for name, function in vars(cls).items():
-                if isinstance(function, FunctionType) and cls.__module__.startswith("spectral_unwrap"):
-                    setattr(self.operator, name, function.__get__(self.operator))
-        self.status = []
-        self.context = SimpleNamespace(
-            edit_object=bpy.context.edit_object,
-            mode="EDIT_MESH",
-            scene=bpy.context.scene,
-            window=SimpleNamespace() if has_window else None,
-            area=None,
-            workspace=SimpleNamespace(status_text_set=self.status.append, name="Workspace"),
-            window_manager=SimpleNamespace(modal_handler_add=lambda _operator: None, windows=[]),
-        )
-        self.x = 100
-        self.result = self.operator_class.invoke(self.operator, self.context, self.event())
+    def __init__(self, invoked):
+        self.invoked, self.x = invoked, 0
+        self.send = invoked.send
 
-    def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
-        properties = {"type": kind, "value": value, "mouse_x": self.x, "shift": False, "ascii": "", **others}
-        return SimpleNamespace(**properties)
-
-    def send(self, *arguments, **others):
-        return self.operator_class.modal(self.operator, self.context, self.event(*arguments, **others))
-
-    def move(self, pixels, **others):
+    def move(self, pixels, shift=False):
         self.x += pixels
-        return self.send(**others)
+        return self.send("MOUSEMOVE", "NOTHING", mouse_x=self.x, shift=shift)
+
+    def type(self, *characters):
+        for character in characters:
+            assert self.send(character, ascii=character) == {"RUNNING_MODAL"}
 
 
 @pytest.fixture
-def extended(monkeypatch):
-    # As if this were no background mode.
-    app = SimpleNamespace(background=False)
-    monkeypatch.setattr(module("operators.extender_adjust"), "bpy", SimpleNamespace(app=app, context=bpy.context))
+def extended():
     grid = hill()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     add_extender(grid, 1, 140, 1.0)
@@ -66,67 +41,71 @@ def extended(monkeypatch):
 
 
 @pytest.fixture
-def dragged(extended):
-    drag = Dragged()
-    assert drag.result == {"RUNNING_MODAL"}
-    return *extended, drag
+def dragged(extended, monkeypatch):
+    invoked = jobs.adjust_extender(monkeypatch)
+    assert invoked.result == {"RUNNING_MODAL"}
+    return *extended, Dragged(invoked)
+
+
+def strength_of(grid):
+    return grid.data.spectral_extenders[0].strength
 
 
 def test_dragging_changes_the_strength_and_the_map_follows(dragged):
     grid, before, drag = dragged
     assert drag.move(200) == {"RUNNING_MODAL"}
-    assert drag.operator.strength == pytest.approx(3.0)
+    assert strength_of(grid) == pytest.approx(3.0)
     drag.move(100, shift=True)
-    assert drag.operator.strength == pytest.approx(3.1)
-    assert "strength 3.100" in drag.status[-1]
+    assert strength_of(grid) == pytest.approx(3.1)
+    assert "strength 3.100" in drag.invoked.status[-1]
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
-    assert drag.send("LEFTMOUSE", "PRESS") == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == pytest.approx(3.1)
-    assert drag.status[-1] is None
+    assert drag.send("LEFTMOUSE") == {"FINISHED"}
+    assert (strength_of(grid), drag.invoked.operator.strength) == pytest.approx((3.1, 3.1))
+    assert drag.invoked.left_nothing()
 
 
 def test_escape_restores_exactly(dragged):
     grid, before, drag = dragged
     drag.move(-150)
     drag.move(700)
-    assert drag.send("ESC", "PRESS") == {"CANCELLED"}
-    np.testing.assert_array_equal(scenes.read_uv(grid), before)
-    assert grid.data.spectral_extenders[0].strength == 1.0
-    assert drag.status[-1] is None
+    assert drag.send("ESC") == {"CANCELLED"}
+    assert_as_before(grid, before)
+    assert drag.invoked.left_nothing()
 
 
 def test_a_number_can_be_typed(dragged):
     grid, _, drag = dragged
-    for key, character in (("TWO", "2"), ("PERIOD", "."), ("FIVE", "5"), ("FIVE", "5"), ("BACK_SPACE", "")):
-        assert drag.send(key, "PRESS", ascii=character) == {"RUNNING_MODAL"}
-    assert drag.operator.strength == 2.5
-    assert "[2.5|]" in drag.status[-1]
+    drag.type("2", ".", "5", "5")
+    drag.send("BACK_SPACE")
+    assert strength_of(grid) == 2.5
+    assert "[2.5|]" in drag.invoked.status[-1]
     drag.move(50)
-    assert drag.operator.strength == 2.5
-    assert drag.send("RET", "PRESS") == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == 2.5
+    assert strength_of(grid) == 2.5
+    drag.type("-")
+    assert strength_of(grid) == -2.5
+    drag.type("-", ",")
+    assert drag.send("RET") == {"FINISHED"}
+    assert strength_of(grid) == 2.5
 
 
 def test_where_the_map_cannot_follow_it_stays_and_the_reason_is_shown(dragged):
     grid, _, drag = dragged
-    for key, character in (("MINUS", "-"), ("NINE", "9"), ("NINE", "9"), ("NINE", "9"), ("NINE", "9")):
-        drag.send(key, "PRESS", ascii=character)
-    shown = scenes.read_uv(grid)
-    assert np.isfinite(shown).all()
-    assert "weaken or remove extenders" in drag.status[-1]
-    assert drag.send("RET", "PRESS") == {"CANCELLED"}
-    assert grid.data.spectral_extenders[0].strength == 1.0
+    drag.type("-", "9", "9", "9", "9")
+    assert np.isfinite(scenes.read_uv(grid)).all()
+    assert "weaken or remove extenders" in drag.invoked.status[-1]
+    assert drag.send("RET") == {"CANCELLED"}
+    assert strength_of(grid) == 1.0
 
 
 def test_view_navigation_goes_on_while_dragging(dragged):
     _, _, drag = dragged
-    assert drag.send("WHEELUPMOUSE", "PRESS") == {"PASS_THROUGH"}
-    assert drag.send("A", "PRESS", ascii="a") == {"RUNNING_MODAL"}
+    assert drag.send("WHEELUPMOUSE") == {"PASS_THROUGH"}
+    assert drag.send("A", ascii="a") == {"RUNNING_MODAL"}
 
 
 def assert_as_before(grid, before):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
-    assert grid.data.spectral_extenders[0].strength == 1.0
+    assert strength_of(grid) == 1.0
 
 
 def test_list_and_arrows_show_the_strength_that_is_dragged(dragged):
@@ -135,15 +114,15 @@ def test_list_and_arrows_show_the_strength_that_is_dragged(dragged):
     arrows = module("overlay.extender_arrows")
 
     def points_outward():
-        in_plane = lambda _context, _object, _track: lambda first, second: (tuple(first.co.xy), tuple(second.co.xy))  # noqa: E731
+        in_plane = lambda _context, _object, _bm: lambda first, second: (tuple(first.co.xy), tuple(second.co.xy))  # noqa: E731
         ((_, _, outward, *_),) = arrows._arrows(bpy.context, in_plane)
         return outward
 
     assert points_outward()
     drag.move(-150)
-    assert grid.data.spectral_extenders[0].strength == pytest.approx(-0.5)
+    assert strength_of(grid) == pytest.approx(-0.5)
     assert not points_outward()
-    drag.send("ESC", "PRESS")
+    drag.send("ESC")
     assert points_outward()
     assert_as_before(grid, before)
 
@@ -154,7 +133,7 @@ def test_the_layer_is_named_after_the_list_when_the_drag_has_ended(dragged):
     name = grid.data.spectral_extenders_layer
     drag.move(100)
     assert grid.data.spectral_extenders_layer == name
-    drag.send("LEFTMOUSE", "PRESS")
+    drag.send("LEFTMOUSE")
     core = module("core.extenders.pairs")
     wanted = core.layer_name(".spectral_extenders:", storage._read(grid.data))
     assert grid.data.spectral_extenders_layer == wanted != name
@@ -164,9 +143,9 @@ def test_leaving_edit_mode_gives_map_and_strength_back(dragged):
     grid, before, drag = dragged
     drag.move(300)
     bpy.ops.object.mode_set(mode="OBJECT")
-    drag.context.mode = "OBJECT"
-    assert drag.send() == {"CANCELLED"}
-    assert drag.status[-1] is None
+    drag.invoked.context.mode = "OBJECT"
+    assert drag.move(0) == {"CANCELLED"}
+    assert drag.invoked.left_nothing()
     uv = np.empty(before.size, dtype=np.float32)
     grid.data.uv_layers.active.data.foreach_get("uv", uv)
     np.testing.assert_array_equal(uv.reshape(-1, 2), before)
@@ -179,7 +158,7 @@ def test_edit_mode_left_and_entered_again_gives_map_and_strength_back(dragged):
     drag.move(300)
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.mode_set(mode="EDIT")
-    assert drag.send() == {"CANCELLED"}
+    assert drag.move(0) == {"CANCELLED"}
     assert_as_before(grid, before)
 
 
@@ -188,8 +167,20 @@ def test_a_mesh_that_is_gone_is_let_go(dragged):
     drag.move(300)
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.meshes.remove(grid.data)
-    drag.context.mode = "OBJECT"
-    assert drag.send() == {"CANCELLED"}
+    drag.invoked.context.mode = "OBJECT"
+    assert drag.move(0) == {"CANCELLED"}
+
+
+def test_a_mesh_with_another_map_keeps_it(dragged):
+    grid, _, drag = dragged
+    drag.move(300)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    other = grid.data.uv_layers.new(name="Other")
+    grid.data.uv_layers.active = other
+    drag.invoked.context.mode = "OBJECT"
+    before = np.array([loop.uv[:] for loop in other.data])
+    assert drag.move(0) == {"CANCELLED"}
+    np.testing.assert_array_equal(np.array([loop.uv[:] for loop in grid.data.uv_layers["Other"].data]), before)
 
 
 def test_undo_in_the_middle_gives_map_and_strength_back_before(dragged):
@@ -200,8 +191,8 @@ def test_undo_in_the_middle_gives_map_and_strength_back_before(dragged):
     assert_as_before(grid, before)
     for handler in bpy.app.handlers.undo_post:
         handler(bpy.context.scene, None)
-    assert drag.send() == {"CANCELLED"}
-    assert drag.status[-1] is None
+    assert drag.move(0) == {"CANCELLED"}
+    assert drag.invoked.left_nothing()
 
 
 @pytest.mark.parametrize("error", [RuntimeError, MemoryError])
@@ -215,12 +206,12 @@ def test_an_error_gives_map_and_strength_back(dragged, monkeypatch, error):
     monkeypatch.setattr(module("core.extenders.adjustment").ExtenderAdjustment, "map", fail)
     if error is MemoryError:
         assert drag.move(10) == {"CANCELLED"}
-        assert "Not enough memory" in drag.operator.reported[-1]
+        assert "Not enough memory" in drag.invoked.reported[-1][1]
     else:
         with pytest.raises(error):
             drag.move(10)
     assert_as_before(grid, before)
-    assert drag.status[-1] is None
+    assert drag.invoked.left_nothing()
 
 
 def test_disabling_the_add_on_gives_map_and_strength_back(dragged):
@@ -231,7 +222,7 @@ def test_disabling_the_add_on_gives_map_and_strength_back(dragged):
     addon_utils.enable("spectral_unwrap", default_set=True)
     assert_as_before(grid, before)
     assert bpy.ops.mesh.spectral_extender_adjust(strength=2.0) == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == 2.0
+    assert strength_of(grid) == 2.0
 
 
 def test_live_unwrapping_pauses(dragged):
@@ -243,23 +234,23 @@ def test_live_unwrapping_pauses(dragged):
         shown = scenes.read_uv(grid)
         module("live.following").look()
         np.testing.assert_array_equal(scenes.read_uv(grid), shown)
-    drag.send("ESC", "PRESS")
+    drag.send("ESC")
     module("live.following").look()
     assert_as_before(grid, before)
 
 
-def test_without_a_window_the_strength_is_set_at_once(extended):
+def test_without_a_window_the_strength_is_set_at_once(extended, monkeypatch):
     grid, before = extended
-    assert Dragged(has_window=False, strength=3.0).result == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == 3.0
+    operator_class = module("operators.extenders").MESH_OT_spectral_extender_adjust
+    properties = {**jobs.defaults(bpy.ops.mesh.spectral_extender_adjust), "strength": 3.0}
+    invoked = jobs.Invoked(monkeypatch, operator_class, is_waiting=False, has_window=False, **properties)
+    assert invoked.result == {"FINISHED"}
+    assert strength_of(grid) == 3.0
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
 
 
-def test_in_background_mode_the_strength_is_set_at_once():
-    grid = hill()
-    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    add_extender(grid, 1, 140, 1.0)
-    before = scenes.read_uv(grid)
+def test_in_background_mode_the_strength_is_set_at_once(extended):
+    grid, before = extended
     assert bpy.ops.mesh.spectral_extender_adjust("INVOKE_DEFAULT", strength=3.0) == {"FINISHED"}
-    assert grid.data.spectral_extenders[0].strength == 3.0
+    assert strength_of(grid) == 3.0
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3

@@ -32,7 +32,6 @@ DAMAGED = {
 }
 OPERATORS = {
     "unwrap": lambda: bpy.ops.uv.spectral_unwrap(),
-    "select": lambda: bpy.ops.mesh.spectral_extender_select(),
     "adjust": lambda: bpy.ops.mesh.spectral_extender_adjust(strength=2.0),
     "adjust to NaN": lambda: bpy.ops.mesh.spectral_extender_adjust(strength=NAN),
     "remove broken": lambda: bpy.ops.mesh.spectral_extender_remove(broken=True),
@@ -76,7 +75,7 @@ def run_all(edited):
     """Call all operators one after the other; return the status of each."""
     statuses = {}
     for name, call in OPERATORS.items():
-        if not name.startswith("unwrap") and not bpy.ops.mesh.spectral_extender_select.poll():
+        if not name.startswith("unwrap") and not bpy.ops.mesh.spectral_extender_remove.poll():
             continue
         if name.startswith("unwrap"):
             bpy.ops.mesh.select_all(action="SELECT")

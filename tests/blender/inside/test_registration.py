@@ -127,7 +127,7 @@ def test_panels_and_extenders_come_and_go_with_the_add_on():
         addon_utils.enable(ADDON)
 
 
-@pytest.mark.parametrize("name", ["adjust", "remove", "select"])
+@pytest.mark.parametrize("name", ["adjust", "remove"])
 def test_what_panels_set_for_one_click_is_neither_shown_nor_remembered(name):
     properties = getattr(bpy.ops.mesh, f"spectral_extender_{name}").get_rna_type().properties
     for prop in properties:

@@ -51,41 +51,26 @@ def test_layer_name_tells_every_change_and_nothing_else():
     assert max(map(len, names)) < 60
 
 
-def test_two_vertices_are_a_pair_with_or_without_order():
-    assert extender_pairs.pairs_in_order([3, 8], []) == [(3, 8)]
-    assert extender_pairs.pairs_in_order([3, 8], [8]) == [(3, 8)]
-    assert extender_pairs.pairs_in_order([3, 8], [8, 3]) == [(8, 3)]
+def test_two_vertices_are_a_pair_with_or_without_an_active_one():
+    assert extender_pairs.pairs([3, 8], None) == [(3, 8)]
+    assert extender_pairs.pairs([3, 8], 8) == [(3, 8)]
+    assert extender_pairs.pairs([3, 8], 3) == [(8, 3)]
 
 
-def test_several_vertices_pair_up_in_order():
-    assert extender_pairs.pairs_in_order([1, 2, 3, 4], [4, 1, 3, 2]) == [(4, 1), (3, 2)]
+def test_several_vertices_are_connected_with_the_active_one():
+    assert extender_pairs.pairs([1, 5, 9], 5) == [(1, 5), (9, 5)]
 
 
 @pytest.mark.parametrize(
-    ("selected", "ordered", "words"),
-    [
-        ([], [], "two or more vertices"),
-        ([1], [1], "two or more vertices"),
-        ([1, 2, 3], [3, 1, 2], "even"),
-        ([1, 2, 3, 4], [4, 1], "order"),
-    ],
+    ("selected", "active", "words"), [([], None, "two vertices"), ([1], 1, "two vertices"), ([1, 2, 3], None, "active")]
 )
-def test_selection_without_pairs_is_refused_with_advice(selected, ordered, words):
+def test_selection_without_pairs_is_refused_with_advice(selected, active, words):
     with pytest.raises(SelectionError, match=words):
-        extender_pairs.pairs_in_order(selected, ordered)
-
-
-def test_pairs_to_active():
-    assert extender_pairs.pairs_to_active([1, 5, 9], 5) == [(1, 5), (9, 5)]
-    with pytest.raises(SelectionError, match="active"):
-        extender_pairs.pairs_to_active([1, 5, 9], None)
-    with pytest.raises(SelectionError, match="connect"):
-        extender_pairs.pairs_to_active([5], 5)
+        extender_pairs.pairs(selected, active)
 
 
 def test_names_are_made_unique_as_in_blender():
-    assert extender_pairs.unique_name("Extender", []) == "Extender"
-    assert extender_pairs.unique_name("Extender", ["Extender"]) == "Extender.001"
-    assert extender_pairs.unique_name("Extender.001", ["Extender", "Extender.001"]) == "Extender.002"
-    assert extender_pairs.unique_name("Extender", ["Extender", "Extender.002", "Extender.001"]) == "Extender.003"
-    assert extender_pairs.unique_name(".5", [".5"]) == ".5.001"
+    assert extender_pairs.free_name("Extender", []) == "Extender"
+    assert extender_pairs.free_name("Extender", ["Extender"]) == "Extender.001"
+    assert extender_pairs.free_name("Extender", ["Extender", "Extender.002", "Extender.001"]) == "Extender.003"
+    assert extender_pairs.free_name(".5", [".5"]) == ".5.001"

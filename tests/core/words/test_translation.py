@@ -176,8 +176,6 @@ CALLS = {
     "broken_extender": [("A",)],
     "adjusting": [("0.5", "A")],
     "removed_broken": [(2,)],
-    "broken_extender_selected": [("A", 1)],
-    "hidden_vertices": [("A", 1)],
     "added_extenders": [(1, 1, True), (2, 0, False)],
     "unused_extenders": [(0,), (1,), (2,)],
     "selected_failed": [(0, 0), (1, 1), (2, 2)],
@@ -195,8 +193,6 @@ CALLS = {
     "no_module": [("A",)],
     "no_margin": [(-1.0,)],
     "unnamed_extender": [()],
-    "without_order": [(3, 2)],
-    "without_partner": [(3,)],
     "without_bounds": [(0,), (1,), (2,)],
 }
 
@@ -246,7 +242,7 @@ def test_constants_are_looked_up_where_they_are_shown():
         "NO_UV_MAP",
         "NOTHING_SELECTED",
     ]
-    assert shown_as_it_is("self.report({'INFO'}, translate(texts.NO_UV_MAP))\nx.label(text=texts.SELECT_LABEL)") == []
+    assert shown_as_it_is("self.report({'INFO'}, translate(texts.NO_UV_MAP))\nx.label(text=texts.SEAMS_LABEL)") == []
 
 
 def test_without_a_table_texts_stay_as_they_are(looked_up):
