@@ -12,3 +12,19 @@ def redraw(context: bpy.types.Context, *kinds: str) -> None:
         for area in window.screen.areas:
             if area.type in (kinds or _KINDS):
                 area.tag_redraw()
+
+
+def region_at(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Area, bpy.types.Region] | None:
+    """Return the editor and its main region at a place of the window; None where another region lies over it."""
+    for area in screen.areas:
+        if area.type not in _KINDS:
+            continue
+        found = None
+        for region in area.regions:
+            if region.x <= x < region.x + region.width and region.y <= y < region.y + region.height:
+                if region.type != "WINDOW":
+                    return None
+                found = found or region
+        if found is not None:
+            return area, found
+    return None

@@ -3,7 +3,7 @@
 
 import bpy
 
-from .. import names
+from .. import editors, names
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
@@ -53,7 +53,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
                 return {"RUNNING_MODAL"}
             return {"PASS_THROUGH"}
         # Nothing that changes the mesh, but the view can be moved, and the sidebar used.
-        is_in_view = under_mouse.region_at(context.screen, event.mouse_x, event.mouse_y) is not None
+        is_in_view = editors.region_at(context.screen, event.mouse_x, event.mouse_y) is not None
         return {"RUNNING_MODAL"} if is_in_view and not progress.moves_view(event) else {"PASS_THROUGH"}
 
     def cancel(self, context: bpy.types.Context) -> None:
@@ -61,7 +61,7 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
         self._end(context)
 
     def _below(self, context: bpy.types.Context, event: bpy.types.Event) -> FaceBelow | None:
-        place = under_mouse.region_at(context.screen, event.mouse_x, event.mouse_y)
+        place = editors.region_at(context.screen, event.mouse_x, event.mouse_y)
         if place is None:
             return None
         area, region = place

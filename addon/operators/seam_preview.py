@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from .. import user_preferences
+from .. import editors, user_preferences
 from ..core.layout.placement import place
 from ..core.measure import quality
 from ..core.measure.quality import MapQuality
@@ -173,12 +173,9 @@ class _Measured:
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:
     """Zoom the 3D viewport under the mouse, as the wheel does by itself; return whether there is one."""
-    for area in context.screen.areas:
-        for region in area.regions if area.type == "VIEW_3D" else ():
-            inside_x = region.x <= event.mouse_x < region.x + region.width
-            inside_y = region.y <= event.mouse_y < region.y + region.height
-            if region.type == "WINDOW" and inside_x and inside_y:
-                with context.temp_override(area=area, region=region):
-                    bpy.ops.view3d.zoom("EXEC_DEFAULT", delta=delta, use_cursor_init=False)
-                return True
-    return False
+    area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
+    if area is None or area.type != "VIEW_3D":
+        return False
+    with context.temp_override(area=area, region=region):
+        bpy.ops.view3d.zoom("EXEC_DEFAULT", delta=delta, use_cursor_init=False)
+    return True

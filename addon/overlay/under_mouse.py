@@ -19,22 +19,6 @@ class FaceBelow:
     face: int
 
 
-def region_at(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Area, bpy.types.Region] | None:
-    """Return the editor and its main region at a place of the window, if the overlay can be seen there."""
-    for area in screen.areas:
-        if area.type not in {"VIEW_3D", "IMAGE_EDITOR"}:
-            continue
-        found = None
-        for region in area.regions:
-            if region.x <= x < region.x + region.width and region.y <= y < region.y + region.height:
-                if region.type != "WINDOW":
-                    return None
-                found = found or region
-        if found is not None:
-            return area, found
-    return None
-
-
 def face_below(
     context: bpy.types.Context, area: bpy.types.Area, region: bpy.types.Region, x: float, y: float
 ) -> FaceBelow | None:

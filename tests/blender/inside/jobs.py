@@ -86,7 +86,8 @@ class Invoked:
         return self.operator._job.choice
 
     def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
-        return SimpleNamespace(**{"type": kind, "value": value, "ascii": "", "ctrl": False, **others})
+        place = {"mouse_x": 0, "mouse_y": 0}
+        return SimpleNamespace(**{"type": kind, "value": value, "ascii": "", "ctrl": False, **place, **others})
 
     def send(self, kind, value="PRESS", **others):
         self.result = self.operator.modal(self.context, self.event(kind, value, **others))

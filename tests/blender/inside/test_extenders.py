@@ -175,7 +175,7 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     assert broken == ["Extender"]
     assert len(forces) == 1
     assert module("extenders.storage").broken(grid.data) == [True, False]
-    with pytest.raises(RuntimeError, match="Extender is broken"):
+    with pytest.raises(RuntimeError, match="Extender lost a vertex"):
         bpy.ops.mesh.spectral_extender_adjust(index=0, strength=2.0)
     assert bpy.ops.mesh.spectral_extender_remove(broken=True) == {"FINISHED"}
     assert [name for name, _, _ in listed(grid)] == ["Extender.001"]
