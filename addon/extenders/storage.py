@@ -164,7 +164,8 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
             free = core.free_name(name, taken)
             taken.add(free)
             extenders.append(Extender(free, strength, True, id_of_vertex[first], id_of_vertex[second]))
-        _change(mesh, extenders, len(extenders) - 1)
+        _write(mesh, extenders, len(extenders) - 1)
+        _note_change(mesh)
     return fresh
 
 
@@ -173,11 +174,7 @@ def remove(mesh: bpy.types.Mesh, indices: Sequence[int]) -> None:
     _remember(mesh)
     index = active_index(mesh)
     extenders = [extender for k, extender in enumerate(_read(mesh)) if k not in indices]
-    _change(mesh, extenders, index - sum(k < index for k in indices) - (index in indices))
-
-
-def _change(mesh: bpy.types.Mesh, extenders: Sequence[Extender], active: int) -> None:
-    _write(mesh, extenders, active)
+    _write(mesh, extenders, index - sum(k < index for k in indices) - (index in indices))
     _note_change(mesh)
 
 
@@ -186,7 +183,7 @@ def _note_change(mesh: bpy.types.Mesh) -> None:
     _remember(mesh)
     # Blender draws again where a property changes, but not where one goes.
     editors.redraw(bpy.context)
-    layer = _chosen(mesh, _layer_names(mesh))
+    layer = _layer_name(mesh)
     if layer:
         attribute, name = mesh.attributes[layer], _name_of(_read(mesh))
         if attribute.name != name:
@@ -240,9 +237,7 @@ def _ids_of_vertices(bm: BMesh, layer: BMLayerItem) -> np.ndarray:
 
 def _layer(bm: BMesh, mesh: bpy.types.Mesh) -> BMLayerItem | None:
     """Return the layer of `bm` with the identifiers."""
-    layers = bm.verts.layers.int
-    name = _chosen(mesh, [name for name in layers.keys() if name.startswith(names.EXTENDER_LAYER_PREFIX)])  # noqa: SIM118
-    return layers[name] if name else None
+    return bm.verts.layers.int.get(_layer_name(mesh))
 
 
 def _layer_names(mesh: bpy.types.Mesh) -> list[str]:
@@ -251,9 +246,9 @@ def _layer_names(mesh: bpy.types.Mesh) -> list[str]:
     return [each.name for each in ours if (each.data_type, each.domain) == ("INT", "POINT")]
 
 
-def _chosen(mesh: bpy.types.Mesh, layers: Sequence[str]) -> str:
-    """Return which of several layers goes with the list: a mesh joined from others has theirs, too."""
-    own = getattr(mesh, names.EXTENDER_LAYER_PROPERTY)
+def _layer_name(mesh: bpy.types.Mesh) -> str:
+    """Return the name of the layer that goes with the list: a mesh joined from others has theirs, too."""
+    own, layers = getattr(mesh, names.EXTENDER_LAYER_PROPERTY), _layer_names(mesh)
     return own if own in layers else next(iter(layers), "")
 
 

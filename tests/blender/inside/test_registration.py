@@ -127,6 +127,41 @@ def test_panels_and_extenders_come_and_go_with_the_add_on():
         addon_utils.enable(ADDON)
 
 
+def load_file():
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True, load_ui=False)
+
+
+@pytest.mark.parametrize("end", [load_file, lambda: addon_utils.disable(ADDON)], ids=["load", "disable"])
+def test_nothing_is_remembered_of_a_file_that_was_left(end):
+    session = importlib.import_module(f"{ADDON}.session")
+    overlay = importlib.import_module(f"{ADDON}.overlay.map_overlay")
+    bpy.context.scene.spectral_unwrap_live = True
+    grid = scenes.bumpy_grid()
+    scenes.edit(grid)
+    assert bpy.ops.uv.spectral_suggest_seams(unwrap=True) <= {"FINISHED", "CANCELLED"}
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    scenes.edit_mesh(grid).verts.ensure_lookup_table()
+    for vertex in scenes.edit_mesh(grid).verts:
+        vertex.select_set(vertex.index in (0, 5))
+    assert bpy.ops.mesh.spectral_extender_add() == {"FINISHED"}
+    assert bpy.ops.uv.spectral_select_failed() <= {"FINISHED", "CANCELLED"}
+    overlay.views(bpy.context)
+    remembered = {kind.__name__ for kind in session._memory}
+    assert {
+        "EditMeshes",
+        "KeptMaps",
+        "Overlay",
+        "Searched",
+        "_Identities",
+        "_LastResult",
+        "_Lists",
+        "_Results",
+    } <= remembered
+    left = [session.of(kind) for kind in session._memory]
+    end()
+    assert not [each for each in session._memory.values() if any(each is old for old in left)]
+
+
 @pytest.mark.parametrize("name", ["adjust", "remove"])
 def test_what_panels_set_for_one_click_is_neither_shown_nor_remembered(name):
     properties = getattr(bpy.ops.mesh, f"spectral_extender_{name}").get_rna_type().properties
