@@ -13,7 +13,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-/// A chart but for its faces and its message, under the names that Python has for them.
+/// A chart but for its faces and what is said of it, under the names that Python has for them.
 struct Row {
   double eigenvalue;
   double residual;
@@ -87,16 +87,17 @@ py::tuple chart_records(std::vector<UnwrappedChart>&& charts) {
   for (const UnwrappedChart& chart : charts) n_faces += chart.faces.size();
   py::array_t<Row> rows(static_cast<py::ssize_t>(charts.size()));
   py::array_t<int> faces(static_cast<py::ssize_t>(n_faces));
-  py::dict messages;
+  py::dict remarks;
   Row* row = rows.mutable_data();
   int* face = faces.mutable_data();
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const UnwrappedChart chart = std::move(charts[i]);
     *row++ = row_of(chart);
     face = std::copy(chart.faces.begin(), chart.faces.end(), face);
-    if (!chart.message.empty()) messages[py::int_(i)] = chart.message;
+    if (chart.steps.empty() && chart.problem.empty()) continue;
+    remarks[py::int_(i)] = py::make_tuple(chart.problem, steps_of(chart.steps));
   }
-  return py::make_tuple(rows, faces, messages);
+  return py::make_tuple(rows, faces, remarks);
 }
 
 void bind_chart_records(py::module_& module) {

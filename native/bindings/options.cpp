@@ -40,6 +40,47 @@ constexpr Name<RelaxationStatus> relaxations[] = {{"converged", RelaxationStatus
 constexpr Name<EigenvalueOf> eigenvalue_owners[] = {{"eigenvector", EigenvalueOf::eigenvector},
                                                     {"map", EigenvalueOf::map}};
 
+constexpr Name<StepKind> step_kinds[] = {{"rejected", StepKind::rejected},
+                                         {"retried", StepKind::retried},
+                                         {"winds", StepKind::winds},
+                                         {"lowered_rigidity", StepKind::lowered_rigidity},
+                                         {"clamped_thin", StepKind::clamped_thin},
+                                         {"by_length", StepKind::by_length},
+                                         {"by_vertex", StepKind::by_vertex},
+                                         {"uniform_weights", StepKind::uniform_weights},
+                                         {"inverse_area", StepKind::inverse_area},
+                                         {"relaxed_with_flips", StepKind::relaxed_with_flips},
+                                         {"blended_little", StepKind::blended_little},
+                                         {"embedded", StepKind::embedded},
+                                         {"unfolded", StepKind::unfolded},
+                                         {"moved_apart", StepKind::moved_apart},
+                                         {"moved_apart_embedded", StepKind::moved_apart_embedded},
+                                         {"covers_itself", StepKind::covers_itself},
+                                         {"still_flipped", StepKind::still_flipped},
+                                         {"not_injective", StepKind::not_injective},
+                                         {"unresolved_triangles", StepKind::unresolved_triangles},
+                                         {"reoriented_faces", StepKind::reoriented_faces},
+                                         {"duplicate_faces", StepKind::duplicate_faces},
+                                         {"fan_splits", StepKind::fan_splits},
+                                         {"degenerate_triangles", StepKind::degenerate_triangles},
+                                         {"shrunk_to_point", StepKind::shrunk_to_point},
+                                         {"degenerate_faces", StepKind::degenerate_faces},
+                                         {"out_of_memory", StepKind::out_of_memory}};
+constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_factorized},
+                                          {"not_converged", Rejection::not_converged},
+                                          {"not_finite", Rejection::not_finite},
+                                          {"collapsed", Rejection::collapsed},
+                                          {"unresolved", Rejection::unresolved},
+                                          {"no_area", Rejection::no_area},
+                                          {"winding", Rejection::winding},
+                                          {"no_embedding", Rejection::no_embedding},
+                                          {"too_large", Rejection::too_large},
+                                          {"library_failed", Rejection::library_failed}};
+constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
+                                            {"extenders", Constraint::extenders},
+                                            {"rigidity", Constraint::rigidity},
+                                            {"extenders_and_rigidity", Constraint::extenders_and_rigidity}};
+
 /// The value that an option, a string, names.
 template <class T, std::size_t N>
 T named(const py::object& options, const char* option, const Name<T> (&names)[N]) {
@@ -161,6 +202,20 @@ py::object name_of(Fallback fallback) {
 py::object name_of(std::optional<RelaxationStatus> relaxation) {
   if (!relaxation) return py::none();
   return py::str(name_in(relaxations, *relaxation));
+}
+
+py::tuple steps_of(const std::vector<Step>& steps) {
+  py::tuple result(steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto& [kind, reason, count, attempts, before, after, constraint, relaxation] = steps[i];
+    const py::object why =
+        reason == Rejection::none ? py::object(py::none()) : py::object(py::str(name_in(rejections, reason)));
+    const py::object under =
+        constraint == Constraint::none ? py::object(py::none()) : py::object(py::str(name_in(constraints, constraint)));
+    result[i] =
+        py::make_tuple(name_in(step_kinds, kind), why, count, attempts, before, after, under, name_of(relaxation));
+  }
+  return result;
 }
 
 }  // namespace spectral_conformal::python

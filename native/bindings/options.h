@@ -49,4 +49,7 @@ pybind11::object name_of(Fallback fallback);
 /// None where there was no relaxation.
 pybind11::object name_of(std::optional<RelaxationStatus> relaxation);
 
+/// For each the fields of a spectral_conformal.Step, in their order.
+pybind11::tuple steps_of(const std::vector<Step>& steps);
+
 }  // namespace spectral_conformal::python

@@ -10,7 +10,7 @@ namespace spectral_conformal::python {
 /// The fields of a record, by their names in Python.
 inline pybind11::dict solve_record(const SolveRecord& result) {
   pybind11::dict record;
-  record["message"] = result.message;
+  record["steps"] = steps_of(result.steps);
   record["eigenvalue"] = result.eigenvalue;
   record["eigenvalue_of"] = name_of(result.eigenvalue_of);
   record["residual"] = result.residual;

@@ -43,7 +43,7 @@ COSTLY_LIMIT = 9000
 SEAMS_LIMIT = {False: 1300, True: 250}
 SLOW = 5.0  # seconds, above which a case is printed
 RESIDUALS = {"residual"}
-NOT_COMPARED = {"timings"}
+NOT_COMPARED = {"timings", "steps"}  # the message has the steps
 MESSAGES = {"message", "error_text"}
 
 
@@ -337,6 +337,8 @@ def flattened(value: object, name: str = "") -> Iterator[tuple[str, np.ndarray]]
         for field in dataclasses.fields(value):
             if field.name not in NOT_COMPARED:
                 yield from flattened(getattr(value, field.name), f"{name}.{field.name}" if name else field.name)
+        if isinstance(getattr(type(value), "message", None), property):
+            yield f"{name}.message" if name else "message", np.array(value.message)
     elif isinstance(value, np.ndarray):
         yield name, value
     elif isinstance(value, (bool, str, numbers.Number)):

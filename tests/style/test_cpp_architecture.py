@@ -18,7 +18,7 @@ TESTS = ROOT / "tests" / "native"
 GUIDE = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
 # Templates, and what loops need in line.
 TEMPLATES = {("graph", "grouped"), ("geometry", "plane_triangle")}
-HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "types"}
+HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "step", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),

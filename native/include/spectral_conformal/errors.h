@@ -1,7 +1,8 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
+
+#include "spectral_conformal/step.h"
 
 namespace spectral_conformal {
 
@@ -14,13 +15,11 @@ class InvalidMesh : public std::invalid_argument {
 /// The input is valid, but no result passed the numerical checks within the bounded number of attempts.
 class SolveFailure : public std::runtime_error {
  public:
-  /// what() is "<reason>: <advice>".
-  SolveFailure(const std::string& reason, const std::string& advice)
-      : std::runtime_error(reason + ": " + advice), reason_(reason) {}
-  const std::string& reason() const { return reason_; }
+  explicit SolveFailure(const Step& step) : std::runtime_error("no map passed its checks"), step_(step) {}
+  const Step& step() const { return step_; }  ///< of StepKind::rejected
 
  private:
-  std::string reason_;
+  Step step_;
 };
 
 /// The caller's progress function asked to stop.

@@ -11,6 +11,7 @@
 #include "spectral_conformal/options.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/relaxation_status.h"
+#include "spectral_conformal/step.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
@@ -99,7 +100,7 @@ struct SolveRecord {
   /// conformal map, and of this one. Not a number without an area blend.
   double scale_deviation_before = std::numeric_limits<double>::quiet_NaN();
   double scale_deviation = std::numeric_limits<double>::quiet_NaN();
-  std::string message;  ///< fallbacks and repairs that were needed; empty when none was
+  std::vector<Step> steps;  ///< what was done besides, and what there is to say of the map
 };
 
 struct Parameterization : SolveRecord {

@@ -33,8 +33,8 @@ struct UnwrapOptions {
   const SpaceMetric* metric = nullptr;
 };
 
-/// One chart of an unwrap. Of a failed one the record says what was to be solved, and its message why it failed and
-/// what to do.
+/// One chart of an unwrap. Of a failed one the record says what was to be solved, and `problem` or the last of `steps`
+/// why it failed.
 struct UnwrappedChart : SolveRecord {
   /// Not a number: what a failed chart has no value for.
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -48,6 +48,7 @@ struct UnwrappedChart : SolveRecord {
   int n_pins = 0;            ///< pinned vertices
   int n_vertices = 0;
   double area = 0;      ///< in 3D
+  std::string problem;  ///< the condition that its faces or pins break, as InvalidMesh has it; empty where none
   bool reused = false;  ///< whether its map was taken from KeptMaps
 
   UnwrappedChart() {

@@ -29,8 +29,9 @@ bring an OpenBLAS of their own, which is not touched; `build_info()["blas"]` nam
 from . import _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
+from ._messages import SolveError, Step, describe, message_templates
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
-from ._native import Cancelled, InvalidMeshError, SolveError
+from ._native import Cancelled, InvalidMeshError, raise_solve_failures_as
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, map_defects
@@ -40,6 +41,8 @@ from ._threads import limit_threads
 from ._unwrapping import Unwrapper, unwrap
 
 __version__: str = _native.VERSION
+
+raise_solve_failures_as(SolveError)
 
 __all__ = [
     "Cancelled",
@@ -62,15 +65,18 @@ __all__ = [
     "SolveError",
     "Solver",
     "SplitMesh",
+    "Step",
     "Unwrap",
     "Unwrapper",
     "blend_metric",
     "build_info",
+    "describe",
     "distortion",
     "face_distortion",
     "hosts",
     "limit_threads",
     "map_defects",
+    "message_templates",
     "metric_from_direction",
     "metric_from_uv",
     "parameterize",

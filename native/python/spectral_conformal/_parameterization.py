@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Pins, Progress
+from ._messages import steps_of
 from ._options import OptionChanges, Options, SolveChanges, changed, with_fallbacks
 from ._results import Parameterization
 
@@ -100,7 +101,7 @@ class Solver:
         progress: Progress | None = None,
         **changes: Unpack[SolveChanges],
     ) -> Parameterization:
-        """Solve with the kept factor ("lscm" and "fiedler" make one of their own). See `parameterize`.
+        """Solve with the kept factor ("lscm" makes one of its own, "fiedler" replaces it). See `parameterize`.
 
         The options are those of the solver, with the changes given here. The map is that of a fresh solver, to the last
         bit, whatever this one solved before. Except for drafts: extenders and hole rigidity change the form B only, so
@@ -148,4 +149,4 @@ class Solver:
             _arguments.checked_extenders(extenders, options.method, self._n_vertices),
             _arguments.checked_progress(progress),
         )
-        return Parameterization(**solution)
+        return Parameterization(**{**solution, "steps": steps_of(solution["steps"])})

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._layout import packed
+from ._messages import Step, describe, steps_of
 from ._options import Boundary, Method, Weights
 
 Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
@@ -84,10 +85,15 @@ class Parameterization:
     """Whether `fold_free` had to replace the map by an embedding."""
     mean_qc_before: float
     """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
-    message: str
-    """For people: fallbacks that were needed and faces that were repaired; empty when there was none."""
+    steps: tuple[Step, ...]
+    """Fallbacks that were needed, faces that were repaired, and what else there is to say of the map, in this order."""
     timings: dict[str, float]
     """Seconds per phase, by name."""
+
+    @property
+    def message(self) -> str:
+        """The steps for people: see `describe`; empty when there was none."""
+        return describe(self.steps)
 
 
 @dataclass(frozen=True)
@@ -159,6 +165,8 @@ class Chart:
     status: Literal["solved", "failed"]
     message: str
     """For people: why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
+    steps: tuple[Step, ...]
+    """What `message` says, see `Parameterization`; empty where the chart's faces or pins break a condition."""
     method: Method
     """This and the next four: what was really solved, see `Parameterization`."""
     weights: Weights
@@ -212,12 +220,12 @@ class Charts(Sequence[Chart]):
     A record takes some thousand bytes, a million of them as many as the solves: what is kept are arrays.
     """
 
-    def __init__(self, rows: npt.NDArray[np.void], faces: npt.NDArray[np.int32], messages: Mapping[int, str]) -> None:
+    def __init__(self, rows: npt.NDArray[np.void], faces: npt.NDArray[np.int32], remarks: Mapping[int, tuple]) -> None:
         """Take what the native module has of them: see chart_records.h."""
         self._rows = rows
         self._faces = faces
         self._first_faces = np.cumsum(rows["n_faces"], dtype=np.int64) - rows["n_faces"]
-        self._messages = messages
+        self._remarks = remarks
         self._numbers = range(len(rows))
 
     def __len__(self) -> int:
@@ -237,7 +245,7 @@ class Charts(Sequence[Chart]):
         part._rows = self._rows[index]
         part._faces = self._faces
         part._first_faces = self._first_faces[index]
-        part._messages = self._messages
+        part._remarks = self._remarks
         part._numbers = self._numbers[index]
         return part
 
@@ -259,17 +267,28 @@ class Charts(Sequence[Chart]):
     def column(self, name: str) -> np.ndarray:
         """Return what all charts have in one field, but for `faces`, as an array (number of charts,)."""
         if name == "message":
-            return np.array([self._messages.get(number, "") for number in self._numbers], object)
+            return np.array([self._remark(number)[0] for number in self._numbers], object)
+        if name == "steps":
+            result = np.empty(len(self), object)
+            for place, number in enumerate(self._numbers):
+                result[place] = self._remark(number)[1]
+            return result
         if name in _NAMES:
             return np.array(_NAMES[name], object)[self._rows[name]]
         return self._rows[name].copy()
+
+    def _remark(self, number: int) -> tuple[str, tuple[Step, ...]]:
+        """Return the message of a chart, by its number among all, and its steps."""
+        problem, tuples = self._remarks.get(number, ("", ()))
+        steps = steps_of(tuples)
+        return problem or describe(steps), steps
 
     def _from(self, start: int, end: int) -> Iterator[Chart]:
         first_faces = self._first_faces[start:end].tolist()
         for row, first, number in zip(self._rows[start:end].tolist(), first_faces, self._numbers[start:end]):
             fields = dict(zip(_FIELDS, row))
             fields["faces"] = self._faces[first : first + fields.pop("n_faces")].copy()
-            fields["message"] = self._messages.get(number, "")
+            fields["message"], fields["steps"] = self._remark(number)
             for name, names in _NAMES.items():
                 fields[name] = names[fields[name]]
             # Without the constructor, which sets the fields of a frozen record one by one: ten times as slow.

@@ -69,28 +69,25 @@ class ReducedOperator {
     ++solves_;
   }
 
-  /// T y.
-  void apply(const Eigen::Ref<const ComplexVector>& y, Eigen::Ref<ComplexVector> result) const {
-    report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
-    weighted_ = y;
-    project(weighted_);
-    weighted_ = root_mass_.cwiseProduct(weighted_).eval();
-    factorization_.solve_selected(weighted_, solved_);  // S^T (L + s M)^-1 S of Eq. 7, reduced
-    ++solves_;
-    result = root_mass_.cwiseProduct(solved_);
-    project(result);
-  }
-
   /// M^1/2 S^T z, projected.
   void restrict_to_mass(const ComplexVector& z, Eigen::Ref<ComplexVector> y) const {
     for (Eigen::Index i = 0; i < y.size(); ++i) y[i] = root_mass_[i] * z[form_.vertices[i]];
     project(y);
   }
 
+  /// y = T x, both on the real view.
   void perform_op(const double* x, double* y) const {
-    const Eigen::Map<const ComplexVector> in(reinterpret_cast<const Complex*>(x), complex_size());
-    Eigen::Map<ComplexVector> out(reinterpret_cast<Complex*>(y), complex_size());
-    interruption_.guard([&] { apply(in, out); });
+    Eigen::Map<ComplexVector> result(reinterpret_cast<Complex*>(y), complex_size());
+    interruption_.guard([&] {
+      report(progress_, 1.0 - 1.0 / (1.0 + 0.1 * solves_), "eigenproblem");
+      weighted_ = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), complex_size());
+      project(weighted_);
+      weighted_ = root_mass_.cwiseProduct(weighted_).eval();
+      factorization_.solve_selected(weighted_, solved_);  // S^T (L + s M)^-1 S of Eq. 7, reduced
+      ++solves_;
+      result = root_mass_.cwiseProduct(solved_);
+      project(result);
+    });
   }
   bool interrupted() const { return interruption_.happened(); }
 
@@ -113,9 +110,7 @@ ComplexVector dense_eigenvector(const ReducedOperator& op) {
   Eigen::MatrixXcd dense(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const ComplexVector unit = ComplexVector::Unit(n, j);
-    ComplexVector column(n);
-    op.apply(unit, column);
-    dense.col(j) = column;
+    op.perform_op(reinterpret_cast<const double*>(unit.data()), reinterpret_cast<double*>(dense.col(j).data()));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(0.5 * (dense + dense.adjoint()));
   return solver.eigenvectors().col(n - 1);

@@ -13,6 +13,7 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
   ShiftedFactor result;
   if (form.vertices.empty()) return result;  // L alone is singular
   const auto diagonal = [&matrix](int v) -> Complex& { return matrix.valuePtr()[matrix.outerIndexPtr()[v]]; };
+  for (int v = 0; v < matrix.outerSize(); ++v) result.max_diagonal = std::max(result.max_diagonal, diagonal(v).real());
   std::vector<Complex> unshifted;
   unshifted.reserve(form.vertices.size());
   for (const int v : form.vertices) unshifted.push_back(diagonal(v));

@@ -13,6 +13,7 @@ namespace spectral_conformal {
 struct ShiftedFactor {
   std::unique_ptr<Factorization> factorization;  ///< null where L + s M is not positive definite in double precision
   double shift = 0;                              ///< s, the last one tried
+  double max_diagonal = 0;                       ///< largest diagonal entry of L
 };
 
 /// Factors L + s M with s = relative_shift times the median of L_ii / M_ii over the vertices with mass, raised a

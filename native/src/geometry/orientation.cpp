@@ -10,7 +10,7 @@ int exact_orientation(Complex a, Complex b, Complex c) {
   // CGAL's exact numbers hold no others: expanding one does not end.
   for (const Complex p : {a, b, c}) {
     if (std::isfinite(p.real()) && std::isfinite(p.imag())) continue;
-    throw SolveFailure("A map has coordinates that are not finite", "please report this with the mesh.");
+    throw SolveFailure(rejected(Rejection::not_finite));
   }
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
   return static_cast<int>(

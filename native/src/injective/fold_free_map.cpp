@@ -76,8 +76,7 @@ class FoldFree {
     embedded.flipped_before = result.flipped_before;
     if (result.z.size() > 0 && !embedded.is_locally_injective) return result;
     if (embedded.z.size() == 0) {
-      throw SolveFailure("No embedding into a circle could be solved for in double precision",
-                         "add seams that make the island flatter.");
+      throw SolveFailure(rejected(Rejection::no_embedding));
     }
     return embedded;
   }

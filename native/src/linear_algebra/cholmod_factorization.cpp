@@ -45,8 +45,7 @@ class Workspace {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == CHOLMOD_TOO_LARGE) check_factor_size(std::numeric_limits<double>::infinity());
     if (common_.status < CHOLMOD_OK) {
-      throw SolveFailure("CHOLMOD reported status " + std::to_string(common_.status),
-                         "please report this with the mesh.");
+      throw SolveFailure(rejected(Rejection::library_failed, common_.status));
     }
   }
 

@@ -24,8 +24,7 @@ void check_factor_size(double nonzeros) {
   // Both libraries number the entries of a factor with ints here.
   constexpr int limit = std::numeric_limits<int>::max();
   if (nonzeros <= limit) return;
-  throw SolveFailure("The island is too large: its factor would have more than " + std::to_string(limit) + " entries",
-                     "cut it into smaller islands with seams.");
+  throw SolveFailure(rejected(Rejection::too_large, limit));
 }
 
 std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n) {

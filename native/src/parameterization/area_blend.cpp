@@ -1,23 +1,27 @@
 #include "parameterization/area_blend.h"
 
+#include <cmath>
 #include <utility>
 
-#include "parameterization/report.h"
-#include "parameterization/unfolding.h"
+#include "parameterization/attempts.h"
 
 namespace spectral_conformal {
 
-AreaBlend blend_area(const SpectralSolver& solver, double amount, const Progress& progress) {
-  const NormalizedPatch& patch = solver.patch();
-  const ConformalEnergy& energy = solver.energy();
-  Timings timings;  // all of it is the blend's
-  SpectralMap conformal =
-      SpectralSolver(solver, energy.weights(), solver.boundary()).solve({}, {}, part(progress, 0.0, 0.2), timings);
-  if (conformal.rejection != Rejection::none) throw failure_of(conformal, {});
+AreaBlend blend_area(const SpectralProblem& problem, double amount, const Progress& progress) {
+  const NormalizedPatch& patch = *problem.patch;
+  const ConformalEnergy& energy = problem.energy;
   AreaBlend result;
-  result.scale_deviation_before = chart_distortion(patch, conformal.z).log2_scale_deviation;
+  Timings timings;  // all of it is the blend's
+  SpectralProblem conformal = other_problem(problem, energy.weights(), problem.boundary);
+  SpectralMap map = attempted_map(conformal, {}, {}, part(progress, 0.0, 0.2), timings);
+  if (map.rejection != Rejection::none) {
+    result.rejection = rejected(map, {});
+    return result;
+  }
+  conformal.drop_factor();
+  result.scale_deviation_before = chart_distortion(patch, map.whole.head(patch.n_vertices)).log2_scale_deviation;
   result.relaxed = relax_to_isometry(patch.triangles, energy.energy_shapes(), patch.triangle_weights, patch.n_virtual,
-                                     std::move(conformal.whole), solver.backend(), {}, part(progress, 0.2, 1.0));
+                                     std::move(map.whole), problem.backend, {}, part(progress, 0.2, 1.0));
   const ComplexVector& z = result.relaxed.z;
   result.metric.reserve(patch.triangles.size());
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
@@ -25,6 +29,45 @@ AreaBlend blend_area(const SpectralSolver& solver, double amount, const Progress
     result.metric.push_back(blend(metric_of_map(energy.energy_shapes()[t], z[b] - z[a], z[c] - z[a]), amount));
   }
   return result;
+}
+
+PatchMap blended(const SolveTask& task, PatchMap map, const Progress& progress) {
+  PreparedPatch& patch = task.patch;
+  if (patch.options.area_blend > 0 && !patch.blend) {
+    Timings timings = patch.timings;
+    Stopwatch watch(timings);
+    const AreaBlend blend = blend_area(patch.problem, patch.options.area_blend, progress);
+    if (blend.rejection) {
+      map.rejection = blend.rejection;
+    } else {
+      watch.lap("area blend");
+      patch.problem.stretch(blend.metric);
+      patch.timings.swap(timings);
+      patch.blend = {blend.relaxed.status, blend.scale_deviation_before, blend.relaxed.flipped};
+    }
+  }
+  map.result.timings = patch.timings;
+  if (patch.blend) {
+    map.result.relaxation = patch.blend->status;
+    map.result.scale_deviation_before = patch.blend->scale_deviation_before;
+  }
+  return map;
+}
+
+PatchMap measured_blend(const SolveTask& task, PatchMap map) {
+  constexpr double visible = 0.05;
+  constexpr double little = 0.2;
+  Parameterization& result = map.result;
+  if (!result.relaxation) return map;
+  const double before = result.scale_deviation_before;
+  const double after = chart_distortion(*task.patch.problem.patch, result.z).log2_scale_deviation;
+  result.scale_deviation = after;
+  if (!(before > visible) || !std::isfinite(before) || !std::isfinite(after)) return map;
+  if (after < before * (1 - little * task.patch.options.area_blend)) return map;
+  Step step = changed(StepKind::blended_little, before, after);
+  step.relaxation = *result.relaxation;
+  map.add(step);
+  return map;
 }
 
 }  // namespace spectral_conformal

@@ -1,9 +1,12 @@
 #include "parameterization/fallbacks.h"
 
-#include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
+#include "parameterization/area_blend.h"
+#include "parameterization/attempts.h"
+#include "parameterization/unfolding.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal {
@@ -20,84 +23,126 @@ Cost cost_of(const NormalizedPatch& patch, const ComplexVector& z) {
   return {distortion.n_flipped(), distortion.mean_qc};
 }
 
-/// The rejected map unfolded, or an embedding. Empty where neither can be had without going round a vertex twice.
-std::optional<FallbackMap> unfolded_map(const SpectralSolver& failed, const SpectralMap& rejected,
-                                        const Progress& progress, Timings& timings) {
-  Stopwatch watch(timings);
-  const NormalizedPatch& patch = failed.patch();
-  ComplexVector z;
-  if (rejected.whole.size() > 0) z = rejected.whole.head(patch.n_vertices);
-  FallbackMap result;
-  try {
-    result.unfolded = unfold(failed, {}, z, {true, false}, progress);
-  } catch (const SolveFailure&) {
-    return std::nullopt;  // the failure of the map itself is the one to report
+Step step_of(Fallback fallback, const SpectralProblem& other, int clamped_triangles) {
+  if (fallback == Fallback::clamped_triangles) return counted(StepKind::clamped_thin, clamped_triangles);
+  if (fallback == Fallback::other_boundary) {
+    return {other.boundary == BoundaryMeasure::vertex ? StepKind::by_vertex : StepKind::by_length};
   }
-  watch.lap("unfolding");
-  const FoldFreeMap& map = result.unfolded->fold_free;
-  if (!map.is_locally_injective) return std::nullopt;
-  result.fallback = map.is_embedding ? Fallback::tutte_embedding : Fallback::unfolded;
-  result.weights = failed.energy().weights();
-  result.boundary = failed.boundary();
-  return result;
+  return {other.energy.weights() == Weights::uniform ? StepKind::uniform_weights : StepKind::inverse_area};
 }
+
+/// Looks for the map that stands in for a rejected one.
+class FallbackSearch {
+ public:
+  FallbackSearch(const SolveTask& task, PatchMap& rejected, const SolveOptions& options, const Progress& progress)
+      : task_(task), rejected_(rejected), options_(options), progress_(progress) {}
+
+  /// The rejected map unfolded, or an embedding; not where it would wind round a vertex twice.
+  void unfold_rejected() {
+    Stopwatch watch(rejected_.result.timings);
+    const ComplexVector& whole = rejected_.found.whole;
+    ComplexVector z;
+    if (whole.size() > 0) z = whole.head(problem().patch->n_vertices);
+    UnfoldedMap unfolded;
+    try {
+      unfolded = unfold(problem(), {}, z, {true, false}, progress_);
+    } catch (const SolveFailure&) {
+      return;  // the rejection of the map itself is the one to report
+    }
+    watch.lap("unfolding");
+    if (!unfolded.fold_free.is_locally_injective) return;
+    const Fallback fallback = unfolded.fold_free.is_embedding ? Fallback::tutte_embedding : Fallback::unfolded;
+    PatchMap map = with_unfolded(task_, rejected_, std::move(unfolded));
+    map.result.fallback = fallback;
+    consider(std::move(map));
+  }
+
+  /// The map of another problem: blended by area_blend, not at all where that is 0.
+  void solve(Fallback fallback, Weights weights, BoundaryMeasure boundary, double area_blend) {
+    if (!has_form(*problem().patch, boundary)) return;
+    SpectralProblem other = other_problem(problem(), weights, boundary);
+    PatchMap map = rejected_;
+    map.add(*map.rejection);
+    Parameterization& result = map.result;
+    if (fallback == Fallback::clamped_triangles) {
+      result.clamped_triangles = other.clamp(min_relative_height);
+      if (result.clamped_triangles == 0) return;
+    }
+    map.add(step_of(fallback, other, result.clamped_triangles));
+    result.fallback = fallback;
+    result.weights = weights;
+    result.boundary = boundary;
+    AreaBlend blend;
+    if (area_blend > 0) {
+      blend = blend_area(other, area_blend, progress_);
+      if (blend.rejection) {
+        ++rejected_.result.attempts;
+        return;
+      }
+      other.stretch(blend.metric);
+      result.relaxation = blend.relaxed.status;
+      result.scale_deviation_before = blend.scale_deviation_before;
+    }
+    SpectralMap found = attempted_map(other, options_, task_.attractors, progress_, rejected_.result.timings);
+    rejected_.result.attempts += found.attempts;
+    map.take(std::move(found), options_);
+    if (blend.relaxed.flipped > 0) map.add(counted(StepKind::relaxed_with_flips, blend.relaxed.flipped));
+    if (!map.rejection) consider(std::move(map));
+  }
+
+  bool found() const { return best_.has_value(); }
+
+  /// The best map, or the rejected one.
+  PatchMap best() {
+    if (!best_) return std::move(rejected_);
+    best_->result.attempts = rejected_.result.attempts;
+    best_->result.timings = rejected_.result.timings;
+    return std::move(*best_);
+  }
+
+ private:
+  const SpectralProblem& problem() const { return task_.patch.problem; }
+  void consider(PatchMap&& map) {
+    const Cost cost = cost_of(*problem().patch, map.result.z);
+    if (best_ && !(cost < least_)) return;
+    best_ = std::move(map);
+    least_ = cost;
+  }
+
+  const SolveTask& task_;
+  PatchMap& rejected_;
+  const SolveOptions& options_;
+  const Progress& progress_;
+  std::optional<PatchMap> best_;
+  Cost least_;
+};
 
 }  // namespace
 
-std::optional<FallbackMap> solve_fallback(const SpectralSolver& failed, const SpectralMap& rejected,
-                                          const SolveOptions& options, const Pins& attractors, double area_blend,
-                                          const Progress& progress, Timings& timings, int& attempts) {
-  const Weights weights = failed.energy().weights();
+PatchMap replaced(const SolveTask& task, PatchMap map, const Progress& progress) {
+  SolveOptions options = task.options;
+  options.hole_rigidity = map.result.hole_rigidity;
+  if (!map.rejection || options.method != Method::spectral || options.has_extenders_or_rigidity() ||
+      !options.fallbacks) {
+    return map;
+  }
+  SpectralProblem& problem = task.patch.problem;
+  problem.drop_factor();  // other problems have factors of their own, which are as large
+  const double area_blend = task.patch.blend ? 0 : task.patch.options.area_blend;
+  const bool is_unfolding_last = area_blend > 0 || !task.attractors.empty();
+  const Weights weights = problem.energy.weights();
   const Weights other_weights = weights == Weights::uniform ? Weights::inverse_area : Weights::uniform;
-  const BoundaryMeasure boundary = failed.boundary();
+  const BoundaryMeasure boundary = problem.boundary;
   const BoundaryMeasure other_boundary =
       boundary == BoundaryMeasure::length ? BoundaryMeasure::vertex : BoundaryMeasure::length;
-  std::optional<FallbackMap> best;
-  Cost least;
-  const auto consider = [&](FallbackMap&& candidate, const ComplexVector& z) {
-    const Cost cost = cost_of(failed.patch(), z);
-    if (best && !(cost < least)) return;
-    best = std::move(candidate);
-    least = cost;
-  };
-  const auto consider_unfolded = [&] {
-    std::optional<FallbackMap> unfolded = unfolded_map(failed, rejected, progress, timings);
-    if (!unfolded) return;
-    const ComplexVector z = unfolded->unfolded->fold_free.z;
-    consider(std::move(*unfolded), z);
-  };
-  // It heeds neither a blend nor attractors.
-  const bool is_last = area_blend > 0 || !attractors.empty();
-  if (!is_last) consider_unfolded();
-  FallbackMap candidates[3];
-  candidates[0] = {{}, {}, Fallback::clamped_triangles, weights, boundary, 0, {}};
-  candidates[1] = {{}, {}, Fallback::other_boundary, weights, other_boundary, 0, {}};
-  candidates[2] = {{}, {}, Fallback::other_weights, other_weights, boundary, 0, {}};
-  for (FallbackMap& candidate : candidates) {
-    if (!SpectralSolver::has_form(failed.patch(), candidate.boundary)) continue;
-    SpectralSolver other(failed, candidate.weights, candidate.boundary);
-    if (candidate.fallback == Fallback::clamped_triangles) {
-      candidate.clamped_triangles = other.clamp(min_relative_height);
-      if (candidate.clamped_triangles == 0) continue;
-    }
-    if (area_blend > 0) {
-      try {
-        candidate.blend = blend_area(other, area_blend, progress);
-      } catch (const SolveFailure&) {
-        ++attempts;
-        continue;  // the first failure is the one to report
-      }
-      other.stretch(candidate.blend->metric);
-    }
-    candidate.map = other.solve(options, attractors, progress, timings);
-    attempts += candidate.map.attempts;
-    if (candidate.map.rejection != Rejection::none) continue;
-    other.place(candidate.map.z);
-    const ComplexVector z = candidate.map.z;
-    consider(std::move(candidate), z);
-  }
-  if (!best && is_last) consider_unfolded();
-  return best;
+
+  FallbackSearch search(task, map, options, progress);
+  if (!is_unfolding_last) search.unfold_rejected();
+  search.solve(Fallback::clamped_triangles, weights, boundary, area_blend);
+  search.solve(Fallback::other_boundary, weights, other_boundary, area_blend);
+  search.solve(Fallback::other_weights, other_weights, boundary, area_blend);
+  if (is_unfolding_last && !search.found()) search.unfold_rejected();
+  return search.best();
 }
 
 }  // namespace spectral_conformal

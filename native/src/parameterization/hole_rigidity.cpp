@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "parameterization/attempts.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -21,7 +23,8 @@ struct Quality {
   bool may_cover_itself = false;
 };
 
-Quality quality_of(const NormalizedPatch& patch, const ComplexVector& z) {
+Quality quality_of(const NormalizedPatch& patch, const SpectralMap& map) {
+  const ComplexVector z = map.whole.head(patch.n_vertices);
   const Distortion distortion = chart_distortion(patch, z);
   return {distortion.n_flipped(), distortion.mean_qc, distortion.max_qc, may_cover_itself(patch, z)};
 }
@@ -36,8 +39,8 @@ std::vector<double> lowered_from(double rigidity) {
 /// Solves for one rigidity after the other and keeps the best.
 class RigiditySearch {
  public:
-  RigiditySearch(SpectralSolver& solver, const SolveOptions& options, const Progress& progress, Timings& timings)
-      : solver_(solver), options_(options), progress_(progress), timings_(timings) {}
+  RigiditySearch(SpectralProblem& problem, const SolveOptions& options, const Progress& progress, Timings& timings)
+      : problem_(problem), options_(options), progress_(progress), timings_(timings) {}
 
   /// From a rigidity downwards to the first map without flipped triangles, or that with the fewest.
   RigidMap lower(double rigidity) {
@@ -46,10 +49,12 @@ class RigiditySearch {
     for (const double each : rigidities) {
       SpectralMap map = solve(each);
       if (map.rejection != Rejection::none) {
+        const bool has_factor = problem_.is_factored();
         if (!found_) best_.map = std::move(map);
+        if (!has_factor) break;
         continue;
       }
-      const Quality quality = quality_of(solver_.patch(), map.z);
+      const Quality quality = quality_of(*problem_.patch, map);
       if (found_ && quality.flipped >= least_.flipped) continue;
       take(std::move(map), each, quality);
       if (quality.flipped == 0) break;
@@ -60,9 +65,10 @@ class RigiditySearch {
   /// By mean QC.
   RigidMap choose() {
     best_.map = solve(0);
+    if (!problem_.is_factored()) return std::move(best_);
     double worst = std::numeric_limits<double>::infinity();
     if (best_.map.rejection == Rejection::none) {
-      least_ = quality_of(solver_.patch(), best_.map.z);
+      least_ = quality_of(*problem_.patch, best_.map);
       found_ = true;
       if (least_.flipped == 0 && least_.mean_qc <= hardly_distorted) return std::move(best_);
       worst = 2 * least_.max_qc;
@@ -70,7 +76,7 @@ class RigiditySearch {
     for (const double rigidity : {0.1, 0.3, 1.0, 3.0, 10.0}) {
       SpectralMap map = solve(rigidity);
       if (map.rejection != Rejection::none) continue;
-      const Quality quality = quality_of(solver_.patch(), map.z);
+      const Quality quality = quality_of(*problem_.patch, map);
       // Where that of rigidity 0 is refused, only a map without flipped triangles is better than what fallbacks.h
       // finds.
       const bool is_better =
@@ -92,7 +98,7 @@ class RigiditySearch {
     const Progress rest = [&](double fraction, const char* phase) {
       return !progress_ || progress_(is_first ? fraction : 1.0, phase);
     };
-    SpectralMap map = solver_.solve(changed, {}, rest, timings_);
+    SpectralMap map = attempted_map(problem_, changed, {}, rest, timings_);
     best_.attempts += map.attempts;
     return map;
   }
@@ -103,7 +109,7 @@ class RigiditySearch {
     found_ = true;
   }
 
-  SpectralSolver& solver_;
+  SpectralProblem& problem_;
   const SolveOptions& options_;
   const Progress& progress_;
   Timings& timings_;
@@ -114,10 +120,23 @@ class RigiditySearch {
 
 }  // namespace
 
-RigidMap solve_with_rigid_holes(SpectralSolver& solver, const SolveOptions& options, const Progress& progress,
-                                Timings& timings) {
-  RigiditySearch search(solver, options, progress, timings);
+RigidMap map_with_rigid_holes(SpectralProblem& problem, const SolveOptions& options, const Progress& progress,
+                              Timings& timings) {
+  RigiditySearch search(problem, options, progress, timings);
   return options.hole_rigidity ? search.lower(*options.hole_rigidity) : search.choose();
+}
+
+PatchMap with_rigid_holes(const SolveTask& task, PatchMap map, const Progress& progress) {
+  if (map.rejection || !task.has_rigid_holes()) return map;
+  SolveOptions options = task.options;
+  const std::optional<double> asked = options.hole_rigidity;
+  RigidMap rigid = map_with_rigid_holes(task.patch.problem, options, progress, map.result.timings);
+  if (asked && rigid.rigidity < *asked) map.add(changed(StepKind::lowered_rigidity, *asked, rigid.rigidity));
+  options.hole_rigidity = map.result.hole_rigidity = rigid.rigidity;
+  map.take(std::move(rigid.map), options);
+  map.result.attempts = rigid.attempts;
+  if (rigid.free) map.with_free_holes = std::move(*rigid.free);
+  return map;
 }
 
 }  // namespace spectral_conformal

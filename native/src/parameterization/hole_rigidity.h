@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "parameterization/spectral_solver.h"
+#include "parameterization/patch_map.h"
+#include "parameterization/spectral_map.h"
 #include "parameterization/stopwatch.h"
 #include "spectral_conformal/parameterize.h"
 #include "spectral_conformal/progress.h"
@@ -28,8 +29,11 @@ struct RigidMap {
 /// not. Where that of rigidity 0 has next to no distortion, no other
 /// is tried.
 ///
-/// options: without extenders. Uses the factor of the solver. Throws what SpectralSolver::solve throws.
-RigidMap solve_with_rigid_holes(SpectralSolver& solver, const SolveOptions& options, const Progress& progress,
-                                Timings& timings);
+/// options: without extenders. Throws what spectral_map throws.
+RigidMap map_with_rigid_holes(SpectralProblem& problem, const SolveOptions& options, const Progress& progress,
+                              Timings& timings);
+
+/// Stage: the map whose holes are as rigid as the patch bears.
+PatchMap with_rigid_holes(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

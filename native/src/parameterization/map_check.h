@@ -1,20 +1,9 @@
 #pragma once
 
+#include "spectral_conformal/step.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-/// Why a map is not accepted.
-enum class Rejection {
-  none,
-  not_factorized,  ///< L + s M, or the free part of L, is not positive definite in double precision
-  not_converged,   ///< the eigenvalue iteration did not get near enough for the corrections
-  not_finite,
-  collapsed,   ///< the boundary shrinks to a point: no quotient of Eq. 5
-  unresolved,  ///< it does not satisfy its equations in double precision
-  no_area,     ///< the signed area is not positive
-  winding      ///< the boundary does not wind round once
-};
 
 /// What is known of a map when it is checked.
 struct MapCheck {

@@ -1,22 +1,22 @@
 #include "spectral_conformal/parameterize.h"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "concurrency/listening.h"
 #include "conformal/correction.h"
-#include "conformal/pin_attraction.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "parameterization/area_blend.h"
+#include "parameterization/attempts.h"
 #include "parameterization/chart_metric.h"
 #include "parameterization/fallbacks.h"
 #include "parameterization/hole_rigidity.h"
+#include "parameterization/patch_map.h"
 #include "parameterization/pinned_map.h"
-#include "parameterization/report.h"
-#include "parameterization/spectral_solver.h"
+#include "parameterization/polishing.h"
 #include "parameterization/unfolding.h"
 #include "spectral_conformal/errors.h"
 
@@ -25,12 +25,88 @@ namespace {
 
 bool is_attracted(const SolveOptions& options) { return options.method == Method::spectral && options.soft_pins > 0; }
 
-void take(SpectralMap&& map, Parameterization& result) {
-  result.z = std::move(map.z);
-  result.eigenvalue = map.eigenvalue;
-  result.residual = map.residual;
-  result.iterations = map.solves;
-  result.turning_number = map.turning_number;
+std::vector<Step> repairs_of(const Chart& chart, int degenerate_triangles) {
+  std::vector<Step> steps;
+  const auto add = [&steps](StepKind kind, int count) {
+    if (count > 0) steps.push_back(counted(kind, count));
+  };
+  add(StepKind::reoriented_faces, chart.reversed_faces);
+  add(StepKind::duplicate_faces, static_cast<int>(chart.duplicates.size()));
+  add(StepKind::fan_splits, chart.self_intersecting_polygons);
+  add(StepKind::degenerate_triangles, degenerate_triangles);
+  return steps;
+}
+
+/// The triangles that shrink so far that the digits of the coordinates z (V,) do not tell their corners apart.
+int count_unresolved(const ConformalEnergy& energy, const ComplexVector& z) {
+  // Leaves three digits to the shape of a triangle.
+  constexpr double min_fraction = 1e-13;
+  const double min_length = min_fraction * (z.array() - z.mean()).abs().maxCoeff();
+  int count = 0;
+  for (std::size_t t = 0; t + energy.n_virtual() < energy.triangles().size(); ++t) {
+    const auto& [a, b, c] = energy.triangles()[t];
+    const double longest = std::max(std::norm(z[b] - z[a]), std::norm(z[c] - z[a]));
+    if (longest < min_length * min_length && !energy.shapes()[t].clamped) ++count;
+  }
+  return count;
+}
+
+PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions,
+                             const PatchOptions& options, const std::vector<TriangleMetric>& metric) {
+  Timings timings;
+  Stopwatch watch(timings);
+  auto patch = std::make_shared<const NormalizedPatch>(normalized_patch(chart, positions, options.fill_holes));
+  SpectralProblem problem = spectral_problem(std::move(patch), options.weights, options.boundary, options.backend);
+  const std::vector<TriangleShape>& shapes = problem.energy.shapes();
+  for (std::size_t t = 0; t < metric.size(); ++t) {
+    if (is_positive_definite(metric[t]) || shapes[t].clamped) continue;
+    throw InvalidMesh("The metric of face " +
+                      std::to_string(chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]) +
+                      " is not positive definite in double precision; both of its eigenvalues must be positive.");
+  }
+  if (!metric.empty()) problem.stretch(metric);
+  std::vector<Step> repairs = repairs_of(chart, problem.energy.clamped_triangles());
+  watch.lap("assembly");
+  return {options, std::move(problem), !metric.empty(), std::move(repairs), {}, std::move(timings)};
+}
+
+/// What solving a patch with these options and pins asks for. Throws InvalidMesh for what the method does not take.
+SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
+  SolveTask task{patch, options, pins, {}, {}};
+  task.options.method = method_with_pins(options, pins.size());
+  if (task.options.method != Method::spectral && options.has_extenders_or_rigidity()) {
+    throw InvalidMesh("Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.");
+  }
+  // Where less is asked for than single precision stores, as while a slider moves, a start near the end saves solves.
+  if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
+  // With fewer than three pins a similarity always fits. A single hard pin only moves the map.
+  if (is_attracted(task.options) && pins.size() > 2) task.attractors = pins;
+  if (task.options.method == Method::lscm && pins.size() > 1) task.held = pins;
+  // A metric is what the map is to be measured by, not the distortion that rigidity is chosen by.
+  const bool is_chosen = task.is_free() && !patch.has_metric && !(patch.options.area_blend > 0);
+  std::optional<double>& rigidity = task.options.hole_rigidity;
+  if (patch.problem.patch->inner.empty() || (!rigidity && !is_chosen)) rigidity = 0;
+  return task;
+}
+
+PatchMap unsolved(const SolveTask& task) {
+  PatchMap map;
+  map.result.method = task.options.method;
+  map.result.weights = task.patch.options.weights;
+  map.result.boundary = task.patch.options.boundary;
+  return map;
+}
+
+/// Stage: adds what there is to say of the patch and of the digits of the map.
+PatchMap remarked(const SolveTask& task, PatchMap map) {
+  const PreparedPatch& patch = task.patch;
+  const int unresolved = count_unresolved(patch.problem.energy, map.result.z);
+  if (unresolved > 0) map.add(counted(StepKind::unresolved_triangles, unresolved));
+  for (const Step& repair : patch.repairs) map.add(repair);
+  if (patch.blend && patch.blend->flipped > 0) {
+    map.add(counted(StepKind::relaxed_with_flips, patch.blend->flipped));
+  }
+  return map;
 }
 
 }  // namespace
@@ -49,38 +125,15 @@ Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
 }
 
 struct Solver::State {
-  PatchOptions options;
-  Timings timings;  ///< of what is done once
-  NormalizedPatch patch;
-  SpectralSolver spectral;
-  bool has_metric = false;
-  std::string repairs;  ///< sentences, each with a space behind
-  bool is_blended = false;
-  std::optional<RelaxationStatus> relaxation;
-  double scale_deviation_before = std::numeric_limits<double>::quiet_NaN();
+  PreparedPatch patch;
   // Of a solver made from a mesh; empty otherwise.
-  std::vector<int> vertices;  ///< the mesh vertex of each chart vertex, ascending
+  std::vector<int> vertices = {};  ///< the mesh vertex of each chart vertex, ascending
   int n_mesh_vertices = 0;
 
-  State(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& patch_options)
-      : options(patch_options),
-        patch(normalized_patch(chart, positions, patch_options.fill_holes)),
-        spectral(patch, patch_options.weights, patch_options.boundary, patch_options.backend),
-        repairs(describe_repairs(chart, spectral.energy().clamped_triangles())) {}
-
   int chart_vertex(int mesh_vertex, const char* role) const;
-  void blend(const Progress& progress);
-  SpectralMap factorize(const Progress& progress);
-  std::optional<SolveFailure> solve_pinned(const SolveOptions& settings, const Pins& pins, const Progress& progress,
-                                           Parameterization& result);
-  SpectralMap solve_eigenproblem(const SolveOptions& settings, const Pins& attractors, const Progress& progress,
-                                 Parameterization& result);
-  std::optional<SolveFailure> solve_spectral(const SolveOptions& given, const Pins& attractors,
-                                             const Progress& progress, Parameterization& result);
-  void unfold(const Pins& held, const std::optional<SolveFailure>& failure, const Progress& progress,
-              Parameterization& result);
-  void take_unfolded(UnfoldedMap&& unfolded, const std::string& failure, bool held, Parameterization& result) const;
-  Parameterization solve(const SolveOptions& settings, const Pins& pins, const Progress& progress);
+  SolveOptions in_chart(const SolveOptions& options) const;
+  Pins in_chart(const Pins& pins) const;
+  ComplexVector on_mesh(ComplexVector&& z) const;
 };
 
 int Solver::State::chart_vertex(int mesh_vertex, const char* role) const {
@@ -91,253 +144,81 @@ int Solver::State::chart_vertex(int mesh_vertex, const char* role) const {
   return static_cast<int>(found - vertices.begin());
 }
 
-void Solver::State::blend(const Progress& progress) {
-  if (is_blended || !(options.area_blend > 0)) return;
-  Timings spent = timings;
-  Stopwatch watch(spent);
-  const AreaBlend blended = blend_area(spectral, options.area_blend, progress);
-  std::string sentences = repairs + describe_relaxation(blended.relaxed);
-  // All or nothing: where memory runs out, the next solve begins with what was there.
-  watch.lap("area blend");
-  spectral.stretch(blended.metric);
-  timings.swap(spent);
-  repairs.swap(sentences);
-  relaxation = blended.relaxed.status;
-  scale_deviation_before = blended.scale_deviation_before;
-  is_blended = true;
-}
-
-// The fractions of progress in this file and in area_blend.cpp are guesses of the time that phases take: a blend is
-// many factorisations, a factorisation somewhat longer than the eigenproblem. They only have to rise.
-
-/// The outcome has no map.
-SpectralMap Solver::State::factorize(const Progress& progress) {
-  if (spectral.is_factored()) return {};
-  const double blended = options.area_blend > 0 ? 0.8 : 0.0;
-  blend(part(progress, 0.0, blended));
-  Stopwatch watch(timings);
-  SpectralMap outcome = spectral.factorize(part(progress, blended, 1.0));
-  watch.lap("factorization");
-  return outcome;
-}
-
-/// Pins are held exactly; a single one is left to the caller.
-std::optional<SolveFailure> Solver::State::solve_pinned(const SolveOptions& settings, const Pins& pins,
-                                                        const Progress& progress, Parameterization& result) {
-  try {
-    blend(part(progress, 0.0, 0.5));
-  } catch (const SolveFailure& failure) {
-    return failure;
-  }
-  result.timings = timings;
-  SpectralMap map = spectral_conformal::solve_pinned(
-      spectral, pins, part(progress, options.area_blend > 0 ? 0.5 : 0.0, 1.0), result.timings);
-  result.attempts = map.attempts;
-  result.eigenvalue_of = EigenvalueOf::map;
-  if (map.rejection != Rejection::none) return failure_of(map, settings);
-  result.message = describe_attempts(map, settings);
-  take(std::move(map), result);
-  return std::nullopt;
-}
-
-/// The placed map of a factored patch, polished where that was asked for, and what it is the map of.
-SpectralMap Solver::State::solve_eigenproblem(const SolveOptions& settings, const Pins& attractors,
-                                              const Progress& progress, Parameterization& result) {
-  const bool is_free = settings.method == Method::spectral && !settings.has_extenders() && attractors.empty();
-  // Where less is asked for than single precision stores, as while a slider moves, a start near the end saves solves.
-  if (!(settings.tolerance > resolved_change)) spectral.forget_maps();
-  SpectralMap map;
-  std::optional<SpectralMap> with_free_holes;
-  if (is_free && settings.hole_rigidity != 0.0) {
-    RigidMap rigid = solve_with_rigid_holes(spectral, settings, progress, result.timings);
-    result.hole_rigidity = rigid.rigidity;
-    result.message = describe_rigidity(settings.hole_rigidity, rigid.rigidity);
-    map = std::move(rigid.map);
-    with_free_holes = std::move(rigid.free);
-    result.attempts = rigid.attempts;
-  } else {
-    map = spectral.solve(settings, attractors, progress, result.timings);
-    result.hole_rigidity = settings.hole_rigidity.value_or(0);
-    result.attempts = map.attempts;
-  }
-  if (map.rejection != Rejection::none) return map;
-  result.message += describe_attempts(map, settings);
-  // What was asked of the shape is not to be polished away.
-  const bool is_shaped = is_blended || has_metric || settings.hole_rigidity.value_or(0) != 0;
-  if (options.polish && is_free && !is_shaped) {
-    result.polish_steps = spectral.polish(map, progress, result.timings);
-    if (with_free_holes) {
-      // The lead of rigid holes can be less than what polishing takes away.
-      const int steps = spectral.polish(*with_free_holes, progress, result.timings);
-      const Distortion rigid = chart_distortion(patch, map.z);
-      const Distortion free = chart_distortion(patch, with_free_holes->z);
-      const bool covers_more = may_cover_itself(patch, with_free_holes->z) && !may_cover_itself(patch, map.z);
-      if (free.mean_qc < rigid.mean_qc && free.n_flipped() <= rigid.n_flipped() && !covers_more) {
-        map = std::move(*with_free_holes);
-        result.hole_rigidity = 0;
-        result.polish_steps = steps;
-      }
-    }
-    if (result.polish_steps > 0) result.eigenvalue_of = EigenvalueOf::map;
-  }
-  Stopwatch watch(result.timings);
-  spectral.place(map.z);
-  watch.lap("placement");
-  return map;
-}
-
-std::optional<SolveFailure> Solver::State::solve_spectral(const SolveOptions& given, const Pins& attractors,
-                                                          const Progress& progress, Parameterization& result) {
-  SolveOptions settings = given;
-  // A metric is what the map is to be measured by, not the distortion that rigidity is chosen by.
-  const bool is_chosen = attractors.empty() && !settings.has_extenders() && !has_metric && !(options.area_blend > 0);
-  if (patch.inner.empty() || (!settings.hole_rigidity && !is_chosen)) settings.hole_rigidity = 0;
-  const bool own_factor = settings.method == Method::fiedler;
-  const double begun = own_factor ? 0.3 : 0.6;
-  SpectralMap map;
-  std::optional<SolveFailure> failed_blend;
-  try {
-    if (own_factor) {
-      blend(part(progress, 0.0, begun));
-    } else {
-      map = factorize(part(progress, 0.0, begun));
-    }
-  } catch (const SolveFailure& failure) {
-    failed_blend = failure;
-  }
-  result.timings = timings;
-  result.attempts = 1;
-  if (!failed_blend && map.rejection == Rejection::none) {
-    map = solve_eigenproblem(settings, attractors, part(progress, begun, 0.95), result);
-    if (map.rejection == Rejection::none) {
-      take(std::move(map), result);
-      return std::nullopt;
+SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
+  SolveOptions result = options;
+  if (vertices.empty()) return result;
+  for (Extender& extender : result.extenders) {
+    for (std::vector<int>* ends : {&extender.from, &extender.to}) {
+      for (int& v : *ends) v = chart_vertex(v, "has an extender");
     }
   }
-  // Rigidity that was not lowered to 0 acts together with forces.
-  settings.hole_rigidity = result.hole_rigidity;
-  SolveFailure failure = failed_blend ? *failed_blend : failure_of(map, settings);
-  // With soft constraints, these are what to change.
-  if (settings.method != Method::spectral || settings.has_extenders_or_rigidity() || !settings.fallbacks)
-    return failure;
-  // The fraction done only rises: the failed attempts have used it up.
-  const Progress rest = [&progress](double, const char* phase) { return !progress || progress(0.95, phase); };
-  const double not_blended = is_blended ? 0 : options.area_blend;
-  // Other problems have factors of their own, which are as large.
-  spectral.drop_factor();
-  std::optional<FallbackMap> other =
-      solve_fallback(spectral, map, settings, attractors, not_blended, rest, result.timings, result.attempts);
-  if (!other) return failure;
-  if (other->unfolded) {
-    take_unfolded(std::move(*other->unfolded), failure.reason(), false, result);
-    result.fallback = other->fallback;
-    return std::nullopt;
-  }
-  result.fallback = other->fallback;
-  result.weights = other->weights;
-  result.boundary = other->boundary;
-  result.clamped_triangles = other->clamped_triangles;
-  result.message += describe_fallback(*other, failure) + describe_attempts(other->map, settings);
-  if (other->blend) {
-    result.relaxation = other->blend->relaxed.status;
-    result.scale_deviation_before = other->blend->scale_deviation_before;
-    result.message += describe_relaxation(other->blend->relaxed);
-  }
-  take(std::move(other->map), result);
-  return std::nullopt;
-}
-
-void Solver::State::unfold(const Pins& held, const std::optional<SolveFailure>& failure, const Progress& progress,
-                           Parameterization& result) {
-  Stopwatch watch(result.timings);
-  take_unfolded(spectral_conformal::unfold(spectral, held, result.z, {false, true}, progress),
-                failure ? failure->reason() : "", !held.empty(), result);
-  watch.lap("unfolding");
-}
-
-void Solver::State::take_unfolded(UnfoldedMap&& unfolded, const std::string& failure, bool held,
-                                  Parameterization& result) const {
-  FoldFreeMap& map = unfolded.fold_free;
-  if (unfolded.changed) {
-    result.z = std::move(map.z);
-    result.turning_number = unfolded.turning_number;
-    result.eigenvalue = unfolded.eigenvalue;
-    result.eigenvalue_of = EigenvalueOf::map;
-    result.residual = unfolded.residual;
-    // What stands in for a map that was refused may have been unfolded before, and is then moved apart.
-    if (std::isnan(result.mean_qc_before) && !result.is_embedding) result.mean_qc_before = unfolded.mean_qc_before;
-    result.unfolded += map.is_embedding ? map.flipped_before : map.flipped_before - map.flipped;
-    result.is_embedding = result.is_embedding || map.is_embedding;
-    // The quotient is that of the patch's own energy and form.
-    result.weights = options.weights;
-    result.boundary = options.boundary;
-    result.clamped_triangles = 0;
-    if (map.is_embedding) result.fallback = Fallback::tutte_embedding;
-  }
-  result.message +=
-      describe_unfolding(map, failure, unfolded.mean_qc_before, unfolded.mean_qc, result.turning_number, held);
-}
-
-Parameterization Solver::State::solve(const SolveOptions& given, const Pins& pins, const Progress& progress) {
-  SolveOptions settings = given;
-  settings.method = method_with_pins(given, pins.size());
-  const bool pinned = settings.method == Method::lscm;
-  if (settings.method != Method::spectral && settings.has_extenders_or_rigidity()) {
-    throw InvalidMesh("Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.");
-  }
-  // With fewer than three pins a similarity always fits. A single hard pin only moves the map.
-  const Pins attractors = is_attracted(settings) && pins.size() > 2 ? pins : Pins{};
-  const Pins held = pinned && pins.size() > 1 ? pins : Pins{};
-
-  Parameterization result;
-  result.method = settings.method;
-  result.weights = options.weights;
-  result.boundary = options.boundary;
-  const Progress solving = part(progress, 0.0, options.fold_free ? 0.5 : 1.0);
-  const std::optional<SolveFailure> failure =
-      pinned ? solve_pinned(settings, held, solving, result) : solve_spectral(settings, attractors, solving, result);
-  // Hard pins have no other map; everything else has the embedding.
-  if (failure && (!options.fold_free || !held.empty())) throw SolveFailure(*failure);
-  if (failure) spectral.drop_factor();  // the embedding has factors of its own
-  if (options.fold_free) unfold(held, failure, part(progress, 0.5, 1.0), result);
-
-  if (relaxation) {
-    result.relaxation = relaxation;
-    result.scale_deviation_before = scale_deviation_before;
-  }
-  if (result.relaxation) {
-    result.scale_deviation = chart_distortion(patch, result.z).log2_scale_deviation;
-    result.message +=
-        describe_blend(options.area_blend, *result.relaxation, result.scale_deviation_before, result.scale_deviation);
-  }
-  if (pinned && pins.size() == 1) move_onto_pin(pins, result.z);
-  if (!pinned && !pins.empty() && !fit_to_pins(result.z, pins)) {
-    throw InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
-  }
-  result.message += describe_unresolved(spectral.energy(), result.z) + repairs;
-  if (!result.message.empty()) result.message.pop_back();  // the space after the last sentence
-  report(progress, 1.0, "done");
   return result;
 }
 
-Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
-               const std::vector<TriangleMetric>& metric) {
-  Timings timings;
-  Stopwatch watch(timings);
-  state_ = std::make_unique<State>(chart, positions, options);
-  const std::vector<TriangleShape>& shapes = state_->spectral.energy().shapes();
-  for (std::size_t t = 0; t < metric.size(); ++t) {
-    if (!is_positive_definite(metric[t]) && !shapes[t].clamped) {
-      throw InvalidMesh("The metric of face " +
-                        std::to_string(chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]) +
-                        " is not positive definite in double precision; both of its eigenvalues must be positive.");
-    }
-  }
-  if (!metric.empty()) state_->spectral.stretch(metric);
-  state_->has_metric = !metric.empty();
-  watch.lap("assembly");
-  state_->timings = std::move(timings);
+Pins Solver::State::in_chart(const Pins& pins) const {
+  if (vertices.empty()) return pins;
+  Pins result;
+  for (const auto& [vertex, position] : pins) result[chart_vertex(vertex, "is pinned")] = position;
+  return result;
 }
+
+ComplexVector Solver::State::on_mesh(ComplexVector&& z) const {
+  if (vertices.empty()) return std::move(z);
+  ComplexVector result = ComplexVector::Zero(n_mesh_vertices);
+  for (std::size_t v = 0; v < vertices.size(); ++v) result[vertices[v]] = z[static_cast<Eigen::Index>(v)];
+  return result;
+}
+
+Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& given) {
+  const Listening listening(given, "ordering");
+  const Progress& progress = listening.progress();
+  const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
+  // The fractions of progress, here and in area_blend.cpp, are guesses of the time that phases take: a blend is many
+  // factorizations, a factorization somewhat longer than the eigenproblem. They only have to rise.
+  const bool is_fold_free = state_->patch.options.fold_free;
+  const Progress solving = part(progress, 0.0, is_fold_free ? 0.5 : 1.0);
+  const double begun = state_->patch.options.area_blend > 0 ? 0.5 : 0.0;
+
+  // The recipe: from the patch to its map. Each stage takes the map, or why there is none, as the one before left it.
+  PatchMap map = unsolved(task);
+  map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric gives up angles for areas
+  map = pinned(task, std::move(map), part(solving, begun, 0.95));            // LSCM, where pins are hard
+  map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));  // the paper's map with several B
+  map = spectral(task, std::move(map), part(solving, begun, 0.95));          // the paper's map: spectral_map.h
+  map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // where it fails its checks
+  map = polished(task, std::move(map), part(solving, 0.95, 1.0));            // on to a lower mean QC
+  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map, where it was rejected
+  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded, where there is none
+  if (map.rejection) throw SolveFailure(*map.rejection);
+  map = measured_blend(task, std::move(map));
+  map = fitted_to_pins(task, std::move(map));
+  map = remarked(task, std::move(map));
+
+  map.result.z = state_->on_mesh(std::move(map.result.z));
+  report(progress, 1.0, "done");
+  return std::move(map.result);
+}
+
+void Solver::factorize(const Progress& given) {
+  const Listening listening(given, "ordering");
+  const Progress& progress = listening.progress();
+  PreparedPatch& patch = state_->patch;
+  const double begun = patch.options.area_blend > 0 ? 0.8 : 0.0;
+  const PatchMap map = blended({patch, {}, {}, {}, {}}, {}, part(progress, 0.0, begun));
+  if (map.rejection) throw SolveFailure(*map.rejection);
+  Stopwatch watch(patch.timings);
+  patch.problem.factorize(Method::spectral, first_attempt.relative_shift, part(progress, begun, 1.0));
+  watch.lap("factorization");
+  if (patch.problem.is_factored()) return;
+  SpectralMap none;
+  none.rejection = Rejection::not_factorized;
+  none.shift = patch.problem.factor.shift;
+  throw SolveFailure(rejected(none, {}));
+}
+
+Solver::Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
+               const std::vector<TriangleMetric>& metric)
+    : state_(new State{prepared_patch(chart, positions, options, metric)}) {}
 
 Solver::Solver(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric) {
   Timings timings;
@@ -347,43 +228,16 @@ Solver::Solver(const PolygonMesh& mesh, const PatchOptions& options, const Space
   *this = Solver(chart, chart.positions(mesh), options, chart_metric(mesh, chart, metric));
   state_->vertices = std::move(chart.vertices);
   state_->n_mesh_vertices = mesh.n_vertices;
-  timings.insert(timings.end(), state_->timings.begin(), state_->timings.end());
-  state_->timings.swap(timings);
+  timings.insert(timings.end(), state_->patch.timings.begin(), state_->patch.timings.end());
+  state_->patch.timings.swap(timings);
 }
 
 Solver::~Solver() = default;
 Solver::Solver(Solver&& other) noexcept = default;
 Solver& Solver::operator=(Solver&& other) noexcept = default;
 
-void Solver::factorize(const Progress& given) {
-  const Listening listening(given, "ordering");
-  const Progress& progress = listening.progress();
-  const SpectralMap outcome = state_->factorize(progress);
-  if (outcome.rejection != Rejection::none) throw failure_of(outcome, {});
-}
+const ConformalEnergy& Solver::energy() const { return state_->patch.problem.energy; }
 
-Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, const Progress& given) {
-  const Listening listening(given, "ordering");
-  const Progress& progress = listening.progress();
-  const std::vector<int>& vertices = state_->vertices;
-  if (vertices.empty()) return state_->solve(options, pins, progress);
-  SolveOptions in_chart = options;
-  for (Extender& extender : in_chart.extenders) {
-    for (std::vector<int>* ends : {&extender.from, &extender.to}) {
-      for (int& v : *ends) v = state_->chart_vertex(v, "has an extender");
-    }
-  }
-  Pins chart_pins;
-  for (const auto& [vertex, position] : pins) chart_pins[state_->chart_vertex(vertex, "is pinned")] = position;
-  Parameterization result = state_->solve(in_chart, chart_pins, progress);
-  ComplexVector z = ComplexVector::Zero(state_->n_mesh_vertices);
-  for (std::size_t v = 0; v < vertices.size(); ++v) z[vertices[v]] = result.z[static_cast<Eigen::Index>(v)];
-  result.z.swap(z);
-  return result;
-}
-
-const ConformalEnergy& Solver::energy() const { return state_->spectral.energy(); }
-
-double Solver::scale() const { return state_->patch.scale; }
+double Solver::scale() const { return state_->patch.problem.patch->scale; }
 
 }  // namespace spectral_conformal

@@ -1,5 +1,6 @@
 #include "parameterization/unfolding.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -8,10 +9,10 @@
 
 namespace spectral_conformal {
 
-UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z,
+UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const ComplexVector& z,
                    const UnfoldingOptions& options, const Progress& progress) {
-  const NormalizedPatch& patch = solver.patch();
-  const ConformalEnergy& energy = solver.energy();
+  const NormalizedPatch& patch = *problem.patch;
+  const ConformalEnergy& energy = problem.energy;
   std::vector<char> held_vertices(held.empty() ? 0 : static_cast<std::size_t>(patch.n_vertices), 0);
   for (const auto& pin : held) held_vertices[static_cast<std::size_t>(pin.first)] = 1;
   std::vector<BoundaryLoop> loops{patch.outer};
@@ -22,22 +23,78 @@ UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const Complex
   const bool mirrored = !held.empty() && signed_area(energy, z) < 0;
   FoldFreeMap& map = result.fold_free;
   map = fold_free_map(
-      {energy, patch.surface(), loops, held_vertices, solver.backend(), options.is_refused, options.moves_apart},
+      {energy, patch.surface(), loops, held_vertices, problem.backend, options.is_refused, options.moves_apart},
       mirrored ? ComplexVector(z.conjugate()) : z, progress);
   if (mirrored) map.z = map.z.conjugate().eval();
   result.changed = options.is_refused || map.is_embedding || map.flipped != map.flipped_before ||
                    map.covered_itself != map.covers_itself;
   result.mean_qc = result.mean_qc_before;
   if (!result.changed) return result;
-  if (held.empty() && !solver.place(map.z)) {
-    throw SolveFailure("The map has no positive area", "add seams that make the island flatter.");
+  if (held.empty() && !place(problem, map.z)) {
+    throw SolveFailure(rejected(Rejection::no_area));
   }
-  const SpectralSolver::Numbers after = solver.numbers(with_virtual_vertices(patch, map.z));
+  const MapNumbers after = map_numbers(problem, with_virtual_vertices(patch, map.z));
   result.turning_number = map.turning_number;
   result.eigenvalue = after.eigenvalue;
   result.residual = after.residual;
   result.mean_qc = chart_distortion(patch, map.z).mean_qc;
   return result;
+}
+
+PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfolded) {
+  const PatchOptions& asked = task.patch.options;
+  FoldFreeMap& fold_free = unfolded.fold_free;
+  Parameterization& result = map.result;
+  const bool had_map = !map.rejection;
+  if (map.rejection) map.add(*map.rejection);
+  map.rejection.reset();
+  if (unfolded.changed) {
+    result.z = std::move(fold_free.z);
+    result.turning_number = unfolded.turning_number;
+    result.eigenvalue = unfolded.eigenvalue;
+    result.eigenvalue_of = EigenvalueOf::map;
+    result.residual = unfolded.residual;
+    // What stands in for a map that was refused may have been unfolded before, and is then moved apart.
+    if (std::isnan(result.mean_qc_before) && !result.is_embedding) result.mean_qc_before = unfolded.mean_qc_before;
+    result.unfolded += fold_free.flipped_before - (fold_free.is_embedding ? 0 : fold_free.flipped);
+    result.is_embedding = result.is_embedding || fold_free.is_embedding;
+    // The quotient is that of the patch's own energy and form.
+    result.weights = asked.weights;
+    result.boundary = asked.boundary;
+    result.clamped_triangles = 0;
+    if (fold_free.is_embedding) result.fallback = Fallback::tutte_embedding;
+  }
+  const double before = unfolded.mean_qc_before;
+  const double after = unfolded.mean_qc;
+  if (fold_free.is_embedding && !fold_free.came_apart_embedded) {
+    map.add(changed(StepKind::embedded, had_map ? before : std::numeric_limits<double>::quiet_NaN(), after));
+  } else if (fold_free.flipped < fold_free.flipped_before) {
+    map.add(changed(StepKind::unfolded, before, after, fold_free.flipped_before - fold_free.flipped));
+  }
+  if (fold_free.covers_itself) {
+    map.add({StepKind::covers_itself});
+  } else if (fold_free.covered_itself) {
+    const bool is_embedded = fold_free.came_apart_embedded;
+    map.add(changed(is_embedded ? StepKind::moved_apart_embedded : StepKind::moved_apart, before, after));
+  }
+  if (fold_free.flipped > 0 || !fold_free.is_locally_injective) {
+    Step step = fold_free.flipped > 0 ? counted(StepKind::still_flipped, fold_free.flipped)
+                                      : counted(StepKind::not_injective, result.turning_number);
+    if (!task.held.empty()) step.constraint = Constraint::pins;
+    map.add(step);
+  }
+  return map;
+}
+
+PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress) {
+  SpectralProblem& problem = task.patch.problem;
+  if (!task.patch.options.fold_free || (map.rejection && !task.held.empty())) return map;
+  if (map.rejection) problem.drop_factor();  // the embedding has factors of its own
+  Stopwatch watch(map.result.timings);
+  UnfoldedMap unfolded = unfold(problem, task.held, map.result.z, {false, true}, progress);
+  map = with_unfolded(task, std::move(map), std::move(unfolded));
+  watch.lap("unfolding");
+  return map;
 }
 
 }  // namespace spectral_conformal

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "injective/fold_free_map.h"
-#include "parameterization/spectral_solver.h"
+#include "parameterization/patch_map.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
@@ -24,7 +24,14 @@ struct UnfoldingOptions {
 
 /// fold_free_map for the map z (V,) of a patch, or for none where z is empty. Pins hold their vertices. Throws
 /// SolveFailure where what it ends with has no area, and what fold_free_map throws.
-UnfoldedMap unfold(const SpectralSolver& solver, const Pins& held, const ComplexVector& z,
+UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const ComplexVector& z,
                    const UnfoldingOptions& options, const Progress& progress);
+
+/// The map, or where it has none its rejection, as it was unfolded or replaced, and what that took and left.
+PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfolded);
+
+/// Stage: unfolds the map, or embeds the patch where it has none, where PatchOptions::fold_free asks for it. Hard pins
+/// have no embedding.
+PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -148,7 +148,7 @@ class ChartUnwrapper {
       report_.method = options_.method = method_with_pins(options.solve, pins_.size());
       is_possible_ = true;
     } catch (const InvalidMesh& problem) {
-      report_.message = problem.what();
+      report_.problem = problem.what();
     }
   }
 
@@ -183,10 +183,10 @@ class ChartUnwrapper {
       }
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
-      result.report.message = problem.what();
+      result.report.problem = problem.what();
       if (has_no_area(chart_, chart_.positions(cut_.mesh))) result.point = mean_of_pins();
     } catch (const SolveFailure& problem) {
-      result.report.message = problem.what();
+      result.report.steps = {problem.step()};
     } catch (const std::bad_alloc&) {
       solver_.reset();
       throw;
@@ -197,8 +197,7 @@ class ChartUnwrapper {
   /// What became of a chart whose solve there is no memory for.
   Solution out_of_memory() const {
     Solution result{report_, {}, {}, {}, {}, {}};
-    result.report.message = "There is too little memory for this island of " + std::to_string(report_.faces.size()) +
-                            " faces; close other programs, or cut it into smaller ones with seams.";
+    result.report.steps = {counted(StepKind::out_of_memory, static_cast<int>(report_.faces.size()))};
     return result;
   }
 
@@ -331,7 +330,8 @@ void add_points(const Cut& cut, const Points& points, Unwrap& result) {
     // L z = 0 for what is the same everywhere.
     report.eigenvalue = report.residual = 0;
     report.mean_qc = report.max_qc = 1;
-    report.message = "The island has no area: its map is a point.";
+    report.problem.clear();
+    report.steps = {{StepKind::shrunk_to_point}};
     write_corners(
         cut, report.faces, [place = point](int) { return place; }, result);
   }
@@ -355,9 +355,7 @@ void add_degenerate_faces(const Cut& cut, Unwrap& result) {
   for (const int face : faces) result.chart_of_face[face] = static_cast<int>(result.charts.size());
   UnwrappedChart unusable;
   unusable.faces = faces;
-  unusable.message =
-      "Faces with fewer than three different vertices, or with the same vertex twice in a row, cannot be unwrapped; "
-      "delete them or merge their vertices.";
+  unusable.steps = {{StepKind::degenerate_faces}};
   result.charts.push_back(std::move(unusable));
 }
 

@@ -45,8 +45,4 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
   return static_cast<int>(std::lround(turning / (2 * pi)));
 }
 
-std::string describe_winding(int turning_number) {
-  return "The boundary of the map winds round " + std::to_string(turning_number) + " times instead of once";
-}
-
 }  // namespace spectral_conformal

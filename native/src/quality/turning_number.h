@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "spectral_conformal/types.h"
 
@@ -15,8 +14,5 @@ namespace spectral_conformal {
 /// extent has 0.
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
                    const std::vector<double>& triangle_weights, const ComplexVector& map);
-
-/// The message about a map whose turning number is neither 1 nor -1.
-std::string describe_winding(int turning_number);
 
 }  // namespace spectral_conformal

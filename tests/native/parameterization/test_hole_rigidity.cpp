@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "meshes.h"
 #include "parameterization/hole_rigidity.h"
+#include "problems.h"
 
 namespace spectral_conformal::test {
 
@@ -38,19 +38,15 @@ Mesh hat() {
 
 struct Solved {
   Patch patch;
-  NormalizedPatch normalized;
-  SpectralSolver solver;
+  SpectralProblem problem;
   Timings timings;
-  explicit Solved(const Mesh& mesh)
-      : patch(mesh),
-        normalized(normalized_patch(patch.chart, patch.positions, false)),
-        solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic) {}
+  explicit Solved(const Mesh& mesh) : patch(mesh), problem(problem_of(patch)) {}
   RigidMap with(std::optional<double> rigidity) {
     SolveOptions options;
     options.hole_rigidity = rigidity;
-    return solve_with_rigid_holes(solver, options, {}, timings);
+    return map_with_rigid_holes(problem, options, {}, timings);
   }
-  double mean_qc(const SpectralMap& map) const { return chart_distortion(normalized, map.z).mean_qc; }
+  double mean_qc(const SpectralMap& map) const { return chart_distortion(*problem.patch, map.z).mean_qc; }
 };
 
 }  // namespace
@@ -61,7 +57,7 @@ TEST_CASE("a rigidity that the patch bears is taken as it is") {
   CHECK((rigid.map.rejection == Rejection::none && rigid.rigidity == 1 && rigid.attempts == 1));
   SolveOptions options;
   options.hole_rigidity = 1;
-  const SpectralMap again = solved.solver.solve(options, {}, {}, solved.timings);
+  const SpectralMap again = attempted_map(solved.problem, options, {}, {}, solved.timings);
   CHECK(difference_up_to_similarity(rigid.map.z, again.z) < 1e-7);
 }
 
@@ -111,8 +107,8 @@ TEST_CASE("choosing can be stopped at every report") {
   options.hole_rigidity.reset();
   int calls = 0;
   double last = 0;
-  solve_with_rigid_holes(
-      solved.solver, options,
+  map_with_rigid_holes(
+      solved.problem, options,
       [&](double fraction, const char*) {
         CHECK(fraction >= last);
         last = fraction;
@@ -124,7 +120,20 @@ TEST_CASE("choosing can be stopped at every report") {
   for (int stop_at = 1; stop_at <= calls; stop_at += 3) {
     int call = 0;
     const Progress stop = [&](double, const char*) { return ++call < stop_at; };
-    CHECK_THROWS_AS(solve_with_rigid_holes(solved.solver, options, stop, solved.timings), Cancelled);
+    CHECK_THROWS_AS(map_with_rigid_holes(solved.problem, options, stop, solved.timings), Cancelled);
+  }
+}
+
+TEST_CASE("the stage says what a rigidity was lowered to") {
+  PreparedPatch patch = prepared(problem_of(Patch(hat())));
+  SolveTask task{patch, {}, {}, {}, {}};
+  CHECK(with_rigid_holes(task, {}, {}).result.z.size() == 0);
+  task.options.hole_rigidity = 1e8;
+  const PatchMap map = with_rigid_holes(task, {}, {});
+  REQUIRE_FALSE(map.rejection);
+  CHECK(map.result.steps.empty() == (map.result.hole_rigidity == 1e8));
+  for (const Step& step : map.result.steps) {
+    CHECK((step.kind == StepKind::lowered_rigidity && step.before == 1e8 && step.after == map.result.hole_rigidity));
   }
 }
 

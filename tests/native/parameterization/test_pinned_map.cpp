@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "meshes.h"
 #include "parameterization/pinned_map.h"
+#include "problems.h"
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
@@ -10,28 +10,41 @@ TEST_SUITE_BEGIN("pinned_map");
 
 TEST_CASE("pins are held exactly in any unit, fewer than two leave the map to be placed") {
   const Patch patch(bumpy_grid(6, 5));
-  const NormalizedPatch normalized = normalized_patch(patch.chart, patch.positions, false);
-  const SpectralSolver solver(normalized, Weights::uniform, BoundaryMeasure::length, FactorizationBackend::automatic);
+  const SpectralProblem problem = problem_of(patch);
   Timings timings;
   const Pins pins{{0, {1, 2}}, {6, {7, 2}}, {41, {7, 8}}};
-  const SpectralMap map = solve_pinned(solver, pins, {}, timings);
+  const SpectralMap map = pinned_map(problem, pins, {}, timings);
   REQUIRE(map.rejection == Rejection::none);
   for (const auto& [vertex, position] : pins) CHECK(map.z[vertex] == position);
   Pins large;
   for (const auto& [vertex, position] : pins) large[vertex] = 1e200 * position;
-  CHECK(difference(solve_pinned(solver, large, {}, timings).z / 1e200, map.z) < 1e-12);
-  const ComplexVector free = solve_pinned(solver, {}, {}, timings).z;
+  CHECK(difference(pinned_map(problem, large, {}, timings).z / 1e200, map.z) < 1e-12);
+  const ComplexVector free = pinned_map(problem, {}, {}, timings).z;
   CHECK(std::abs(free.mean()) < 1e-12);
-  CHECK(solve_pinned(solver, {{3, 5.0}}, {}, timings).z == free);
-  CHECK_THROWS_AS(solve_pinned(solver, {{0, 1.0}, {3, 1.0}}, {}, timings), InvalidMesh);
+  CHECK(pinned_map(problem, {{3, 5.0}}, {}, timings).z == free);
+  CHECK_THROWS_AS(pinned_map(problem, {{0, 1.0}, {3, 1.0}}, {}, timings), InvalidMesh);
 }
 
 TEST_CASE("a single pin is met exactly by moving the map") {
-  ComplexVector z = random_map(5);
-  const Complex side = z[1] - z[0];
-  move_onto_pin({{3, {1e3, 7}}}, z);
+  PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(6, 5))));
+  SolveTask task{patch, {Method::lscm}, {{3, {1e3, 7}}}, {}, {}};
+  const PatchMap map = pinned(task, {}, {});
+  CHECK((!map.rejection && map.result.eigenvalue_of == EigenvalueOf::map));
+  const ComplexVector& z = fitted_to_pins(task, map).result.z;
   CHECK(z[3] == Complex(1e3, 7));
-  CHECK(std::abs(z[1] - z[0] - side) < 1e-12);
+  CHECK(std::abs(z[1] - z[0] - (map.result.z[1] - map.result.z[0])) < 1e-12);
+}
+
+TEST_CASE("soft pins are fitted by a similarity, hard ones leave the map as it is") {
+  PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(6, 5))));
+  PatchMap map;
+  map.result.z = flat_map(patch.problem.patch->positions);
+  const ComplexVector& z = map.result.z;
+  const Pins twice{{0, 2.0 * z[0]}, {5, 2.0 * z[5]}, {20, 2.0 * z[20]}};
+  CHECK(difference(fitted_to_pins({patch, {}, twice, twice, {}}, map).result.z, 2.0 * z) < 1e-12);
+  CHECK(fitted_to_pins({patch, {Method::lscm}, twice, {}, twice}, map).result.z == z);
+  const Pins equal{{0, 1.0}, {5, 1.0}};
+  CHECK_THROWS_AS(fitted_to_pins({patch, {}, equal, {}, {}}, map), InvalidMesh);
 }
 
 TEST_SUITE_END();

@@ -61,11 +61,11 @@ TEST_CASE("what can be solved is solved, the rest is reported with its reason") 
   const Unwrap result = unwrapped(mixed_components());
   REQUIRE(result.charts.size() == 5);
   CHECK((result.charts[0].solved && result.charts[4].solved));
-  CHECK((says(result.charts[1].message, "closed") && !result.charts[1].solved));
-  CHECK((says(result.charts[2].message, "not finite") && !result.charts[2].solved));
-  CHECK((says(result.charts[3].message, "non-orientable") && !result.charts[3].solved));
+  CHECK((says(result.charts[1].problem, "closed") && !result.charts[1].solved));
+  CHECK((says(result.charts[2].problem, "not finite") && !result.charts[2].solved));
+  CHECK((says(result.charts[3].problem, "non-orientable") && !result.charts[3].solved));
   for (const int chart : {0, 4}) {
-    CHECK(result.charts[chart].message.empty());
+    CHECK((result.charts[chart].problem.empty() && result.charts[chart].steps.empty()));
     CHECK(result.charts[chart].turning_number == 1);
     CHECK(result.charts[chart].flipped == 0);
     CHECK(result.charts[chart].residual < 1e-10);
@@ -234,13 +234,16 @@ TEST_CASE("an attraction that makes the map wind twice fails and says what to do
   options.extenders = {{20, 60, -1000}};
   const Unwrap result = unwrapped(mesh, options);
   CHECK_FALSE(result.charts[0].solved);
-  CHECK(says(result.charts[0].message, "weaken or remove extenders"));
+  REQUIRE(result.charts[0].steps.size() == 1);
+  const Step& step = result.charts[0].steps[0];
+  CHECK((step.kind == StepKind::rejected && step.reason == Rejection::winding));
+  CHECK(step.constraint == Constraint::extenders);
   // As a solver of the patch does.
   const Patch patch(mesh);
   SolveOptions solve;
   solve.extenders = {{{20}, {60}, -1000}};
   Solver solver(patch.chart, patch.positions, {});
-  CHECK_THROWS_WITH_AS(solver.solve(solve, {}), result.charts[0].message.c_str(), SolveFailure);
+  CHECK_THROWS_AS(solver.solve(solve, {}), SolveFailure);
 }
 
 TEST_CASE("hard pins are held by pinned LSCM where the method is spectral, and fail the methods that hold none") {
@@ -255,7 +258,7 @@ TEST_CASE("hard pins are held by pinned LSCM where the method is spectral, and f
     CHECK_FALSE(chart.solved);
     const Patch patch(mesh);
     Solver solver(patch.chart, patch.positions, {});
-    CHECK_THROWS_WITH_AS(solver.solve({method}, pins), chart.message.c_str(), InvalidMesh);
+    CHECK_THROWS_WITH_AS(solver.solve({method}, pins), chart.problem.c_str(), InvalidMesh);
   }
 }
 
@@ -288,10 +291,10 @@ TEST_CASE("a metric of faces is that of their triangles, whichever way they are 
   metric[3](0, 0) = -1;
   const Unwrap refused = unwrapped(mesh, options);
   CHECK_FALSE(refused.charts[0].solved);
-  CHECK(says(refused.charts[0].message, "The metric of face 3 is not positive definite"));
+  CHECK(says(refused.charts[0].problem, "The metric of face 3 is not positive definite"));
 }
 
-TEST_CASE("repairs are told, duplicates follow their twins") {
+TEST_CASE("repairs are counted, duplicates follow their twins") {
   Mesh mesh = flat_grid(4, 3);
   mesh.reverse(5);
   mesh.points[7] = mesh.points[6];
@@ -299,10 +302,11 @@ TEST_CASE("repairs are told, duplicates follow their twins") {
   const Unwrap result = unwrapped(mesh);
   REQUIRE(result.charts.size() == 1);
   REQUIRE(result.charts[0].solved);
-  CHECK(says(result.charts[0].message, "1 face wound the other way"));
-  CHECK(says(result.charts[0].message, "1 duplicate face"));
-  CHECK(says(result.charts[0].message, "2 degenerate triangles"));
-  CHECK(result.charts[0].message.back() == '.');
+  const std::vector<Step>& steps = result.charts[0].steps;
+  REQUIRE(steps.size() == 3);
+  CHECK((steps[0].kind == StepKind::reoriented_faces && steps[0].count == 1));
+  CHECK((steps[1].kind == StepKind::duplicate_faces && steps[1].count == 1));
+  CHECK((steps[2].kind == StepKind::degenerate_triangles && steps[2].count == 2));
   const int last = static_cast<int>(mesh.corners.size()) - 3;
   for (int k = 0; k < 3; ++k) CHECK(result.uv.row(last + k) == result.uv.row(k));
   CHECK(result.charts[0].faces.back() == mesh.n_faces() - 1);
@@ -317,7 +321,8 @@ TEST_CASE("degenerate faces together make one failed chart, the last") {
   REQUIRE(result.charts.size() == 3);
   CHECK(result.charts[2].faces == std::vector<int>{4, 13});
   CHECK_FALSE(result.charts[2].solved);
-  CHECK_FALSE(result.charts[2].message.empty());
+  REQUIRE(result.charts[2].steps.size() == 1);
+  CHECK(result.charts[2].steps[0].kind == StepKind::degenerate_faces);
   CHECK(result.chart_of_face[4] == 2);
 }
 

@@ -1,0 +1,311 @@
+"""What is said of a map, in English or, by its templates, in another language."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Literal, Optional
+
+StepKind = Literal[
+    "rejected",
+    "retried",
+    "winds",
+    "lowered_rigidity",
+    "clamped_thin",
+    "by_length",
+    "by_vertex",
+    "uniform_weights",
+    "inverse_area",
+    "relaxed_with_flips",
+    "blended_little",
+    "embedded",
+    "unfolded",
+    "moved_apart",
+    "moved_apart_embedded",
+    "covers_itself",
+    "still_flipped",
+    "not_injective",
+    "unresolved_triangles",
+    "reoriented_faces",
+    "duplicate_faces",
+    "fan_splits",
+    "degenerate_triangles",
+    "shrunk_to_point",
+    "degenerate_faces",
+    "out_of_memory",
+]
+Reason = Optional[
+    Literal[
+        "not_factorized",
+        "not_converged",
+        "not_finite",
+        "collapsed",
+        "unresolved",
+        "no_area",
+        "winding",
+        "no_embedding",
+        "too_large",
+        "library_failed",
+    ]
+]
+Constraint = Optional[Literal["pins", "extenders", "rigidity", "extenders_and_rigidity"]]
+Translate = Callable[[str], str]
+
+
+@dataclass(frozen=True)
+class Step:
+    """What a solve did besides what was asked for, what its map has, or why it has none.
+
+    Which fields mean something depends on the kind; `describe` says it in words.
+    """
+
+    kind: StepKind
+    """"rejected": a map was not accepted; the last step if there is none, otherwise the next says what stands in. Steps
+    to a map: "retried" at the same problem, the "lowered_rigidity" of holes, "clamped_thin", "by_length", "by_vertex",
+    "uniform_weights" and "inverse_area" (fallbacks), "embedded", "unfolded", "moved_apart", "moved_apart_embedded".
+    What a map has: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles".
+    Of the area blend: "relaxed_with_flips", "blended_little". Of faces: "reoriented_faces", "duplicate_faces",
+    "fan_splits", "degenerate_triangles". Of charts: "shrunk_to_point", "degenerate_faces", "out_of_memory"."""
+    reason: Reason = None
+    """Why a map was rejected."""
+    count: int = 0
+    """Of triangles or faces; the turning number of what winds; the status of a library that failed."""
+    attempts: int = 0
+    """At the problem whose map was rejected."""
+    before: float = 0.0
+    """Mean QC before unfolding or moving apart, NaN without a map; the hole rigidity that was asked for; the spread of
+    scale (log2) of the conformal map."""
+    after: float = 0.0
+    """The same afterwards; of "not_factorized" the last shift."""
+    constraint: Constraint = None
+    """What may be the reason for what is wrong."""
+    relaxation: str | None = None
+    """How the relaxation of an area blend ended, see `Parameterization.relaxation`."""
+
+
+# A template for one and, where they differ, a template for other counts.
+_SENTENCES: dict[str, tuple[str, ...]] = {
+    "retried": ("The first solve failed its checks and was repeated with a larger shift and another start.",),
+    "winds": ("The boundary of the map winds round {count} times instead of once.",),
+    "lowered_rigidity": ("Hole rigidity lowered from {before} to {after}, which is what the island bears.",),
+    "relaxed_with_flips": (
+        "{count} triangle of the relaxed map could not be unfolded.",
+        "{count} triangles of the relaxed map could not be unfolded.",
+    ),
+    "embedded": (
+        "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC {before} "
+        "-> {after}.",
+    ),
+    "unfolded": (
+        "{count} flipped triangle unfolded; mean QC {before} -> {after}.",
+        "{count} flipped triangles unfolded; mean QC {before} -> {after}.",
+    ),
+    "moved_apart": ("Parts that covered each other moved apart; mean QC {before} -> {after}.",),
+    "moved_apart_embedded": (
+        "Parts that covered each other came apart in an embedding, relaxed without folding it; mean QC {before} -> "
+        "{after}.",
+    ),
+    "moved_apart_without_map": ("Parts that covered each other moved apart; mean QC {after}.",),
+    "covers_itself": ("The island still covers itself somewhere; add seams.",),
+    "still_flipped": (
+        "{count} triangle could not be unfolded in double precision; add seams that make the island flatter.",
+        "{count} triangles could not be unfolded in double precision; add seams that make the island flatter.",
+    ),
+    "still_flipped_between_pins": (
+        "{count} triangle could not be unfolded between the pins; move or remove pins.",
+        "{count} triangles could not be unfolded between the pins; move or remove pins.",
+    ),
+    # One: the turning number is right.
+    "not_injective": (
+        "The map goes round an inner vertex more than once; add seams.",
+        "The boundary of the map winds round {count} times instead of once; add seams.",
+    ),
+    "not_injective_between_pins": (
+        "The map goes round an inner vertex more than once; move or remove pins.",
+        "The boundary of the map winds round {count} times instead of once; move or remove pins.",
+    ),
+    "unresolved_triangles": (
+        "{count} triangle shrinks below what double precision resolves; add seams that make the island flatter.",
+        "{count} triangles shrink below what double precision resolves; add seams that make the island flatter.",
+    ),
+    "reoriented_faces": (
+        "{count} face wound the other way: reoriented.",
+        "{count} faces wound the other way: reoriented.",
+    ),
+    "duplicate_faces": (
+        "{count} duplicate face: placed on the first of the same vertices.",
+        "{count} duplicate faces: placed on the first of the same vertices.",
+    ),
+    "fan_splits": (
+        "{count} self-intersecting polygon: split as a fan.",
+        "{count} self-intersecting polygons: split as a fan.",
+    ),
+    "degenerate_triangles": (
+        "{count} degenerate triangle: given a minimal height.",
+        "{count} degenerate triangles: given a minimal height.",
+    ),
+    "shrunk_to_point": ("The island has no area: its map is a point.",),
+    "degenerate_faces": (
+        "Faces with fewer than three different vertices, or with the same vertex twice in a row, cannot be unwrapped; "
+        "delete them or merge their vertices.",
+    ),
+    "out_of_memory": (
+        "There is too little memory for this island of {count} face; close other programs.",
+        "There is too little memory for this island of {count} faces; close other programs, or cut it into smaller "
+        "ones with seams.",
+    ),
+}
+# What follows on a reason for which a map was rejected.
+_STAND_INS: dict[str, tuple[str, ...]] = {
+    "clamped_thin": ("solved with triangles thinner than 1e-5 of their length clamped to that instead.",),
+    "by_length": ("solved with the boundary form 'length' instead.",),
+    "by_vertex": ("solved with the boundary form 'vertex' instead.",),
+    "uniform_weights": ("solved with the weights 'uniform' instead.",),
+    "inverse_area": ("solved with the weights 'inverse_area' instead.",),
+    "embedded": ("replaced by an embedding, relaxed without folding it; mean QC {after}.",),
+    "moved_apart_embedded": (
+        "replaced by an embedding that does not cover itself, relaxed without folding it; mean QC {after}.",
+    ),
+    "unfolded": _SENTENCES["unfolded"],
+}
+_LITTLE = "The area blend lowered the spread of scale by little, from {before} to {after} (log2)"
+_NOT_LOWERED = "The area blend did not lower the spread of scale, {before} to {after} (log2)"
+_RELAXATIONS = {
+    "converged": "{blend}; add seams, or clean up degenerate faces.",
+    "factorization_limit": (
+        "{blend}: its relaxation stopped at its bound of factorizations; add seams, or clean up degenerate faces."
+    ),
+    "stalled": (
+        "{blend}: its relaxation was held up by flipped or degenerate triangles; add seams, or clean up degenerate "
+        "faces."
+    ),
+    "failed": "{blend}: its relaxation failed; add seams, or clean up degenerate faces.",
+}
+_REASONS = {
+    "not_factorized": (
+        "The conformal energy could not be factorized, even with a shift of {after} of the boundary form"
+    ),
+    "not_converged": "The eigenvalue iteration did not converge",
+    "not_finite": "The map is not finite",
+    "collapsed": "The map shrinks the boundary to a point",
+    "unresolved": ("The triangles differ so much in size or shape that double precision does not resolve the map"),
+    "no_area": "The map has no positive area",
+    "winding": "The boundary of the map winds round {count} times instead of once",
+    "no_embedding": "No embedding into a circle could be solved for in double precision",
+    "too_large": "The island is too large: its factor would have more than {count} entries",
+    "library_failed": "CHOLMOD reported status {count}",
+}
+_PINNED_REASONS = {
+    "not_factorized": "The pinned conformal energy is singular in double precision",
+    "not_finite": "The pinned map is not finite",
+    "collapsed": "The pinned map shrinks the boundary to a point",
+    "unresolved": "The pinned map does not satisfy its equations in double precision",
+    "no_area": "The pinned map has no positive area",
+}
+_REPEATED = "{reason}, in {attempts} attempts with different shifts and starts"
+_ADVICE = {
+    "too_large": "cut it into smaller islands with seams.",
+    "library_failed": "please report this with the mesh.",
+    "no_embedding": "add seams that make the island flatter.",
+    "not_factorized": (
+        "the island has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces."
+    ),
+    "": "add seams that make the island flatter, or clean up degenerate faces.",
+    "pins not_factorized": (
+        "the island has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other vertices."
+    ),
+    "pins collapsed": "pin other vertices, or merge vertices by distance.",
+    "pins no_area": "use the spectral method, or pin other vertices.",
+    "pins": "clean up degenerate faces, cut an island that is very long, or pin other vertices.",
+    "rigidity": "lower the hole rigidity.",
+    "extenders": "weaken or remove extenders.",
+    "extenders_and_rigidity": "weaken or remove extenders, or lower the hole rigidity.",
+}
+_JOINED = "{reason}: {consequence}"
+
+
+class SolveError(RuntimeError):
+    """No map passed the checks; the message says why, and what to do."""
+
+    def __init__(self, *steps: Step | tuple) -> None:
+        """Take what the native module has of it."""
+        self.steps = steps_of(steps)
+        super().__init__(*self.steps)
+
+    def __str__(self) -> str:
+        """Return the message."""
+        return describe(self.steps)
+
+
+def steps_of(steps: Iterable[Step | tuple]) -> tuple[Step, ...]:
+    """Return the steps that the native module has as tuples."""
+    return tuple(step if isinstance(step, Step) else Step(*step) for step in steps)
+
+
+def describe(steps: Iterable[Step], translate: Translate = str) -> str:
+    """Return what steps of a solve mean, for people: sentences, or "" where there are no steps.
+
+    Args:
+        steps: of a `Parameterization`, a `Chart` or a `SolveError`.
+        translate: returns a template in another language; `message_templates` has them all. Fields in braces stay.
+    """
+    sentences = []
+    rejected: Step | None = None
+    for step in steps:
+        if rejected and step.kind in _STAND_INS:
+            consequence = _filled(_STAND_INS[step.kind], step, translate)
+            sentences.append(translate(_JOINED).format(reason=_reason(rejected, translate), consequence=consequence))
+        elif step.kind != "rejected":
+            if rejected:
+                sentences.append(_failure(rejected, translate))
+            sentences.append(_sentence(step, translate))
+        rejected = step if step.kind == "rejected" else None
+    if rejected:
+        sentences.append(_failure(rejected, translate))
+    return " ".join(sentences)
+
+
+def message_templates() -> Iterator[str]:
+    """Go through the templates that `describe` has looked up."""
+    for forms in (*_SENTENCES.values(), *_STAND_INS.values()):
+        yield from forms
+    for texts in (_RELAXATIONS, _REASONS, _PINNED_REASONS, _ADVICE):
+        yield from texts.values()
+    yield from (_LITTLE, _NOT_LOWERED, _REPEATED, _JOINED)
+
+
+def _filled(forms: tuple[str, ...], step: Step, translate: Translate, **fields: str) -> str:
+    """Return the form for the count of a step, translated, with its numbers."""
+    template = forms[0] if abs(step.count) == 1 else forms[-1]
+    values = {"count": str(step.count), "before": f"{step.before:.5g}", "after": f"{step.after:.5g}", **fields}
+    return translate(template).format(**values)
+
+
+def _sentence(step: Step, translate: Translate) -> str:
+    if step.kind == "blended_little":
+        blend = _filled((_LITTLE if step.after < step.before else _NOT_LOWERED,), step, translate)
+        return translate(_RELAXATIONS.get(step.relaxation or "", _RELAXATIONS["failed"])).format(blend=blend)
+    key = f"{step.kind}_between_pins" if step.constraint == "pins" else step.kind
+    if step.kind == "moved_apart" and math.isnan(step.before):
+        key = "moved_apart_without_map"
+    return _filled(_SENTENCES[key], step, translate)
+
+
+def _reason(step: Step, translate: Translate) -> str:
+    """Return why a map was rejected, without a period."""
+    of_pins = _PINNED_REASONS if step.constraint == "pins" else {}
+    reason = _filled((of_pins.get(step.reason or "", _REASONS[step.reason or ""]),), step, translate)
+    return (
+        _filled((_REPEATED,), step, translate, reason=reason, attempts=str(step.attempts))
+        if step.attempts > 1
+        else reason
+    )
+
+
+def _failure(step: Step, translate: Translate) -> str:
+    """Return why there is no map, and what to do about it."""
+    constraint = step.constraint or ""
+    keys = (f"{constraint} {step.reason}", constraint) if constraint else (step.reason or "", "")
+    advice = next(_ADVICE[key] for key in keys if key in _ADVICE)
+    return translate(_JOINED).format(reason=_reason(step, translate), consequence=translate(advice))

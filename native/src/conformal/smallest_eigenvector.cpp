@@ -1,0 +1,121 @@
+#include "conformal/smallest_eigenvector.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "conformal/correction.h"
+#include "conformal/davidson.h"
+#include "conformal/eigenproblem.h"
+#include "conformal/start_vector.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// The reduced equation must hold at least this well before the corrections, whatever tolerance was asked for: on flat
+/// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which they then take out.
+constexpr double eigenproblem_residual_limit = 1e-3;
+
+/// Ends whole corrections: where the rounding of the residual begins.
+constexpr double negligible_change = 1e-10;
+
+/// Ends steps of exact length: a tenth of what counts as resolved, since each leaves up to 0.9 of the error, and above
+/// the 1e-9 where rounding ends them.
+constexpr double negligible_exact_step = 0.1 * resolved_change;
+
+Eigenvector eigenvector_of(Eigenpair&& pair) {
+  Eigenvector result;
+  result.z = std::move(pair.vector);
+  result.solves = pair.solves;
+  result.residual = pair.residual;
+  result.change = pair.residual;
+  result.converged = pair.converged && pair.residual < eigenproblem_residual_limit;
+  return result;
+}
+
+/// Takes out the shift and the rounding of the factor.
+void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& quotient,
+             bool exact_steps) {
+  CorrectionOptions corrections;
+  // Each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 being the next eigenvalue.
+  corrections.max_corrections = 40;
+  // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
+  corrections.negligible = negligible_change;
+  const ComplexVector uncorrected = exact_steps ? v.z : ComplexVector{};
+  Correction correction = correct(factorization, energy, quotient, corrections, v.z);
+  v.solves += correction.solves;
+  if (exact_steps && !(correction.change < resolved_change)) {
+    // Entries near 1e12, next to which the rounding of the factor is as large as lambda: whole corrections then move
+    // away from z, by a rate that differs between BLAS kernels, while a measured step always lowers the quotient.
+    v.z = uncorrected;
+    corrections.max_corrections = 100;  // measured: up to 72
+    corrections.negligible = negligible_exact_step;
+    corrections.exact_step = true;
+    correction = correct(factorization, energy, quotient, corrections, v.z);
+    v.solves += correction.solves;
+  }
+  v.change = correction.change;
+}
+
+/// Tells apart eigenvalues smaller than the shift that lie close together, as on long strips.
+void resolve(Eigenvector& v, const ConformalEnergy& energy, const BoundaryForm& mass, const ShiftedFactor& factor,
+             const QuotientForm& quotient, const Progress& progress) {
+  DavidsonResult resolved =
+      solve_by_davidson(*factor.factorization, energy, mass, factor.shift, quotient, negligible_change, progress);
+  v.solves += resolved.solves;
+  if (!(resolved.change < v.change_limit)) return;
+  v.z = std::move(resolved.z);
+  v.change = resolved.change;
+  v.converged = true;
+}
+
+}  // namespace
+
+Eigenvector smallest_eigenvector(const ConformalEnergy& energy, const EigenproblemForm& form,
+                                 const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
+                                 EarlierMaps& earlier, const Progress& progress) {
+  EigenproblemOptions options;
+  options.tolerance = tolerance * attempt.tolerance_factor;
+  options.start = attempt.start;
+  options.krylov_dimension = attempt.krylov_dimension;
+  Factorization& factorization = *factor.factorization;
+  // Not where the rounding of L is larger than the shift, as it is beside the huge entries of thin triangles.
+  const bool may_resolve =
+      !attempt.exact_steps && std::numeric_limits<double>::epsilon() * factor.max_diagonal < attempt.relative_shift;
+  Eigenvector v;
+  if (form.extended) {
+    const ExtendedForm& extended = *form.extended;
+    ComplexVector circle = ComplexVector::Zero(static_cast<Eigen::Index>(extended.support().size()));
+    circle.head(form.boundary.mass.size()) =
+        start_vector(form.boundary, options.start).cwiseQuotient(form.boundary.mass.cwiseSqrt().cast<Complex>());
+    std::vector<ComplexVector> starts{circle};
+    if (earlier.z.size() > 0) starts.push_back(extended.restrict(earlier.z));
+    v = eigenvector_of(
+        solve_extended_eigenproblem(factorization, energy, extended, options, starts, earlier.ritz_basis, progress));
+    v.change_limit = std::max(resolved_change, options.tolerance);
+    if (may_resolve && !(v.converged && v.change < v.change_limit)) {
+      resolve(v, energy, form.boundary, factor, quotient_form(extended), progress);
+    }
+    if (v.converged) v.lambda = energy.value(v.z) / extended.value(extended.restrict(v.z));
+  } else if (form.is_area) {
+    v = eigenvector_of(solve_area_eigenproblem(factorization, energy, form.boundary, factor.shift, options, progress));
+    if (may_resolve && !v.converged) resolve(v, energy, form.boundary, factor, area_quotient(energy), progress);
+    if (v.converged) v.lambda = energy.value(v.z) / energy.area_form(v.z);
+  } else {
+    const QuotientForm quotient = quotient_form(form.boundary);
+    v = eigenvector_of(solve_eigenproblem(factorization, form.boundary, options, progress));
+    if (v.converged) correct(v, factorization, energy, quotient, attempt.exact_steps);
+    if (may_resolve && !(v.converged && v.change < v.change_limit)) {
+      resolve(v, energy, form.boundary, factor, quotient, progress);
+    }
+    if (v.converged) {
+      ComplexVector r;
+      v.lambda = eigen_residual(energy, quotient, v.z, r);  // Eq. 5
+      v.residual = r.norm() / (factor.max_diagonal * v.z.norm());
+    }
+  }
+  return v;
+}
+
+}  // namespace spectral_conformal

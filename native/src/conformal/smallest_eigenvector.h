@@ -1,0 +1,53 @@
+#pragma once
+
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "conformal/extended_eigenproblem.h"
+#include "conformal/shifted_factor.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// What attempts at the same eigenproblem differ in.
+struct Attempt {
+  double relative_shift;  ///< see factor_shifted
+  unsigned start;         ///< see EigenproblemOptions; the next one, too
+  int krylov_dimension;
+  double tolerance_factor;  ///< of the tolerance that is asked for
+  bool exact_steps;         ///< corrections of exact length where whole ones do not converge
+};
+
+/// The form B of an eigenproblem L z = lambda B z.
+struct EigenproblemForm {
+  const BoundaryForm& boundary;            ///< M of L + s M, and B^ where the others are not given
+  const ExtendedForm* extended = nullptr;  ///< with the soft constraints of section 4.2
+  bool is_area = false;                    ///< B = A (section 3.3)
+};
+
+/// What solves with soft constraints start from: solutions of earlier ones with the same factor, or empty.
+struct EarlierMaps {
+  RitzBasis ritz_basis;  ///< of the last one with soft constraints
+  ComplexVector z;       ///< the last accepted map
+};
+
+/// An eigenvector of Eq. 5, at no particular position and scale.
+struct Eigenvector {
+  ComplexVector z;      ///< (V,)
+  double lambda = 0;    ///< z^H L z / z^H B z
+  double residual = 0;  ///< see SolveRecord
+  double change = 0;    ///< the last correction, relative to z
+  double change_limit = resolved_change;
+  int solves = 0;  ///< with the factor
+  bool converged = false;
+};
+
+/// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z: the eigenproblem of B with the factor of
+/// L + s M (eigenproblem.h, extended_eigenproblem.h), then corrections that take out the shift and the rounding of the
+/// factor (correction.h), and where eigenvalues lie too close together for these, davidson.h.
+/// earlier: where a solve with soft constraints starts; its basis is replaced.
+Eigenvector smallest_eigenvector(const ConformalEnergy& energy, const EigenproblemForm& form,
+                                 const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
+                                 EarlierMaps& earlier, const Progress& progress);
+
+}  // namespace spectral_conformal

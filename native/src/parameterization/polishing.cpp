@@ -1,0 +1,77 @@
+#include "parameterization/polishing.h"
+
+#include <optional>
+#include <utility>
+
+#include "layout/placement.h"
+#include "relaxation/polish.h"
+#include "spectral_conformal/distortion.h"
+
+namespace spectral_conformal {
+
+SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const Progress& progress, Timings& timings) {
+  if (!problem.is_factored()) return map;
+  Stopwatch watch(timings);
+  const NormalizedPatch& patch = *problem.patch;
+  const ConformalEnergy& energy = problem.energy;
+  ComplexVector end = map.whole;
+  const int steps = polish(energy, *problem.factor.factorization, end, {}, progress);
+  watch.lap("polish");
+  if (steps == 0 || !end.allFinite()) return map;
+  const auto mean_qc = [&](const ComplexVector& z) {
+    return mean_quasi_conformal_distortion(energy.shapes(), patch.triangles, patch.triangle_weights,
+                                           patch.triangles.size() - patch.n_virtual, z);
+  };
+  const ComplexVector unpolished = map.whole.head(patch.n_vertices);
+  const double mean_qc_before = mean_qc(unpolished);
+  // As a rule the border proves that neither covers itself.
+  std::optional<int> covering_before;
+  const auto covers_more = [&](const ComplexVector& z) {
+    const int covering = n_covering_triangles(patch, z);
+    if (covering > 0 && !covering_before) covering_before = n_covering_triangles(patch, unpolished);
+    return covering > covering_before.value_or(0);
+  };
+  for (const double fraction : {1.0, 0.5, 0.25}) {
+    SpectralMap moved = map;
+    moved.whole = map.whole + fraction * (end - map.whole);
+    moved.z = moved.whole.head(patch.n_vertices);
+    const MapNumbers numbers = map_numbers(problem, moved.whole);
+    if (numbers.turning_number != map.turning_number || !(signed_area(energy, moved.z) > 0) || covers_more(moved.z) ||
+        !(mean_qc(moved.z) < mean_qc_before)) {
+      continue;
+    }
+    moved.eigenvalue = numbers.eigenvalue;
+    moved.residual = numbers.residual;
+    moved.polish_steps = steps;
+    place(problem, moved.z);
+    map = std::move(moved);
+    break;
+  }
+  watch.lap("polish");
+  return map;
+}
+
+PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress) {
+  const PreparedPatch& prepared = task.patch;
+  const NormalizedPatch& patch = *prepared.problem.patch;
+  // What was asked of the shape is not to be polished away.
+  const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
+  if (map.rejection || !prepared.options.polish || !task.is_free() || is_shaped) return map;
+  Parameterization& result = map.result;
+  map.found.z = std::move(result.z);
+  map.found = polished_map(prepared.problem, std::move(map.found), progress, result.timings);
+  if (map.with_free_holes.z.size() > 0) {
+    SpectralMap free = polished_map(prepared.problem, std::move(map.with_free_holes), progress, result.timings);
+    const Distortion of_rigid = chart_distortion(patch, map.found.z);
+    const Distortion of_free = chart_distortion(patch, free.z);
+    const bool covers_more = may_cover_itself(patch, free.z) && !may_cover_itself(patch, map.found.z);
+    if (of_free.mean_qc < of_rigid.mean_qc && of_free.n_flipped() <= of_rigid.n_flipped() && !covers_more) {
+      map.found = std::move(free);
+      result.hole_rigidity = 0;
+    }
+  }
+  map.take_found();
+  return map;
+}
+
+}  // namespace spectral_conformal

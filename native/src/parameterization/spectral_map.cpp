@@ -1,0 +1,68 @@
+#include "parameterization/spectral_map.h"
+
+#include <optional>
+#include <utility>
+
+#include "conformal/extended_form.h"
+#include "parameterization/map_check.h"
+
+namespace spectral_conformal {
+
+SpectralProblem spectral_problem(std::shared_ptr<const NormalizedPatch> patch, Weights weights,
+                                 BoundaryMeasure boundary, FactorizationBackend backend) {
+  // L = L_D - A, the conformal energy (Eq. 2 and 3).
+  ConformalEnergy energy(patch->positions, patch->triangles, patch->triangle_weights, weights, patch->n_virtual);
+  // B, the mass of the boundary without the constants (Eq. 5).
+  BoundaryForm form = form_of(*patch, boundary);
+  return {std::move(patch), boundary, backend, std::move(energy), std::move(form)};
+}
+
+SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
+                         const Attempt& attempt, const Progress& progress, Timings& timings) {
+  Stopwatch watch(timings);
+  SpectralMap map;
+
+  // B of L z = lambda B z: the form of the boundary (Eq. 5), with soft constraints (section 4.2), or A (section 3.3),
+  // or the identity, which makes z the Fiedler vector of L (Eq. 4).
+  const BoundaryForm mass = problem.mass(options.method);
+  const std::optional<ExtendedForm> constrained = constrained_form(problem, options, attractors);
+  const EigenproblemForm form{mass, constrained ? &*constrained : nullptr, options.method == Method::area};
+
+  // The factor of L + s M (section 3.4, with M in place of the identity).
+  problem.factorize(options.method, attempt.relative_shift, part(progress, 0.0, 0.6));
+  watch.lap("factorization");
+  map.shift = problem.factor.shift;
+  map.rejection = problem.is_factored() ? Rejection::none : Rejection::not_factorized;
+  if (map.rejection != Rejection::none) return map;
+
+  // z of the smallest nonzero lambda of L z = lambda B z, as that of the largest mu of B z = mu (L + s M) z (Eq. 7).
+  Eigenvector v = smallest_eigenvector(problem.energy, form, problem.factor, attempt, options.tolerance,
+                                       problem.earlier, part(progress, 0.6, 1.0));
+  map.solves = v.solves;
+  map.residual = v.residual;
+  map.eigenvalue = v.lambda * eigenvalue_unit(problem, options.method);
+  watch.lap("eigenproblem");
+
+  // Check it.
+  map.rejection = v.converged ? Rejection::none : Rejection::not_converged;
+  if (map.rejection != Rejection::none) return map;
+  MapCheck check = measured_check(problem, v.z);
+  check.eigenvalue = v.lambda;
+  check.error = v.change;
+  check.error_limit = v.change_limit;
+  check.must_wind_once = options.method == Method::spectral;
+  map.turning_number = check.turning_number;
+  map.rejection = check_map(v.z, check);
+  if (map.rejection == Rejection::none || map.rejection == Rejection::winding) map.whole = std::move(v.z);
+  if (map.rejection != Rejection::none) return map;
+  problem.earlier.z = map.whole;
+  watch.lap("eigenproblem");
+
+  // Place it: the energy leaves a similarity free.
+  map.z = map.whole.head(problem.patch->n_vertices);
+  place(problem, map.z);
+  watch.lap("placement");
+  return map;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "conformal/smallest_eigenvector.h"
+#include "parameterization/spectral_problem.h"
+#include "parameterization/stopwatch.h"
+#include "spectral_conformal/parameterize.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/step.h"
+
+namespace spectral_conformal {
+
+/// A map of a patch, or why there is none.
+struct SpectralMap {
+  Rejection rejection = Rejection::none;
+  ComplexVector z;        ///< (V,) in its position, size and turn (placement.h); empty where it was rejected
+  ComplexVector whole;    ///< with virtual vertices, before it was placed; for Rejection::winding, too
+  double eigenvalue = 0;  ///< in the units of the input
+  double residual = 0;    ///< see SolveRecord
+  double shift = 0;       ///< s of L + s M
+  int solves = 0;         ///< with the factor
+  int turning_number = 0;
+  int attempts = 1;      ///< at the same problem
+  int polish_steps = 0;  ///< from the eigenvector to this map
+};
+
+/// The problem of a patch: L (Eq. 2 and 3) and B (Eq. 5). Throws InvalidMesh unless has_form.
+SpectralProblem spectral_problem(std::shared_ptr<const NormalizedPatch> patch, Weights weights,
+                                 BoundaryMeasure boundary, FactorizationBackend backend);
+
+/// Spectral conformal parameterization (Mullen et al. 2008) of a patch, by Method::spectral, fiedler or area.
+/// attractors: soft pins. The factor stays in the problem for the next solve, and so does the map: solves with soft
+/// constraints start from it.
+SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
+                         const Attempt& attempt, const Progress& progress, Timings& timings);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,113 @@
+#include "parameterization/spectral_problem.h"
+
+#include <utility>
+
+#include "conformal/correction.h"
+#include "conformal/pin_attraction.h"
+#include "layout/placement.h"
+#include "mesh/boundary_loops.h"
+#include "quality/turning_number.h"
+#include "spectral_conformal/errors.h"
+
+namespace spectral_conformal {
+
+BoundaryForm SpectralProblem::mass(Method method) const {
+  return method == Method::fiedler ? identity_form(patch->n_vertices) : form;
+}
+
+void SpectralProblem::factorize(Method method, double asked_shift, const Progress& progress) {
+  const bool is_fiedler = method == Method::fiedler;
+  if (is_factored() && relative_shift == asked_shift && is_factor_of_fiedler == is_fiedler) return;
+  // The structure of L is the same whatever is added to its diagonal.
+  std::unique_ptr<Factorization> analyzed = std::move(factor.factorization);
+  drop_factor();
+  factor = factor_shifted(energy.matrix(), patch->positions, mass(method), asked_shift, backend, progress,
+                          std::move(analyzed));
+  relative_shift = asked_shift;
+  is_factor_of_fiedler = is_fiedler;
+}
+
+void SpectralProblem::drop_factor() {
+  factor = {};
+  earlier = {};
+}
+
+void SpectralProblem::stretch(const std::vector<TriangleMetric>& metric) {
+  energy.stretch(metric);
+  drop_factor();
+}
+
+int SpectralProblem::clamp(double min_relative_height) {
+  drop_factor();
+  return energy.clamp(min_relative_height);
+}
+
+bool has_form(const NormalizedPatch& patch, BoundaryMeasure boundary) {
+  return boundary == BoundaryMeasure::vertex || loop_length(patch.outer, patch.positions) > 0;
+}
+
+BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary) {
+  if (!has_form(patch, boundary)) {
+    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
+  }
+  return boundary_form(patch.outer, patch.positions, boundary);
+}
+
+SpectralProblem other_problem(const SpectralProblem& like, Weights weights, BoundaryMeasure boundary) {
+  return {like.patch, boundary, like.backend, ConformalEnergy(like.energy, weights), form_of(*like.patch, boundary)};
+}
+
+std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, const SolveOptions& options,
+                                             const Pins& attractors) {
+  if (!options.has_extenders_or_rigidity() && attractors.empty()) return std::nullopt;
+  ExtendedForm extended(problem.form);
+  const double hole_rigidity = options.hole_rigidity.value_or(0);
+  if (hole_rigidity != 0) {
+    for (const BoundaryLoop& loop : problem.patch->inner) {
+      const BoundaryForm spread = boundary_form(loop, problem.patch->positions, problem.boundary);
+      if (!spread.vertices.empty()) extended.add_spread(spread, hole_rigidity);
+    }
+  }
+  for (const Extender& extender : options.extenders) extended.add_extender(extender);
+  if (!attractors.empty()) extended.add_attraction(pin_attraction(attractors, problem.form, options.soft_pins));
+  return extended;
+}
+
+double eigenvalue_unit(const SpectralProblem& problem, Method method) {
+  if (method == Method::area) return 1;
+  // positions = input / scale. Lengths, and with them M, are divided by scale; L has weight_unit / |T|.
+  const double scale = problem.patch->scale;
+  const bool uniform = problem.energy.weights() == Weights::uniform;
+  const double energy_unit = uniform ? 1 : problem.energy.weight_unit() * scale * scale;
+  const bool by_length = method != Method::fiedler && problem.boundary == BoundaryMeasure::length;
+  return (by_length ? 1 / scale : 1) / energy_unit;
+}
+
+MapNumbers map_numbers(const SpectralProblem& problem, const ComplexVector& z) {
+  const NormalizedPatch& patch = *problem.patch;
+  const ConformalEnergy& energy = problem.energy;
+  MapNumbers result;
+  result.turning_number = turning_number(patch.outer, patch.triangles, patch.triangle_weights, z);
+  ComplexVector r;
+  const double lambda = eigen_residual(energy, quotient_form(problem.form), z, r);
+  result.eigenvalue = lambda * eigenvalue_unit(problem, Method::spectral);
+  const double max_diagonal = problem.is_factored() ? problem.factor.max_diagonal : energy.max_diagonal();
+  result.residual = r.norm() / (max_diagonal * z.norm());
+  return result;
+}
+
+MapCheck measured_check(const SpectralProblem& problem, const ComplexVector& z) {
+  MapCheck check;
+  if (!z.allFinite()) return check;
+  const NormalizedPatch& patch = *problem.patch;
+  check.turning_number = turning_number(patch.outer, patch.triangles, patch.triangle_weights, z);
+  check.area = signed_area(problem.energy, z);
+  return check;
+}
+
+bool place(const SpectralProblem& problem, ComplexVector& z) {
+  const NormalizedPatch& patch = *problem.patch;
+  return place(z, problem.energy, patch.outer, patch.surface(), problem.energy.area() * patch.scale * patch.scale);
+}
+
+}  // namespace spectral_conformal

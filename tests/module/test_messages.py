@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is said of steps: in English, in one form for one and another for more, and in other languages."""
+
+import pickle
+from string import Formatter
+from typing import get_args
+
+import pytest
+import spectral_conformal as sc
+from spectral_conformal import _messages
+
+from tests.module import meshes
+
+NAN = float("nan")
+
+
+def said(*steps, **options):
+    return sc.describe([sc.Step(*step) if isinstance(step, tuple) else step for step in steps], **options)
+
+
+def rejected(reason, constraint=None, **fields):
+    return sc.Step("rejected", reason, constraint=constraint, **{"attempts": 1, **fields})
+
+
+def test_repairs_are_counted():
+    assert said() == ""
+    steps = [
+        sc.Step("reoriented_faces", count=1),
+        sc.Step("duplicate_faces", count=2),
+        sc.Step("fan_splits", count=3),
+        sc.Step("degenerate_triangles", count=5),
+    ]
+    assert said(*steps) == (
+        "1 face wound the other way: reoriented. 2 duplicate faces: placed on the first of the same vertices. "
+        "3 self-intersecting polygons: split as a fan. 5 degenerate triangles: given a minimal height."
+    )
+    assert said(sc.Step("unresolved_triangles", count=2)) == (
+        "2 triangles shrink below what double precision resolves; add seams that make the island flatter."
+    )
+
+
+def test_failures_name_their_reason_and_what_to_do():
+    assert said(rejected("unresolved", attempts=2)) == (
+        "The triangles differ so much in size or shape that double precision does not resolve the map, in 2 attempts "
+        "with different shifts and starts: add seams that make the island flatter, or clean up degenerate faces."
+    )
+    winds = "The boundary of the map winds round 2 times instead of once: "
+    assert said(rejected("winding", "rigidity", count=2)) == winds + "lower the hole rigidity."
+    assert said(rejected("winding", "extenders", count=2)) == winds + "weaken or remove extenders."
+    assert said(rejected("winding", "extenders_and_rigidity", count=2)) == (
+        winds + "weaken or remove extenders, or lower the hole rigidity."
+    )
+    assert said(rejected("not_factorized", after=1.5e-9)) == (
+        "The conformal energy could not be factorized, even with a shift of 1.5e-09 of the boundary form: the island "
+        "has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces."
+    )
+    assert said(rejected("too_large", count=2147483647)) == (
+        "The island is too large: its factor would have more than 2147483647 entries: cut it into smaller islands with "
+        "seams."
+    )
+    assert said(rejected("no_area", "pins")) == (
+        "The pinned map has no positive area: use the spectral method, or pin other vertices."
+    )
+
+
+@pytest.mark.parametrize("constraint", [None, *get_args(get_args(_messages.Constraint)[0])])
+@pytest.mark.parametrize("reason", get_args(get_args(_messages.Reason)[0]))
+def test_every_failure_is_a_sentence(reason, constraint):
+    text = said(rejected(reason, constraint, count=3))
+    assert text.endswith(".") and text[0].isupper() and ": " in text
+
+
+def test_fallbacks_follow_their_reason():
+    cases = {
+        "clamped_thin": "solved with triangles thinner than 1e-5 of their length clamped to that instead.",
+        "by_vertex": "solved with the boundary form 'vertex' instead.",
+        "by_length": "solved with the boundary form 'length' instead.",
+        "inverse_area": "solved with the weights 'inverse_area' instead.",
+        "uniform_weights": "solved with the weights 'uniform' instead.",
+    }
+    for kind, text in cases.items():
+        assert said(rejected("no_area"), sc.Step(kind)) == f"The map has no positive area: {text}"
+    assert said(rejected("no_area"), sc.Step("embedded", before=NAN, after=1.5)) == (
+        "The map has no positive area: replaced by an embedding, relaxed without folding it; mean QC 1.5."
+    )
+    assert said(rejected("no_area"), sc.Step("by_vertex"), sc.Step("retried")) == (
+        "The map has no positive area: solved with the boundary form 'vertex' instead. The first solve failed its "
+        "checks and was repeated with a larger shift and another start."
+    )
+    assert said(rejected("no_area"), sc.Step("moved_apart_embedded", before=NAN, after=1.5)) == (
+        "The map has no positive area: replaced by an embedding that does not cover itself, relaxed without folding "
+        "it; mean QC 1.5."
+    )
+    assert said(sc.Step("moved_apart", before=NAN, after=1.5)) == (
+        "Parts that covered each other moved apart; mean QC 1.5."
+    )
+    apart = said(rejected("no_area"), sc.Step("moved_apart", before=1.0, after=2.0))
+    assert apart.endswith("degenerate faces. Parts that covered each other moved apart; mean QC 1 -> 2.")
+
+
+def test_unfolding_tells_what_it_cost_and_what_it_left():
+    assert said(sc.Step("unfolded", count=3, before=1.021234, after=1.05)) == (
+        "3 flipped triangles unfolded; mean QC 1.0212 -> 1.05."
+    )
+    assert said(
+        sc.Step("unfolded", count=1, before=1.25, after=1.5), sc.Step("still_flipped", count=2, constraint="pins")
+    ) == (
+        "1 flipped triangle unfolded; mean QC 1.25 -> 1.5. 2 triangles could not be unfolded between the pins; move or "
+        "remove pins."
+    )
+    assert said(sc.Step("not_injective", count=2)) == (
+        "The boundary of the map winds round 2 times instead of once; add seams."
+    )
+    assert said(sc.Step("not_injective", count=-1, constraint="pins")) == (
+        "The map goes round an inner vertex more than once; move or remove pins."
+    )
+    assert said(sc.Step("embedded", before=2.0, after=1.5)) == (
+        "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC 2 -> 1.5."
+    )
+
+
+def test_an_area_blend_that_did_little_says_why():
+    blend = {"count": 0, "before": 0.5, "after": 0.45}
+    assert said(sc.Step("blended_little", **blend, relaxation="converged")) == (
+        "The area blend lowered the spread of scale by little, from 0.5 to 0.45 (log2); add seams, or clean up "
+        "degenerate faces."
+    )
+    assert said(sc.Step("blended_little", **{**blend, "after": 0.6}, relaxation="stalled")) == (
+        "The area blend did not lower the spread of scale, 0.5 to 0.6 (log2): its relaxation was held up by flipped or "
+        "degenerate triangles; add seams, or clean up degenerate faces."
+    )
+    assert said(sc.Step("blended_little", **blend, relaxation="rejected")).endswith(
+        "(log2): its relaxation failed; add seams, or clean up degenerate faces."
+    )
+
+
+def test_every_kind_has_a_sentence_whose_fields_are_filled_in():
+    for kind in get_args(_messages.StepKind):
+        step = rejected("winding", count=2) if kind == "rejected" else sc.Step(kind, count=2, relaxation="stalled")
+        if kind in ("clamped_thin", "by_length", "by_vertex", "uniform_weights", "inverse_area"):
+            step = [rejected("winding", count=2), step]
+        text = said(*(step if isinstance(step, list) else [step]))
+        assert text.endswith(".") and "{" not in text, kind
+
+
+def test_templates_are_looked_up_whole():
+    asked = []
+
+    def shouted(template):
+        asked.append(template)
+        return template.upper().format_map(
+            {name.upper(): f"{{{name}}}" for _, name, _, _ in Formatter().parse(template) if name}
+        )
+
+    text = said(rejected("winding", count=2), sc.Step("by_vertex"), sc.Step("fan_splits", count=3), translate=shouted)
+    assert text == (
+        "THE BOUNDARY OF THE MAP WINDS ROUND 2 TIMES INSTEAD OF ONCE: SOLVED WITH THE BOUNDARY FORM 'VERTEX' INSTEAD. "
+        "3 SELF-INTERSECTING POLYGONS: SPLIT AS A FAN."
+    )
+    assert set(asked) <= set(sc.message_templates())
+
+
+def test_results_and_errors_say_what_their_steps_mean():
+    vertices, triangles = meshes.bumpy_disk(60)
+    triangles = triangles.copy()
+    triangles[3] = triangles[3][::-1]
+    solution = sc.parameterize(vertices, triangles)
+    assert solution.steps == (sc.Step("reoriented_faces", count=1),)
+    assert solution.message == sc.describe(solution.steps) != ""
+    (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles)).charts
+    assert (chart.steps, chart.message) == (solution.steps, solution.message)
+    with pytest.raises(sc.SolveError) as caught:
+        sc.parameterize(vertices, triangles, extenders=[(0, 30, -1000.0)])
+    (step,) = caught.value.steps
+    assert (step.kind, step.reason, step.constraint) == ("rejected", "winding", "extenders")
+    assert str(caught.value) == sc.describe([step])
+    again = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 - our own
+    assert (again.steps, str(again)) == (caught.value.steps, str(caught.value))

@@ -1,0 +1,49 @@
+#include <doctest/doctest.h>
+
+#include "parameterization/attempts.h"
+#include "problems.h"
+
+namespace spectral_conformal::test {
+
+TEST_SUITE_BEGIN("attempts");
+
+TEST_CASE("an accepted map is kept, a rejected one is tried again once") {
+  SpectralProblem problem = problem_of(Patch(rounded_grid(20, 0.5)));
+  Timings timings;
+  SpectralMap first = spectral_map(problem, {}, {}, first_attempt, {}, timings);
+  REQUIRE(first.rejection != Rejection::none);
+  const SpectralMap second = retried_map(problem, first, {}, {}, {}, timings);
+  CHECK((first.attempts == 1 && second.attempts == 2));
+  CHECK(problem.relative_shift > first_attempt.relative_shift);
+  CHECK(retried_map(problem, second, {}, {}, {}, timings).whole == second.whole);
+  SolveOptions once;
+  once.second_attempt = false;
+  CHECK(retried_map(problem, first, once, {}, {}, timings).attempts == 1);
+  SpectralProblem good = problem_of(Patch(bumpy_grid(6, 5)));
+  CHECK(attempted_map(good, {}, {}, {}, timings).attempts == 1);
+}
+
+TEST_CASE("a map that winds under an extender needs no second attempt") {
+  SpectralProblem problem = problem_of(Patch(bumpy_grid(8, 8)));
+  SolveOptions options;
+  options.extenders = {{{20}, {60}, -1000}};
+  Timings timings;
+  const SpectralMap wound = attempted_map(problem, options, {}, {}, timings);
+  CHECK((wound.rejection == Rejection::winding && wound.attempts == 1));
+}
+
+TEST_CASE("the stages solve what is neither pinned nor rejected, and say that they tried again") {
+  PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(6, 5))));
+  SolveTask task{patch, {}, {}, {}, {}};
+  const PatchMap map = retried(task, spectral(task, {}, {}), {});
+  CHECK((!map.rejection && map.result.steps.empty() && map.result.attempts == 1));
+  PatchMap rejected;
+  rejected.rejection = Step{};
+  CHECK(spectral(task, rejected, {}).result.z.size() == 0);
+  task.options.method = Method::lscm;
+  CHECK(spectral(task, {}, {}).result.z.size() == 0);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

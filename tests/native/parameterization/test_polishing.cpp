@@ -1,0 +1,37 @@
+#include <doctest/doctest.h>
+
+#include "parameterization/polishing.h"
+#include "problems.h"
+
+namespace spectral_conformal::test {
+
+TEST_SUITE_BEGIN("polishing");
+
+TEST_CASE("a polished map has a lower mean QC and is placed; without a factor nothing is polished") {
+  const Patch patch(bumpy_grid(12, 9));
+  SpectralProblem problem = problem_of(patch);
+  Timings timings;
+  const SpectralMap map = attempted_map(problem, {}, {}, {}, timings);
+  const SpectralMap polished = polished_map(problem, map, {}, timings);
+  REQUIRE(polished.polish_steps > 0);
+  CHECK(chart_distortion(*problem.patch, polished.z).mean_qc < chart_distortion(*problem.patch, map.z).mean_qc);
+  CHECK(polished.eigenvalue >= map.eigenvalue);
+  CHECK(std::abs(polished.z.mean()) < 1e-10);
+  problem.drop_factor();
+  CHECK(polished_map(problem, map, {}, timings).polish_steps == 0);
+}
+
+TEST_CASE("the stage polishes where it was asked for, and not what has a metric of its own") {
+  PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(12, 9))));
+  const SolveTask task{patch, {}, {}, {}, {}};
+  CHECK(polished(task, spectral(task, {}, {}), {}).result.polish_steps == 0);
+  patch.options.polish = true;
+  const PatchMap map = polished(task, spectral(task, {}, {}), {});
+  CHECK((map.result.polish_steps > 0 && map.result.eigenvalue_of == EigenvalueOf::map));
+  patch.has_metric = true;
+  CHECK(polished(task, spectral(task, {}, {}), {}).result.polish_steps == 0);
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
