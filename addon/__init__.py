@@ -16,7 +16,7 @@ bl_info = {
 
 
 def _parts() -> tuple[ModuleType, ...]:
-    """Return the parts, each of which may use those before it: they come in this order and go in the reverse one.
+    """Return the parts in the order of registration; each may use those before it.
 
     Imported here, so that a Python without Blender can import the core.
     """
@@ -25,7 +25,7 @@ def _parts() -> tuple[ModuleType, ...]:
 
     return (
         *(translations, properties, operators, preferences, manual, menus, panels),
-        # First to go: it ends what the others have begun.
+        # Unregistered first, because it ends what the others have begun.
         handlers,
     )
 

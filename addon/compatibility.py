@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between the Blender versions that this add-on runs in (3.4 and later)."""
+"""All differences between the supported Blender versions (3.4 and later)."""
 
 import ctypes
 from collections.abc import Iterable, Iterator
@@ -9,35 +9,35 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMLayerItem, BMLoop
 
-# From 5.0 the UV selection belongs to the mesh; before, to each UV map.
+# From 5.0 the UV selection belongs to the mesh, before to each UV map.
 _UV_SELECTION_ON_MESH = hasattr(BMLoop, "uv_select_vert")
 
-# The shader that takes `pos` in three dimensions and a `color` per vertex.
+# The shader with a `pos` (3D) and a `color` per vertex.
 SMOOTH_COLOR_SHADER = "SMOOTH_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_SMOOTH_COLOR"
 
 
-# The shader that draws lines of any width between the `pos` of three dimensions, in one `color`.
+# The shader of lines of any width between `pos` (3D), in one `color`.
 LINE_SHADER = "POLYLINE_UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_POLYLINE_UNIFORM_COLOR"
 
 
-# The attributes in which Blender keeps flags of faces and edges; one is missing where its flag is set nowhere. Known of
-# the versions that were tried. In others the elements are asked one by one.
+# The attributes of flags of faces and edges; one is missing if its flag is set nowhere. Known for the tested versions;
+# others ask the elements one by one.
 _FLAG_ATTRIBUTES = {"hide": ".hide_poly", "select": ".select_poly"} if bpy.app.version < (5, 3) else {}
 if (4, 2) <= bpy.app.version < (4, 4):
     _FLAG_ATTRIBUTES["use_seam"] = ".uv_seam"
 elif (4, 5) <= bpy.app.version < (5, 3):
     _FLAG_ATTRIBUTES["use_seam"] = "uv_seam"
 
-# Whether the 3D viewport's menu of unwraps shows the UV editor's, entries of add-ons included. In 4.3 it opens it; no
-# 4.4 was tried.
+# Whether the 3D viewport's unwrap menu includes the UV editor's, with entries of add-ons. In 4.3 it does not; 4.4 is
+# untested.
 VIEWPORT_MENU_HAS_THE_UV_EDITORS = bpy.app.version >= (4, 4, 0)
 
 
 @contextmanager
 def data_of_no_file() -> Iterator[bpy.types.BlendData]:
-    """Yield data of its own beside the user's file, gone with all that is made in it when the context ends.
+    """Yield data outside the user's file, which is freed with its contents when the context ends.
 
-    Removing from the user's file makes Blender build its graph of all objects anew, whatever it is that is removed.
+    Removing anything from the user's file would make Blender rebuild its graph of all objects.
     """
     manager = bpy.data.temp_data()
     data = manager.__enter__()
@@ -51,15 +51,15 @@ def data_of_no_file() -> Iterator[bpy.types.BlendData]:
 
 
 def translated(text: str) -> str:
-    """Return a text in the user's language where Blender is to translate what it reports, else as it is."""
-    # Before 4.1 reports went by the switch of the tooltips. Asked for each time: a function of Blender's that a module
-    # keeps would be let go of only when Python ends.
+    """Return a text in the user's language if Blender translates reports, else unchanged."""
+    # Before 4.1 reports follow the setting of tooltips. Looked up each time: a function of Blender kept in a module
+    # would live until Python ends.
     translations = bpy.app.translations
     return (getattr(translations, "pgettext_rpt", None) or translations.pgettext_tip)(text)
 
 
 def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], extend: bool = False) -> None:
-    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection, with `extend` a part of it.
+    """Make the UVs of the `selected` faces, one flag per face, the whole UV selection, or `extend` it by them.
 
     Hidden faces keep theirs.
     """
@@ -77,14 +77,14 @@ def select_uv_of_faces(bm: BMesh, layer: BMLayerItem, selected: list[bool], exte
 
 
 def derive_uv_selection(bm: BMesh) -> None:
-    """Let sync selection follow a changed mesh selection: 5.0 would go on to show the finer UV selection beside it."""
+    """Let sync selection follow a changed mesh selection; 5.0 would keep showing the finer UV selection."""
     if _UV_SELECTION_ON_MESH:
         bm.uv_select_sync_valid = False
 
 
 def sticky_selection(context: bpy.types.Context) -> str:
     """Return which UVs the UV editor selects together: "DISABLED", "SHARED_LOCATION" or "SHARED_VERTEX"."""
-    # A setting of each UV editor before it became one of the scene.
+    # Formerly a setting of each UV editor, now of the scene.
     in_scene = getattr(context.scene.tool_settings, "uv_sticky_select_mode", None)
     return in_scene or context.area.spaces.active.uv_editor.sticky_select_mode
 
@@ -150,7 +150,7 @@ def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def face_offsets(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the first corner of every face of `mesh`, not in edit mode, and at last the number of corners, int32."""
+    """Return the first corner of every face of `mesh`, not in edit mode, and the number of corners, int32."""
     offsets = np.empty(len(mesh.polygons) + 1, dtype=np.int32)
     mesh.polygons.foreach_get("loop_start", offsets[:-1])
     offsets[-1] = len(mesh.loops)
@@ -161,7 +161,7 @@ def corner_uv(mesh: bpy.types.Mesh) -> np.ndarray:
     """Return the active UV map of `mesh`, which is not in edit mode and has one, (C, 2) float32."""
     values = np.empty(2 * len(mesh.loops), dtype=np.float32)
     uv_map = mesh.uv_layers.active
-    # From 3.5 on the map is an attribute.
+    # From 3.5 the map is an attribute.
     _read(getattr(uv_map, "uv", None), "vector", uv_map.data, "uv", values)
     return values.reshape(-1, 2)
 
@@ -169,7 +169,7 @@ def corner_uv(mesh: bpy.types.Mesh) -> np.ndarray:
 def flags(mesh: bpy.types.Mesh, elements: str, name: str) -> np.ndarray:
     """Return the flag `name`, "select", "hide" or "use_seam", of all `elements` of `mesh`, which is not in edit mode.
 
-    `elements` is the name of the mesh's collection of them.
+    `elements` is the name of their collection in the mesh.
     """
     collection = getattr(mesh, elements)
     values = np.zeros(len(collection), dtype=bool)
@@ -181,7 +181,7 @@ def flags(mesh: bpy.types.Mesh, elements: str, name: str) -> np.ndarray:
 
 
 def _attribute(mesh: bpy.types.Mesh, name: str, data_type: str, count: int) -> bpy.types.bpy_prop_collection | None:
-    """Return the values of an attribute of `mesh`; None where it has none of this kind, or another number of values."""
+    """Return the values of an attribute of `mesh`; None if it has no such attribute, or another number of values."""
     attribute = mesh.attributes.get(name)
     if attribute is None or attribute.data_type != data_type or len(attribute.data) != count:
         return None
@@ -195,9 +195,9 @@ def _read(
     name: str,
     values: np.ndarray,
 ) -> None:
-    """Fill `values` from an attribute, or where there is none from a property of the elements.
+    """Fill `values` from an attribute, or from a property of the elements if there is none.
 
-    The one copies memory; the other asks element by element, which takes up to five hundred times as long.
+    The first copies memory; the second asks every element, which takes up to five hundred times as long.
     """
     if attribute is None:
         elements.foreach_get(name, values)
@@ -209,7 +209,7 @@ def pinned_corners(mesh: bpy.types.Mesh) -> np.ndarray:
     """Return which corners are pinned in the active UV map of `mesh`, which is not in edit mode, (C,) bool."""
     pinned = np.zeros(len(mesh.loops), dtype=bool)
     uv_map = mesh.uv_layers.active
-    # From 3.5 the pins are an attribute of their own, which is missing where nothing was ever pinned.
+    # From 3.5 the pins are an attribute, which is missing if nothing was ever pinned.
     if not hasattr(uv_map, "pin"):
         uv_map.data.foreach_get("pin_uv", pinned)
     elif len(uv_map.pin):
@@ -219,8 +219,8 @@ def pinned_corners(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def has_pins(bm: BMesh, layer: BMLayerItem) -> bool:
     """Return whether any corner of an edit mesh is pinned in a UV map."""
-    # From 3.5 the pins are a layer of their own, which is missing where nothing was ever pinned, and which scripts can
-    # read from 4.0 on; that is three times as fast.
+    # From 3.5 the pins are a layer, which is missing if nothing was ever pinned. Scripts can read it from 4.0 on, three
+    # times as fast.
     flags = getattr(bm.loops.layers, "bool", None)
     if flags is None:
         return any(loop[layer].pin_uv for face in bm.faces for loop in face.loops)

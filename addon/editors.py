@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The editors in which the add-on draws: 3D viewports, and image editors, which show UVs."""
+"""The editors in which the add-on draws: 3D viewports and image editors."""
 
 import bpy
 
@@ -7,7 +7,7 @@ _KINDS = ("VIEW_3D", "IMAGE_EDITOR")
 
 
 def redraw(context: bpy.types.Context, *kinds: str) -> None:
-    """Draw these kinds of editors again in all windows; without any, all in which the add-on draws."""
+    """Redraw these kinds of editors in all windows; by default all in which the add-on draws."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in (kinds or _KINDS):
@@ -15,7 +15,7 @@ def redraw(context: bpy.types.Context, *kinds: str) -> None:
 
 
 def region_at(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Area, bpy.types.Region] | None:
-    """Return the editor and its main region at a place of the window; None where another region lies over it."""
+    """Return the editor and its main region at a point of the window; None if another region covers it."""
     for area in screen.areas:
         if area.type not in _KINDS:
             continue

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything the add-on does when Blender updates, undoes, loads or draws: all handlers, in the order that matters.
+"""All handlers of the add-on: updates, undo and loading, in the right order.
 
-They run often, most of the time for nothing that concerns the add-on, and leave as early as possible then.
+They run often, mostly for nothing that concerns the add-on, and then return as early as possible.
 """
 
 import bpy
@@ -28,7 +28,7 @@ def _on_depsgraph_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph)
 
 @persistent
 def _on_frame_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    # Blender tells of what a frame changes by this event only.
+    # Changes of a frame cause this event only.
     map_overlay.on_update(depsgraph)
 
 
@@ -50,12 +50,12 @@ def _after_undo(*_arguments: object) -> None:
 @persistent
 def _after_load(*_arguments: object) -> None:
     session.begin()
-    # From 5.0 on, meshes that were saved in edit mode are in it only afterwards.
+    # From 5.0, meshes saved in edit mode enter it only after loading.
     _begin_soon()
 
 
 def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
-    """Return the meshes in edit mode, each once, of which more than the selection was updated."""
+    """Return the meshes in edit mode, each once, with updates of more than the selection."""
     blocks = [update.id.original for update in depsgraph.updates if update.is_updated_geometry]
     data = [block.data if isinstance(block, bpy.types.Object) else block for block in blocks]
     meshes = {block.as_pointer(): block for block in data if isinstance(block, bpy.types.Mesh)}
@@ -63,15 +63,15 @@ def _updated(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Mesh]:
 
 
 def _begin_soon() -> None:
-    """Begin as soon as Blender is done with what it does now; never in background mode."""
+    """Begin once Blender has finished the current event; never in background mode."""
     _begin_never()
     if not bpy.app.background:
-        # Registered anew: one that was due already would come within what Blender does now.
+        # Registered again, because a timer that is due would run within the current event.
         bpy.app.timers.register(session.begin, first_interval=0.0, persistent=True)
 
 
 def _begin_never() -> None:
-    """Take back what `_begin_soon` has arranged."""
+    """Cancel `_begin_soon`."""
     if bpy.app.timers.is_registered(session.begin):
         bpy.app.timers.unregister(session.begin)
 
@@ -85,7 +85,7 @@ _HANDLERS = (
     ("redo_post", _after_undo),
     ("load_pre", _before_load),
     ("load_post", _after_load),
-    # A file that cannot be read leaves the one that was open.
+    # If a file cannot be read, the former one stays open.
     *([("load_post_fail", _after_load)] if hasattr(bpy.app.handlers, "load_post_fail") else []),
 )
 
@@ -97,7 +97,7 @@ def register() -> None:
     map_overlay.add_draw_handlers()
     extender_arrows.add_draw_handlers()
     session.follow(storage.begin, following.begin, map_overlay.edited)
-    # While add-ons are enabled Blender does not let them see its data.
+    # While add-ons are being enabled, Blender restricts access to its data.
     _begin_soon()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender's "Online Manual" opens for the parts of this add-on: the pages that the packages bring along."""
+"""The pages that Blender's "Online Manual" opens for the add-on; they are part of the packages."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import bpy
 
 from . import names
 
-# Made by tools/manual.py when the add-on is packed; a checkout has none.
+# Made by tools/manual.py for the packages; a checkout has none.
 _FOLDER = Path(__file__).with_name("manual")
 _USE = "guide.html#use"
 _LOOK = "guide.html#look-at-the-map"
@@ -33,7 +33,7 @@ _TYPES = {
 
 
 def links() -> tuple[str, tuple[tuple[str, str], ...]]:
-    """Return the address of the manual, and the patterns of what is asked about with the places that tell of it."""
+    """Return the address of the manual, and patterns of identifiers with their sections."""
     operators = [(f"bpy.ops.{name}*", place) for name, place in _SECTIONS.items()]
     types = [(f"bpy.types.{name.lower()}*", place) for name, place in _TYPES.items()]
     live = [(f"bpy.types.scene.{names.LIVE_UNWRAP_PROPERTY}*", _EXTENDERS)]
@@ -41,12 +41,12 @@ def links() -> tuple[str, tuple[tuple[str, str], ...]]:
 
 
 def register() -> None:
-    """Let Blender know the manual."""
+    """Register the manual."""
     if _FOLDER.is_dir():
         bpy.utils.register_manual_map(links)
 
 
 def unregister() -> None:
-    """Let Blender forget it."""
+    """Unregister the manual."""
     if _FOLDER.is_dir():
         bpy.utils.unregister_manual_map(links)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every identifier by which Blender and scripts know the add-on's parts; core/words/texts.py has what artists read."""
 
-# By which Blender knows the add-on: as an extension it has another than before 4.2.
+# The add-on's package; an extension has another than an add-on before 4.2.
 PACKAGE = __package__
 
 
@@ -17,7 +17,7 @@ INSPECT_OPERATOR = "uv.spectral_inspect"
 
 STORE_OPERATOR = "mesh.spectral_store_distortion"
 
-# What is stored of a map, by the kind that the overlay shows; colours have a name of their own.
+# Names of stored attributes, by the kind that the overlay shows; colors add a suffix.
 ATTRIBUTES = {
     "ANGLE": "spectral_angle_distortion",
     "SIZE": "spectral_size",
@@ -37,8 +37,8 @@ MAP_OVERLAY_PROPERTY = "spectral_map_overlay"
 ISLANDS_PROPERTY = "spectral_islands"
 ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 
-# Properties of meshes: the list of extenders, the index of the active one, and the name of the vertex layer that tells
-# which vertices are theirs. The layer's name is the prefix and a digest of the list; with the dot Blender hides it.
+# Properties of meshes: the list of extenders, the index of the active one, and the name of the vertex layer of
+# their identifiers. The layer's name is the prefix and a digest of the list; the dot hides it in Blender.
 EXTENDERS_PROPERTY = "spectral_extenders"
 ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
 EXTENDER_LAYER_PROPERTY = "spectral_extenders_layer"
@@ -54,7 +54,7 @@ SUBMENU = "UV_MT_spectral"
 # The panels of the sidebar, in the order of work; each exists in the 3D viewport and in the UV editor.
 PANEL_PREFIXES = ("VIEW3D_PT_spectral_", "IMAGE_PT_spectral_")
 
-# Operators after which changed seams lie along the islands of the map as it is.
+# Operators that mark seams along the islands of the current map.
 OPERATORS_THAT_MARK_SEAMS_OF_A_MAP = (
     "UV_OT_seams_from_islands",
     "UV_OT_spectral_unwrap",
@@ -72,7 +72,7 @@ VIEWPORT_SELECT_BY_TRAIT_MENU = "VIEW3D_MT_edit_mesh_select_by_trait"
 # Name that Blender itself gives to the first UV map.
 DEFAULT_UV_MAP = "UVMap"
 
-# Temporary mesh, object, scene and attribute through which edit-mode data is read.
+# Temporary mesh, object, scene and attribute for reading edit-mode data.
 TEMPORARY_MESH = ".spectral_unwrap_temporary"
 TEMPORARY_OBJECT = TEMPORARY_MESH
 TEMPORARY_SCENE = TEMPORARY_MESH

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: defaults of the operator, limits, the colours of the overlay."""
+"""The add-on's preferences: defaults of the operator, limits, colors of the overlay."""
 
 import bpy
 from bpy.props import FloatVectorProperty, IntProperty, PointerProperty
@@ -16,7 +16,7 @@ from .ui import unwrap_settings
 
 
 class SpectralUnwrapDefaults(UnwrapProperties, PropertyGroup):
-    """The settings with which Spectral Unwrap begins in a new session."""
+    """The default settings of Spectral Unwrap in a new session."""
 
 
 def _on_color(_preferences: AddonPreferences, context: Context) -> None:
@@ -39,7 +39,7 @@ def _color(words: dict[str, str], default: color_ramp.Color) -> object:
 
 
 class SpectralPreferences(AddonPreferences):
-    """Blender keeps them with the user's preferences."""
+    """The add-on's part of Blender's preferences."""
 
     bl_idname = names.PACKAGE
 
@@ -57,7 +57,7 @@ class SpectralPreferences(AddonPreferences):
     size_high: _color(texts.SIZE_HIGH_PROPERTY, color_ramp.SMALL_TO_LARGE[2])
 
     def draw(self, _context: Context) -> None:
-        """Draw the defaults, the limits, what maps are solved with, and both scales of colours."""
+        """Draw the defaults, the limits, the solver's name, and both color scales."""
         box = _part(self.layout, text=texts.DEFAULTS_LABEL)
         unwrap_settings.draw_common(box, self.defaults)
         unwrap_settings.draw_fold(box, self.defaults)
@@ -91,7 +91,7 @@ def _part(layout: UILayout, text: str) -> UILayout:
 
 
 def register() -> None:
-    """Add the preferences, and let what the user chose count."""
+    """Register the preferences, and apply them."""
     register_class(SpectralUnwrapDefaults)
     register_class(SpectralPreferences)
     addon = bpy.context.preferences.addons.get(names.PACKAGE)
@@ -103,7 +103,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove the preferences; what the user chose stays in Blender's."""
+    """Unregister the preferences; Blender keeps their values."""
     if user_preferences.read("threads", 0):
         native.limit_threads(0)
     unregister_class(SpectralPreferences)

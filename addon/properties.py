@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The properties that the add-on gives to meshes, scenes and the window manager.
 
-Their values belong to the file: they stay in it when the add-on is disabled, and count again when it is enabled.
+Their values belong to the file: they stay when the add-on is disabled.
 
-Blender keeps the callbacks, and with them all that this file names. So it must not name `bpy` itself, which bpy 4.2 and
-4.5 would then free too late when Python ends, and crash or hang.
+Blender keeps the callbacks, and with them everything that this file names. So it must not name `bpy` itself, which bpy
+4.2 and 4.5 would then free too late at exit, and crash or hang.
 """
 
 from bpy.props import (
@@ -51,7 +51,7 @@ def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:
 
 
 def _on_kind(overlay: PropertyGroup, context: Context) -> None:
-    # What is shown now is measured in something else.
+    # Another kind has another unit.
     overlay.use_range = False
     editors.redraw(context)
 
@@ -63,7 +63,7 @@ def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
 
 
 class SpectralMapOverlay(PropertyGroup):
-    """What the overlay of the UV map shows. Of the window manager: showing is no edit, and nothing to undo."""
+    """The settings of the UV map overlay; part of the window manager, because showing is not undoable."""
 
     show: BoolProperty(**texts.SHOW_MAP_PROPERTY, update=_on_map_change)
     kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
@@ -81,7 +81,7 @@ class SpectralMapOverlay(PropertyGroup):
 
 
 class SpectralIsland(PropertyGroup):
-    """A row of the list of islands; its name is what it says."""
+    """A row of the list of islands; its name is its text."""
 
     is_bad: BoolProperty(options={"HIDDEN"})
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extenders of a mesh: how they are stored with it, and found again after edits and undo."""
+"""The extenders of a mesh: stored with it, and found again after edits and undo."""

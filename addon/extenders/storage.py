@@ -4,7 +4,7 @@
 The list is a collection property of the mesh, so it is saved and copied with it. It knows its vertices by identifiers
 in an integer layer of the vertices, which topology edits carry along. Undo in edit mode restores layers, with their
 names, but no properties. So the layer is named after the content of the list, renamed with every change of it, and
-says after an undo which list goes with it; lists seen in this session are remembered by that name.
+identifies its list after an undo; lists seen in this session are remembered by that name.
 """
 
 from collections.abc import Iterable, Sequence
@@ -20,9 +20,9 @@ from ..core.words import texts
 from ..session import Remembered, edit_meshes, identity
 from ..session.identity import Identity
 
-# Of every soft constraint: bounds drags and scripts.
+# Limit of all strengths, in drags and scripts.
 STRENGTH_LIMIT = 1e4
-# Arguments of a property that is a strength.
+# Arguments of a strength property.
 STRENGTH = {
     **texts.STRENGTH_PROPERTY,
     **{"default": 1.0, "min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
@@ -30,7 +30,7 @@ STRENGTH = {
 
 
 class _Lists(Remembered):
-    """The lists seen, by the name of their layer, and of meshes before they had one; whether one is being written."""
+    """The lists seen, by the name of their layer, and by mesh without a layer; whether one is being written."""
 
     def __init__(self) -> None:
         self.seen: dict[str | Identity, list[Extender]] = {}
@@ -49,7 +49,7 @@ def active_index(mesh: bpy.types.Mesh) -> int:
 
 
 def label(extender: bpy.types.PropertyGroup) -> str:
-    """Return what to call an extender in a message; a file may have one without a name."""
+    """Return the name of an extender for messages; a file may have one without a name."""
     return extender.name or texts.unnamed_extender()
 
 
@@ -62,7 +62,7 @@ def changed(extender: bpy.types.PropertyGroup) -> bool:
 
 
 def show_strength(mesh: bpy.types.Mesh, index: int, strength: float, is_final: bool = False) -> None:
-    """Let an extender have a strength, which an undo step pushed afterwards knows if it `is_final`."""
+    """Set the strength of an extender; if it `is_final`, the next undo step includes it."""
     lists = session.of(_Lists)
     lists.is_writing = True
     of(mesh)[index].strength = strength
@@ -74,8 +74,8 @@ def show_strength(mesh: bpy.types.Mesh, index: int, strength: float, is_final: b
 def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     """Return the indices of both vertices of every extender of `mesh` in `bm`, its edit mesh; -1 for one that is gone.
 
-    Looks at all vertices. Where several carry the identifier, as duplicated geometry does, the first one counts. An
-    extender both ends of which are one vertex, as only a damaged file has it, counts as having lost the second.
+    Looks at all vertices. If several have the identifier, as in duplicated geometry, the first one counts. An extender
+    with one vertex at both ends, as in damaged files, counts as having lost the second.
     """
     wanted = _ids_of_list(mesh)
     layer = _layer(bm, mesh) if wanted else None
@@ -88,9 +88,8 @@ def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float
 
     Returns:
         (first vertex, second vertex, strength) of every extender that is on, whole and of nonzero strength, with the
-        vertices' indices in `bm.verts`; the names of those that are on, one of whose vertices is gone; and the names of
-        those that are on and whole, but whose strength is no number within the limit, as a script or a file may have
-        it.
+        vertices' indices in `bm.verts`; the names of those that are on but lost a vertex; and the names of those that
+        are on and whole, but have an invalid strength, as scripts and files may.
     """
     forces, broken, without_strength = [], [], []
     for extender, (first, second) in zip(of(mesh), ends(bm, mesh)):
@@ -106,7 +105,7 @@ def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float
 
 
 def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
-    """Keep those of the `meshes`, all in edit mode, that have extenders, so that these can be drawn and undone."""
+    """Keep those of the `meshes` in edit mode that have extenders, for drawing and undo."""
     for mesh in meshes:
         if of(mesh) and edit_meshes.kept(mesh) is None:
             edit_meshes.keep(mesh)
@@ -114,7 +113,7 @@ def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
 
 
 def begin() -> None:
-    """Give the meshes in edit mode the lists that go with them, and keep them."""
+    """Restore the lists of the meshes in edit mode, and keep the meshes."""
     meshes = [edit_object.data for edit_object in edit_meshes.edited()]
     for mesh in meshes:
         _restore(mesh)
@@ -124,7 +123,7 @@ def begin() -> None:
 def vertices(mesh: bpy.types.Mesh) -> list[tuple[BMVert | None, BMVert | None]] | None:
     """Return both vertices of every extender, None for one that is gone; None while the mesh is not kept.
 
-    For what is drawn: cheap as long as neither the list nor the topology has changed.
+    For drawing: cheap as long as neither the list nor the topology has changed.
     """
     known = edit_meshes.kept(mesh)
     if known is None:
@@ -142,7 +141,7 @@ def _are_valid(found: list[tuple[BMVert | None, BMVert | None]]) -> bool:
 
 
 def broken(mesh: bpy.types.Mesh) -> list[bool]:
-    """Return which extenders of a mesh in edit mode have lost a vertex, as far as is known."""
+    """Return which extenders of a mesh in edit mode have lost a vertex, if known."""
     found = vertices(mesh)
     return [False] * len(of(mesh)) if found is None else [None in pair for pair in found]
 
@@ -158,7 +157,7 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
     if fresh:
         _remember(mesh)
         id_of_vertex = _identify(bm, mesh, [vertex for pair in fresh for vertex in pair])
-        # In the user's language where Blender is to name new data in it.
+        # In the user's language if Blender translates the names of new data.
         name, taken = bpy.app.translations.pgettext_data(texts.EXTENDER_NAME), {each.name for each in extenders}
         for first, second in fresh:
             free = core.free_name(name, taken)
@@ -170,7 +169,7 @@ def add(mesh: bpy.types.Mesh, pairs: Sequence[tuple[int, int]], strength: float)
 
 
 def remove(mesh: bpy.types.Mesh, indices: Sequence[int]) -> None:
-    """Remove extenders; the active one stays active, or the one before takes its place."""
+    """Remove extenders; the active one stays active, or the one before becomes so."""
     _remember(mesh)
     index = active_index(mesh)
     extenders = [extender for k, extender in enumerate(_read(mesh)) if k not in indices]
@@ -179,9 +178,9 @@ def remove(mesh: bpy.types.Mesh, indices: Sequence[int]) -> None:
 
 
 def _note_change(mesh: bpy.types.Mesh) -> None:
-    """Rename the layer of a mesh after its list, which has changed, and let what is drawn of it follow."""
+    """Rename the layer of a mesh after its list has changed, and redraw."""
     _remember(mesh)
-    # Blender draws again where a property changes, but not where one goes.
+    # Blender redraws when a property changes, but not when one is removed.
     editors.redraw(bpy.context)
     layer = _layer_name(mesh)
     if layer:
@@ -192,13 +191,13 @@ def _note_change(mesh: bpy.types.Mesh) -> None:
 
 
 def _remember(mesh: bpy.types.Mesh) -> None:
-    """Remember the list of a mesh for an undo of changes that are to come."""
+    """Remember the list of a mesh for an undo of coming changes."""
     extenders = _read(mesh)
     session.of(_Lists).seen[_name_of(extenders)] = extenders
 
 
 def _restore(mesh: bpy.types.Mesh) -> None:
-    """After an undo or redo in edit mode, give a mesh the list that goes with its layer."""
+    """Restore the list that belongs to a mesh's layer after an undo or redo in edit mode."""
     layers, seen = _layer_names(mesh), session.of(_Lists).seen
     if getattr(mesh, names.EXTENDER_LAYER_PROPERTY) in layers:
         return
@@ -209,7 +208,7 @@ def _restore(mesh: bpy.types.Mesh) -> None:
 
 
 def _identify(bm: BMesh, mesh: bpy.types.Mesh, wanted: Sequence[int]) -> dict[int, int]:
-    """Return the identifiers of vertices, given by index; those without one get one."""
+    """Return the identifiers of vertices, given by index, and assign missing ones."""
     layer = _layer(bm, mesh)
     if layer is None:
         extenders = _read(mesh)
@@ -219,7 +218,7 @@ def _identify(bm: BMesh, mesh: bpy.types.Mesh, wanted: Sequence[int]) -> dict[in
     bm.verts.ensure_lookup_table()
     used, present = _ids_of_list(mesh), _ids_of_vertices(bm, layer)
     id_of_vertex = {vertex: each for vertex, each in zip(core.first_with(present, used), used) if vertex >= 0}
-    # Vertices still carry the identifiers of removed extenders.
+    # Vertices still have the identifiers of removed extenders.
     fresh = core.fresh_ids([*used, *np.unique(present).tolist()])
     for vertex in wanted:
         if vertex not in id_of_vertex:
@@ -241,13 +240,13 @@ def _layer(bm: BMesh, mesh: bpy.types.Mesh) -> BMLayerItem | None:
 
 
 def _layer_names(mesh: bpy.types.Mesh) -> list[str]:
-    """Return the names of the layers that may hold identifiers; others of such a name are not this add-on's."""
+    """Return the names of the layers that may hold identifiers; others are not the add-on's."""
     ours = [each for each in mesh.attributes if each.name.startswith(names.EXTENDER_LAYER_PREFIX)]
     return [each.name for each in ours if (each.data_type, each.domain) == ("INT", "POINT")]
 
 
 def _layer_name(mesh: bpy.types.Mesh) -> str:
-    """Return the name of the layer that goes with the list: a mesh joined from others has theirs, too."""
+    """Return the name of the layer of the list; a mesh joined from others has theirs, too."""
     own, layers = getattr(mesh, names.EXTENDER_LAYER_PROPERTY), _layer_names(mesh)
     return own if own in layers else next(iter(layers), "")
 

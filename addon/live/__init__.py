@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live Spectral Unwrap: the map follows moved pins, seams that are marked or cleared, and changed extenders."""
+"""Live Spectral Unwrap: the map follows moved pins, changed seams and changed extenders."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The islands of extenders that were added, changed or removed are solved again where they lie."""
+"""Solve the islands of added, changed or removed extenders again, in place."""
 
 from collections.abc import Collection, Mapping
 
@@ -18,13 +18,13 @@ from ..unwrapping.last_settings import last_settings
 
 
 def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]) -> str:
-    """Solve the islands that hold both vertices of an extender again; they keep their place and size.
+    """Solve the islands that hold both vertices of an extender again; they keep their position and size.
 
-    `strengths` are those that changed, by vertices, 0 for extenders that are gone. Returns what the user should know;
-    may be empty.
+    `strengths` are the changed ones, by vertices, 0 for removed extenders. Returns a note to the user, which may be
+    empty.
 
     Raises:
-        AdjustmentError: there is no such island, or it could not be solved; the map stays as it is.
+        AdjustmentError: there is no such island, or it could not be solved; the map is unchanged.
         NativeModuleError: `spectral_conformal` cannot be imported.
     """
     if last_settings().options.method != "spectral":
@@ -36,11 +36,11 @@ def follow(edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], fl
 
 
 class AdjustedIslands:
-    """The islands of a mesh in edit mode that some extenders act on, and their map before.
+    """The islands of a mesh in edit mode that some extenders act on, and their former map.
 
     Attributes:
         adjustment: solves them.
-        note: what the user should know; may be empty.
+        note: to the user; may be empty.
     """
 
     def __init__(
@@ -48,8 +48,8 @@ class AdjustedIslands:
     ) -> None:
         """Take the islands with both vertices of one of the `pairs`, as they are now.
 
-        They are islands of the selected faces if they `may_be_selected` and these have all vertices, otherwise of all
-        visible faces.
+        They are islands of the selected faces if they `may_be_selected` and hold all vertices, otherwise of all visible
+        faces.
 
         Raises:
             AdjustmentError: there is no UV map, or no such island.
@@ -71,17 +71,17 @@ class AdjustedIslands:
         self.note = translate(texts.ADJUSTED_WITHOUT_SUBSURF) if is_subdivided else ""
 
     def write(self, strengths: Collection[float], is_final: bool) -> None:
-        """Write the map for a strength of each pair; see `ExtenderAdjustment.map`."""
+        """Write the map for a strength of each pair, as in `ExtenderAdjustment.map`."""
         uv = np.zeros((len(self._corners), 2))
         uv[self._corners] = self.adjustment.map(list(strengths), is_final)
         write_uv(self._edit_mesh, uv, self._corners)
 
     def update_list(self) -> None:
-        """Show in the list of islands what has become of them."""
+        """Update the list of islands."""
         island_list.update(self._edit_mesh, self.adjustment.charts)
 
     def restore(self) -> None:
-        """Write the map as it was, in whatever mode the mesh is; one with another map or other corners stays so."""
+        """Restore the map in any mode, unless the mesh has another map or other corners now."""
         mesh = self._edit_mesh.mesh
         if mesh.uv_layers.active is None or mesh.uv_layers.active.name != self._layer:
             return

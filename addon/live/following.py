@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""When live unwrapping looks at the meshes in edit mode, and what it lets follow.
+"""When live unwrapping looks at the meshes in edit mode, and what follows.
 
-`on_update`, which Blender's handlers call, follows moved pins at once and notes which meshes have changed. What else
-has changed in them is looked for a little later, by a timer, and in these meshes only.
+`on_update`, which Blender's handlers call, follows moved pins at once and notes the changed meshes. A timer looks for
+other changes in these meshes a little later.
 """
 
 import time
@@ -21,20 +21,20 @@ from . import extenders, last_operator, seams, snapshot
 from .pins import Followed
 from .snapshot import Edge, Snapshot
 
-# In seconds: a hand that has not moved for so long is taken to rest.
+# Seconds without movement after which the hand counts as resting.
 _REST = 0.3
-# Looking for changes may take this fraction of the time.
+# Fraction of the time that looking for changes may take.
 _MAX_LOAD = 0.2
 
 
 class _Following(Remembered):
-    """How following goes.
+    """The state of following.
 
     Attributes:
-        changed: addresses of the meshes that Blender has updated since they were looked at.
-        is_busy: whether what changes now is not to be followed.
-        operator: `last_operator.address()` when the meshes were looked at last.
-        last_look, look_seconds: when that was, and how long it took.
+        changed: addresses of the meshes that Blender has updated since the last look.
+        is_busy: whether current changes are not followed.
+        operator: `last_operator.address()` at the last look.
+        last_look, look_seconds: time and duration of the last look.
     """
 
     def __init__(self) -> None:
@@ -45,7 +45,7 @@ class _Following(Remembered):
         self.look_seconds = 0.0
 
     def end(self) -> None:
-        """Let no timer look any more."""
+        """Stop the timers."""
         for timer in (look, _rest, _push_undo_step):
             if bpy.app.timers.is_registered(timer):
                 bpy.app.timers.unregister(timer)
@@ -61,7 +61,7 @@ def is_on(scene: bpy.types.Scene) -> bool:
 
 
 def on_update(scene: bpy.types.Scene, meshes: Sequence[bpy.types.Mesh]) -> None:
-    """Let pins of `meshes` in edit mode, which Blender has just updated, be followed, and look for the rest later."""
+    """Follow the pins of `meshes` in edit mode, which Blender has just updated; look for other changes later."""
     if not is_on(scene) or _state().is_busy:
         return
     is_dragged = False
@@ -76,14 +76,14 @@ def on_update(scene: bpy.types.Scene, meshes: Sequence[bpy.types.Mesh]) -> None:
 
 
 def on_extender_change(mesh: bpy.types.Mesh) -> None:
-    """Let changes in the list of extenders of a mesh in edit mode be followed, once the hand rests."""
+    """Follow changes in the list of extenders of a mesh in edit mode once the hand rests."""
     if is_on(bpy.context.scene) and not _state().is_busy and mesh.is_editmode:
         _state().changed.add(mesh.as_pointer())
         _look_soon(wait_for_rest=True)
 
 
 def look() -> None:
-    """Look for changes in the meshes that Blender has updated, and follow them. Blender calls this by a timer."""
+    """Look for changes in the meshes that Blender has updated, and follow them; called by a timer."""
     scene = bpy.context.scene
     state = _state()
     if not is_on(scene) or state.is_busy or any(map(_waits, _all_seen())):
@@ -96,7 +96,7 @@ def look() -> None:
 
 
 def begin() -> None:
-    """Take what is in the meshes in edit mode as it is: whatever has changed is not followed."""
+    """Accept the meshes in edit mode as they are, without following past changes."""
     _forget_seen()
     if is_on(bpy.context.scene):
         with _guarded(), _window(bpy.context.scene):
@@ -105,18 +105,18 @@ def begin() -> None:
 
 
 def toggled() -> None:
-    """Begin, or stop, with what there is now; problems are printed again."""
+    """Start or stop following; problems are printed again."""
     session.drop(Printed)
     begin()
 
 
 @contextmanager
 def not_following() -> Iterator[None]:
-    """Within, nothing is followed, and what changed within is not followed afterwards."""
+    """Follow nothing within the context, nor its changes afterward."""
     if _state().is_busy:
         yield
         return
-    # Also where it is off: it may be turned on within.
+    # Also if it is off: it may be turned on meanwhile.
     _state().is_busy = True
     try:
         yield
@@ -126,7 +126,7 @@ def not_following() -> Iterator[None]:
 
 
 def follow_extenders(edit_object: bpy.types.Object, strengths: Mapping[Edge, float]) -> str:
-    """Solve the islands of changed extenders at once, within an operator; see `extenders.follow`."""
+    """Solve the islands of changed extenders within an operator, as `extenders.follow` does."""
     with not_following():
         return extenders.follow(edit_object, strengths)
 
@@ -155,7 +155,7 @@ def _look(scene: bpy.types.Scene) -> None:
         _state().operator = last_operator.address()
         is_written = bool(new_seams) and seams.follow(bpy.context, new_seams)
         for edit_object, strengths in new_strengths.items():
-            # Unwrapping after changed seams uses the extenders, except that it keeps other islands as they are.
+            # Unwrapping after changed seams uses the extenders, but keeps other islands.
             if strengths and not new_seams:
                 is_written |= _follow_strengths(edit_object, strengths)
     if is_written:
@@ -209,7 +209,7 @@ def _follow_pins(scene: bpy.types.Scene, seen: Snapshot, is_resting: bool = Fals
 
 
 def _rest() -> float | None:
-    """Follow pins that have come to rest; called by a timer."""
+    """Follow pins that rest; called by a timer."""
     scene = bpy.context.scene
     with _guarded():
         for seen in filter(_waits, _all_seen()):
@@ -225,7 +225,7 @@ def _rest() -> float | None:
 
 
 def _look_soon(wait_for_rest: bool) -> None:
-    """Look as soon as the load allows, or with `wait_for_rest` only once Blender has updated nothing for a while."""
+    """Look as soon as the load allows, or with `wait_for_rest` once Blender has not updated for a while."""
     passed = time.perf_counter() - _state().last_look
     pause = max(_REST if wait_for_rest else 0.0, _state().look_seconds / _MAX_LOAD - passed)
     if wait_for_rest and bpy.app.timers.is_registered(look):
@@ -240,7 +240,7 @@ def _call_after(function: Callable[[], "float | None"], seconds: float) -> None:
 
 @contextmanager
 def _window(scene: bpy.types.Scene) -> Iterator[None]:
-    """Within, the context has a window that shows the scene, if there is one."""
+    """Give the context a window that shows the scene, if there is one."""
     windows = [window for window in bpy.context.window_manager.windows if window.scene == scene]
     if not windows:
         yield
@@ -257,7 +257,7 @@ def _push_undo_step() -> None:
 
 @contextmanager
 def _guarded() -> Iterator[None]:
-    """Keep the changes made within from being followed, and errors from reaching Blender; print each once."""
+    """Do not follow the changes made within, and print each error once instead of raising it."""
     state = _state()
     outer, state.is_busy = state.is_busy, True
     try:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which operator has ended last, which tells whether a change is one to follow.
+"""The operator that ended last, which decides whether a change is followed.
 
-While an operator waits for the mouse, it is not yet among those that Blender remembers.
+An operator that still waits for the mouse is not among those that Blender remembers.
 """
 
 import bpy
@@ -12,19 +12,19 @@ _TRANSFORMS = "TRANSFORM_OT_"
 
 
 def address() -> int:
-    """Return a number for the last operator that ended, 0 before the first; another one makes it another number."""
+    """Return a number that identifies the last operator that ended; 0 before the first."""
     operator = _last()
     return operator.as_pointer() if operator else 0
 
 
 def moves_pins(address_before: int) -> bool:
-    """Return whether pins moved since `address_before` are to be followed: by a transform, or by a script."""
+    """Return whether to follow pins moved since `address_before`: by a transform or a script."""
     last = _ended_since(address_before)
     return last is None or last.bl_idname.startswith(_TRANSFORMS)
 
 
 def changes_seams(address_before: int) -> bool:
-    """Return whether seams changed since `address_before` are to be followed; those of a map are there to keep it."""
+    """Return whether to follow seams changed since `address_before`; not those marked along the islands of a map."""
     last = _ended_since(address_before)
     return last is None or last.bl_idname not in names.OPERATORS_THAT_MARK_SEAMS_OF_A_MAP
 

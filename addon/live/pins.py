@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The charts of a mesh in edit mode follow while their pins are moved."""
+"""Charts of a mesh in edit mode that follow their moving pins."""
 
 import time
 from dataclasses import dataclass, field
@@ -19,24 +19,24 @@ from ..edit_mesh.read import active_uv_layer
 from ..edit_mesh.write import write_loops
 from . import last_operator
 
-# In seconds: a map that takes longer would hold the mouse up; it waits until the pins rest.
+# In seconds: a map that takes longer would block the mouse; it waits until the pins rest.
 _SLOW = 2.0
 
 
 class Followed(Enum):
-    """What became of the pins' movement."""
+    """The result of a movement of pins."""
 
     NOTHING_MOVED = auto()
     WRITTEN = auto()
     WRITTEN_TOO_LATE = auto()
-    """The transform has ended, so that the map is not in its undo step."""
+    """The transform has ended, so its undo step lacks the map."""
     WAITS = auto()
-    """The map takes long, and is to be solved when the pins rest."""
+    """The map takes long and waits until the pins rest."""
 
 
 @dataclass
 class _Chart:
-    """A chart whose pins are being moved; `free` are its corners without a pin, `loops` the same in Blender."""
+    """A chart with moving pins; `free` are its corners without a pin, `loops` the same in Blender."""
 
     pinned_chart: PinnedChart
     free: np.ndarray
@@ -45,7 +45,7 @@ class _Chart:
 
 @dataclass
 class _Drag:
-    """A movement of pins, from its start on; `charts` by number, None for those that move as a whole."""
+    """A movement of pins since its start; `charts` by number, None for those that move as a whole."""
 
     operator: int
     start: np.ndarray
@@ -59,11 +59,11 @@ class PinnedMap:
     """The UV map of a mesh in edit mode, with pins.
 
     Attributes:
-        waits: whether the map has not yet followed the pins, because it takes long.
+        waits: whether the map waits for the pins to rest, because it takes long.
     """
 
     def __init__(self, mesh: bpy.types.Mesh, polygons: PolygonMesh) -> None:
-        """Take the mesh as it is now; the `selected_faces` of `polygons` are the visible ones."""
+        """Read the mesh; the `selected_faces` of `polygons` are the visible ones."""
         self.waits = False
         self._mesh = mesh
         self._polygons = polygons
@@ -76,31 +76,31 @@ class PinnedMap:
 
     @property
     def is_valid(self) -> bool:
-        """Whether the pins can still be read."""
+        """Whether the pins are still readable."""
         return self._bm.is_valid and all(loop.is_valid for loop in self._loops)
 
     @property
     def is_dragged(self) -> bool:
-        """Whether the pins have moved, and no operator has ended since."""
+        """Whether the pins have moved and no operator has ended since."""
         return self._drag is not None and self._drag.operator == last_operator.address()
 
     @property
     def seconds_of_rest(self) -> float:
-        """How long ago the pins have moved last."""
+        """Seconds since the pins moved last."""
         return time.perf_counter() - self._drag.last_motion
 
     def goes_on_from(self, before: "PinnedMap") -> None:
-        """Take over the drag of the map `before`, if it is still the same drag of the same pins."""
+        """Continue the drag of the map `before`, if it is the same drag of the same pins."""
         drag = before._drag
         if drag and drag.operator == self._operator and np.array_equal(before._pins, self._pins):
             self._drag, self.waits = drag, before.waits
 
     def note_operators(self) -> None:
-        """Note that whatever has ended until now has not moved the pins."""
+        """Note that no operator until now has moved the pins."""
         self._operator = last_operator.address()
 
     def follow(self, use_sync_selection: bool, is_resting: bool = False) -> Followed:
-        """Map the charts whose pins have moved since they were seen last; once they rest, also where it takes long."""
+        """Map the charts whose pins have moved; those that take long only once the pins rest."""
         layer = self._bm.loops.layers.uv.active
         places = np.array([loop[layer].uv for loop in self._loops], dtype=np.float64).reshape(-1, 2)
         moved = (places != self._polygons.uv[self._pins]).any(axis=1)
@@ -147,7 +147,7 @@ class PinnedMap:
             drag.charts[number] = _Chart(pinned_chart, pinned_chart.corners[free], list(compress(loops, free.tolist())))
 
     def _write(self, drag: _Drag, chart: _Chart, layer: BMLayerItem) -> bool:
-        """Write the map of a chart for its pins as they are now; return whether there is one."""
+        """Write the map of a chart for its current pins; return whether there is one."""
         uv = chart.pinned_chart.map(drag.start, self._polygons.uv)
         if uv is None:
             return False

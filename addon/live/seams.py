@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshes in edit mode are unwrapped again after seams were marked or cleared."""
+"""Unwrap the meshes in edit mode again after seams were marked or cleared."""
 
 import time
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ from ..unwrapping.last_settings import last_settings
 
 
 def follow(context: bpy.types.Context, changed: Mapping[bpy.types.Mesh, np.ndarray]) -> bool:
-    """Unwrap all visible faces and pack them, as Blender does; to keep islands in place, only those at changed seams.
+    """Unwrap and pack all visible faces, as Blender does; with *Keep in Place*, only islands at changed seams.
 
     `changed` are the edges, (N, 2), whose seam has changed. Returns whether any island was solved.
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh in edit mode as live unwrapping saw it last.
+"""A snapshot of a mesh in edit mode, for live unwrapping.
 
-Blender tells only that a mesh has changed: what has changed is the difference from its snapshot. Taking one goes once
-over the edges and once over the corners; all arrays of the mesh, which take several times as long, are read only where
-it has pins, because the map before a movement of pins is not to be had afterwards.
+Blender only says that a mesh has changed; what has changed is the difference from its snapshot. A snapshot takes one
+pass over the edges and one over the corners. All arrays of the mesh, which take several times as long, are read only if
+it has pins, because the former map is unavailable after pins have moved.
 
 Snapshots are taken in handlers and timers, never during a transform (`session.edit_meshes`).
 """
@@ -36,8 +36,8 @@ class Snapshot:
         counts: numbers of vertices, edges and faces.
         seams: the edges that are seams, by their vertices, the lower index first.
         strengths: strength of the extenders that act, by their vertices, the lower index first.
-        operator: `last_operator.address()` when it was taken.
-        pinned: the map, where it has pins.
+        operator: `last_operator.address()` at that time.
+        pinned: the map, if it has pins.
     """
 
     edit_object: bpy.types.Object
@@ -58,15 +58,15 @@ class Snapshot:
         return layer is not None and layer.name == self.layer and (self.pinned is None or self.pinned.is_valid)
 
     def note_operators(self) -> None:
-        """Note that whatever has ended until now has changed nothing here."""
+        """Note that no operator until now has changed the mesh."""
         self.operator = last_operator.address()
         if self.pinned is not None:
             self.pinned.note_operators()
 
     def changed_seams(self, later: "Snapshot") -> np.ndarray:
-        """Return the edges, (N, 2), marked or cleared until a `later` snapshot; none where the faces have changed.
+        """Return the edges, (N, 2), marked or cleared until a `later` snapshot; none if the faces have changed.
 
-        Faces have changed where their number is another, or where an edge that was a seam is no edge any more.
+        Faces have changed if their number has, or if a former seam is no longer an edge.
         """
         changed = self.seams ^ later.seams
         if not changed or self.counts != later.counts:
@@ -78,7 +78,7 @@ class Snapshot:
         return np.array(sorted(changed))
 
     def changed_strengths(self, later: "Snapshot") -> dict[Edge, float]:
-        """Return the strengths that changed until a `later` snapshot, 0 for extenders that act no longer."""
+        """Return the strengths that changed until a `later` snapshot, 0 for extenders that no longer act."""
         if self.counts != later.counts:
             return {}
         return {
@@ -89,7 +89,7 @@ class Snapshot:
 
 
 def take(edit_object: bpy.types.Object) -> Snapshot | None:
-    """Return the mesh of an object in edit mode as it is now; None if it has no UV map, or too many faces to follow."""
+    """Return a snapshot of an object in edit mode; None if it has no UV map, or too many faces to follow."""
     mesh = edit_object.data
     bm = edit_meshes.keep(mesh).bm
     layer = bm.loops.layers.uv.active

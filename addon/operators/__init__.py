@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's operators: thin classes; the work is in the plain functions of the other folders."""
+"""The add-on's operators: thin classes around the functions of the other folders."""
 
 import bpy
 

@@ -24,17 +24,17 @@ from ..ui import progress
 from .job_operator import Job, JobOperator
 from .reporting_operator import ReportingOperator
 
-# Panels set these for one click; the next does not remember them, and Adjust Last Operation does not show them.
+# Panels set these for one click; they are neither remembered nor shown in Adjust Last Operation.
 _FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
-# Change of strength per pixel: 100 pixels make 1, the strength that counts like the whole border.
+# Change of strength per pixel: 100 pixels make 1, which counts like the whole border.
 _STEP = 0.01
-# What Shift makes of it, as in Blender's own transforms.
+# Factor with Shift, as in Blender's own transforms.
 _PRECISION = 0.1
 _CONFIRM = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
 
 
 class _ExtenderOperator(ReportingOperator):
-    """What the operators on one extender of the active object's mesh share."""
+    """Base of the operators on one extender of the active object's mesh."""
 
     index: IntProperty(**texts.INDEX_PROPERTY, default=-1, min=-1, options=_FOR_ONE_CALL)
 
@@ -58,7 +58,7 @@ class _ExtenderOperator(ReportingOperator):
 def _follow(
     operator: bpy.types.Operator, edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]
 ) -> bool:
-    """Let the map follow changed extenders at once, in the operator's own undo step; report where it cannot.
+    """Let the map follow changed extenders in the operator's own undo step, or report why it cannot.
 
     Returns whether it follows.
     """
@@ -89,7 +89,7 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
         return context.mode == "EDIT_MESH"
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Make the pairs of all meshes before any is added."""
+        """Find the pairs of all meshes, then add extenders."""
         if self.strength != self.strength:
             raise SelectionError(translate(texts.STRENGTH_IS_NO_NUMBER))
         wanted, edited = {}, context.objects_in_mode_unique_data
@@ -148,7 +148,7 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
 
 
 class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types.Operator):
-    """Change the strength of an extender, and the map of its island with it."""
+    """Change the strength of an extender, and the map of its island."""
 
     bl_idname = names.ADJUST_EXTENDER_OPERATOR
     bl_label = texts.ADJUST_EXTENDER_LABEL
@@ -163,7 +163,7 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
         return super().poll(context) and _ExtenderOperator.poll(context)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
-        """Let the strength be dragged, store it and write its map; whatever else ends it gives both back."""
+        """Drag the strength, store it and write the map; any other end restores both."""
         mesh = context.edit_object.data
         index = self.chosen(mesh)
         extender, bm = storage.of(mesh)[index], edit_meshes.keep(mesh).bm
@@ -206,13 +206,13 @@ class _Drag:
         self._mesh, self._index, self._islands = mesh, index, islands
         self._bm = edit_meshes.keep(mesh).bm
         strength = storage.of(mesh)[index].strength
-        # A file may have a strength that is no number, from which no drag could start.
+        # A file may have a strength that is not finite.
         self.answer = self._dragged = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
         self._typed = ""
         self._mouse_x: int | None = None
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Let the map follow the strength; where it cannot, it stays as it was and the status bar says why."""
+        """Update the map for the strength; if that fails, it stays and the status bar says why."""
         note = translate(texts.ADJUST_EXTENDER_KEYS)
         try:
             with following.not_following():
@@ -225,7 +225,7 @@ class _Drag:
         editors.redraw(context)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take movements of the mouse, with Shift slower, and the keys of a number; Enter or a click confirms."""
+        """Handle mouse movement, slower with Shift, and typed numbers; Enter or a click confirms."""
         if not self._bm.is_valid:
             raise AdjustmentError(texts.cancelled(texts.ADJUST_EXTENDER_LABEL))
         if event.type == "MOUSEMOVE":
@@ -243,14 +243,14 @@ class _Drag:
         return {"RUNNING_MODAL"}
 
     def update(self, context: bpy.types.Context) -> None:
-        """Nothing changes by itself."""
+        """Do nothing."""
 
     def end(self, context: bpy.types.Context) -> None:
-        """Give the status bar back."""
+        """Restore the status bar."""
         progress.clear_status(context)
 
     def _type(self, event: bpy.types.Event) -> bool:
-        """Take a key of a typed number, of which minus changes the sign as in Blender; return whether it was one."""
+        """Handle a key of a typed number, where minus changes the sign as in Blender; return whether it was one."""
         key = "." if event.ascii == "," else event.ascii
         if event.type == "BACK_SPACE":
             self._typed = self._typed[:-1]

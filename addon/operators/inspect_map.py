@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that reads the map below the mouse, and selects islands there."""
+"""The operator that shows the numbers of the map under the mouse, and selects islands."""
 
 import bpy
 
@@ -15,7 +15,7 @@ _ENDS = {"ESC", "RIGHTMOUSE", "RET", "NUMPAD_ENTER"}
 
 
 class UV_OT_spectral_inspect(bpy.types.Operator):
-    """Show the numbers of the face below the mouse, and select its island with a click, until Esc."""
+    """Show the numbers of the face under the mouse, and select its island with a click, until Esc."""
 
     bl_idname = names.INSPECT_OPERATOR
     bl_label = texts.INSPECT_LABEL
@@ -52,12 +52,12 @@ class UV_OT_spectral_inspect(bpy.types.Operator):
                 _select_island(context, found, event.shift)
                 return {"RUNNING_MODAL"}
             return {"PASS_THROUGH"}
-        # Nothing that changes the mesh, but the view can be moved, and the sidebar used.
+        # The view can be moved and the sidebar used, but the mesh not changed.
         is_in_view = editors.region_at(context.screen, event.mouse_x, event.mouse_y) is not None
         return {"RUNNING_MODAL"} if is_in_view and not progress.moves_view(event) else {"PASS_THROUGH"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Leave nothing shown; Blender calls it when the window is closed."""
+        """Remove everything shown; Blender calls this when the window is closed."""
         self._end(context)
 
     def _below(self, context: bpy.types.Context, event: bpy.types.Event) -> FaceBelow | None:

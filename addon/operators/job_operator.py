@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that wait for work in a thread: timer, progress, cancelling, and cleaning up, whatever ends the job."""
+"""Operators that wait for work in a thread: timer, progress, cancellation and cleanup."""
 
 import time
 from collections.abc import Callable, Generator
@@ -18,30 +18,30 @@ from ..ui import progress
 from ..ui.progress import WindowProgress
 from .reporting_operator import ReportingOperator
 
-# Work shorter than this ends within the click that started it: a progress display would only flash.
+# Shorter work ends within the click that started it, without a flash of progress.
 _SECONDS_BEFORE_MODAL = 0.25
-# Twenty looks a second: the end of the work is felt at once, and they cost nothing.
+# Twenty times a second: fast enough, and cheap.
 _TIMER_SECONDS = 0.05
 
-# What runs in a thread. It must not touch Blender.
+# Runs in a thread; must not touch Blender.
 Work = Callable[[Progress], Any]
 
 
 class Choice(Protocol):
-    """Something that an artist is asked in the middle of a job, until the answer comes."""
+    """A question to the artist in the middle of a job."""
 
     @property
     def answer(self) -> object:
-        """The answer as it is now."""
+        """The current answer."""
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Show what there is to choose."""
+        """Show the choice."""
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Return {"FINISHED"} once the answer is there, {"RUNNING_MODAL"} for an event taken, else {"PASS_THROUGH"}."""
+        """Return {"FINISHED"} with an answer, {"RUNNING_MODAL"} for a handled event, else {"PASS_THROUGH"}."""
 
     def update(self, context: bpy.types.Context) -> None:
-        """Show what is known by now; called by a timer."""
+        """Update what is shown; called by a timer."""
 
     def end(self, context: bpy.types.Context) -> None:
         """Remove everything shown."""
@@ -49,12 +49,12 @@ class Choice(Protocol):
 
 @dataclass(frozen=True)
 class Done:
-    """What a job gets back for a `Work` or `Choice`.
+    """The result of a `Work` or `Choice`.
 
     Attributes:
-        context: the context in which it goes on.
+        context: the context in which the job continues.
         result: what the work returned, or the answer.
-        is_late: whether Blender went on meanwhile, so that the meshes may have changed.
+        is_late: whether Blender ran meanwhile, so that the meshes may have changed.
     """
 
     context: bpy.types.Context
@@ -62,12 +62,12 @@ class Done:
     is_late: bool
 
 
-# Not typing.Union: its cache keeps this module until Python is gone, and bpy 4.2 and 4.5 then crash on leaving.
+# Not typing.Union: its cache keeps this module alive until exit, where bpy 4.2 and 4.5 then crash.
 Job = Generator[Work | Choice, Done, "set[str]"]
 
 
 class _Running:
-    """A job that a window waits for. `end` removes everything that belongs to it, whoever calls it, and once only."""
+    """A job that a window waits for. `end` removes everything that belongs to it, once."""
 
     def __init__(self, label: str, job: Job) -> None:
         self.label = label
@@ -82,23 +82,23 @@ class _Running:
 
     @property
     def is_wanted(self) -> bool:
-        """Whether the thread goes on and nobody has cancelled it."""
+        """Whether the thread is neither finished nor cancelled."""
         return self.worker is not None and self.worker.is_wanted
 
     def wait(self, context: bpy.types.Context, worker: Worker) -> None:
-        """Show the worker's progress, and let a timer wake the operator."""
+        """Show the worker's progress, and start the timer of the operator."""
         self.worker = worker
         self._progress = WindowProgress(context, self.label, worker.fraction, worker.phase)
         self._keep_awake(context)
 
     def ask(self, context: bpy.types.Context, choice: Choice) -> None:
-        """Let a timer wake the operator while the artist is asked."""
+        """Ask the artist, and start the timer of the operator."""
         self.choice = choice
         choice.begin(context)
         self._keep_awake(context)
 
     def update(self, context: bpy.types.Context) -> None:
-        """Show how far the job is."""
+        """Update the progress."""
         if self._progress is not None:
             self._progress.update(context, self.worker.fraction, self.worker.phase)
         if self.choice is not None:
@@ -114,7 +114,7 @@ class _Running:
         self.worker = self.choice = self._progress = None
 
     def end(self, context: bpy.types.Context) -> None:
-        """End the job: the thread without result, and all that is shown."""
+        """End the job: cancel the thread and remove everything shown."""
         if self.is_ended:
             return
         self.is_ended = True
@@ -136,7 +136,7 @@ class _Running:
 
 
 class _Jobs(Remembered):
-    """The job that a window waits for; undo ends it, as it takes away what the job works on."""
+    """The job that a window waits for; undo ends it, because it replaces the meshes."""
 
     lifetime = Lifetime.EDIT_MODE
 
@@ -144,7 +144,7 @@ class _Jobs(Remembered):
         self.running: _Running | None = None
 
     def end(self) -> None:
-        """End it, from anywhere: nothing of it is left, shown or waiting."""
+        """End it and remove everything of it."""
         if self.running is not None:
             self.running.end(bpy.context)
 
@@ -157,12 +157,12 @@ def running() -> _Running | None:
 class JobOperator(ReportingOperator):
     """Mixin of an operator whose work is the generator `job`.
 
-    Executed, Blender waits for it. Invoked in a window, its work runs in a thread, so that Blender's windows live on
+    Executed, it blocks Blender. Invoked in a window, its work runs in a thread, so that Blender's windows stay alive
     and Esc cancels; one job at a time.
     """
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
-        """Yield every `Work`, and where `is_interactive` every `Choice`, take its `Done`, return the status.
+        """Yield every `Work` and, if `is_interactive`, every `Choice`; receive its `Done`; return the status.
 
         Raises:
             ReadableError: nothing was changed; the message says why.
@@ -179,7 +179,7 @@ class JobOperator(ReportingOperator):
         return context.mode == "EDIT_MESH"
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Do the whole job; Blender waits."""
+        """Do the whole job while Blender waits."""
         with closing(self.job(context, is_interactive=False)) as job:
             done = None
             while True:
@@ -191,8 +191,8 @@ class JobOperator(ReportingOperator):
                     done = Done(context, work(report_progress), is_late=False)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Do the job in a thread, so that Blender's windows live on and Esc cancels."""
-        # Without a window, as for scripts and application timers, nobody would end the job.
+        """Do the job in a thread, so that Blender's windows stay alive and Esc cancels."""
+        # Without a window, as in scripts and application timers, nothing would end the job.
         if bpy.app.background or context.window is None:
             return self.execute(context)
         if running() is not None:
@@ -204,15 +204,15 @@ class JobOperator(ReportingOperator):
         return status
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Go on where the work has ended; let nothing but view navigation through."""
+        """Continue when the work has ended; pass only view navigation through."""
         return self._ending(context, self._handle, event)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """End the job without result. Blender calls it when the window is closed, too."""
+        """End the job without result; Blender also calls this when the window is closed."""
         self._job.end(context)
 
     def _ending(self, context: bpy.types.Context, function: Callable[..., set[str]], argument: object) -> set[str]:
-        """Return the status that `function` returns; whatever ends the operator ends its job."""
+        """Return the status of `function`; the end of the operator ends its job, also by an error."""
         status = {"CANCELLED"}
         try:
             status = self.reporting(function, context, argument)
@@ -247,7 +247,7 @@ class JobOperator(ReportingOperator):
         return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
 
     def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:
-        """Let the job go on, at its start with None, until it ends or a window has to wait."""
+        """Advance the job, first with None, until it ends or a window has to wait."""
         job, start = self._job, None if done is None else time.monotonic()
         while True:
             try:
@@ -258,7 +258,7 @@ class JobOperator(ReportingOperator):
                 job.ask(context, step)
                 return {"RUNNING_MODAL"}
             worker = Worker(step, user_preferences.read("threads", 0))
-            # What the job did itself since its first step counts, too: meanwhile Blender did not hear the artist.
+            # The job's own time since its first step counts, too: Blender was blocked meanwhile.
             start = time.monotonic() if start is None else start
             left = _SECONDS_BEFORE_MODAL - (time.monotonic() - start)
             if not worker.wait(max(left, _TIMER_SECONDS)) or left <= 0.0:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all operators of this add-on share: errors become reports."""
+"""Base of all operators of the add-on: errors become reports."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ class ReportingOperator:
     """Mixin of an operator whose work is `run`."""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Do the work; report errors that an artist can do something about."""
+        """Do the work; report readable errors."""
         return self.reporting(self.run, context)
 
     def run(self, context: bpy.types.Context) -> set[str]:
@@ -26,7 +26,7 @@ class ReportingOperator:
         raise NotImplementedError
 
     def reporting(self, function: Callable[..., set[str]], *arguments: object) -> set[str]:
-        """Return what `function` returns; of errors that an artist can do something about, report the message."""
+        """Return the status of `function`, or report the message of a readable error."""
         try:
             return function(*arguments)
         except ReadableError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suggested seams before they are marked: how many of them to take, and what they would bring."""
+"""The preview of suggested seams: how many to take, and what they would bring."""
 
 from dataclasses import dataclass
 
@@ -30,7 +30,7 @@ _STEPS = {
 }
 _LEAPS = {"PAGE_UP": 1, "PAGE_DOWN": -1}
 _LEAP = 0.1
-# Maps that are kept for the overlay, beside the one shown: going back is at once, and memory has an end.
+# Maps kept for the overlay, so that going back is fast and memory stays limited.
 _KEPT_MAPS = 8
 _SIGNS = {"+": 1, "-": -1}
 _APPLY = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
@@ -45,27 +45,27 @@ def length_text(context: bpy.types.Context, length: float) -> str:
 
 
 class SeamPreview:
-    """Asks how many of the suggested cuts to take: shows them, and measures in a thread what they bring.
+    """Asks how many of the suggested cuts to take, shows them, and measures in a thread what they bring.
 
     A `job_operator.Choice`.
 
     Attributes:
-        count: how many cuts are shown, at least 1.
+        count: number of shown cuts, at least 1.
     """
 
     def __init__(self, target: Target, suggestion: Suggestion, count: int, factor: float) -> None:
-        """Begin with the first `count` cuts; `factor` is that of the scale within which the map counts as even."""
+        """Begin with the first `count` cuts; `factor` is the allowed factor between scale and median."""
         self.count = count
         self._target = target
         self._suggestion = suggestion
         self._factor = factor
         self._measured: dict[int, MapQuality] = {}
-        # The maps of some of these, by object, for the overlay; and of which of them it shows.
+        # Some of their maps, by object, for the overlay; and the count that it shows.
         self._maps: dict[int, dict[str, np.ndarray]] = {}
         self._overlaid: int | None = None
         self._keys: HeaderText | None = None
         self._measuring: Worker[dict[int, _Measured]] | None = None
-        # Read now: the thread that measures must not touch Blender.
+        # Read now, because the measuring thread must not touch Blender.
         self._names = [edit_mesh.edit_object.name_full for edit_mesh in target.edit_meshes]
         self._lines = SeamLines(target.edit_meshes, suggestion)
 
@@ -80,7 +80,7 @@ class SeamPreview:
         self.change(context, 0)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take the keys that change the number of cuts, and those that end the choice."""
+        """Handle the keys that change the number of cuts or end the choice."""
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
         if event.type in _APPLY:
@@ -89,11 +89,11 @@ class SeamPreview:
         if step and not event.ctrl:
             self.change(context, step)
             return {"RUNNING_MODAL"}
-        # The wheel with Ctrl does what it does by itself elsewhere.
+        # Ctrl and the wheel zoom, as the wheel does elsewhere.
         return {"RUNNING_MODAL"} if step and _zoom(context, event, step) else {"PASS_THROUGH"}
 
     def change(self, context: bpy.types.Context, by: int) -> None:
-        """Show more cuts, or fewer where `by` is negative, as far as there are."""
+        """Show more cuts, or fewer if `by` is negative."""
         self.count = min(max(self.count + by, 1), len(self._suggestion.cuts))
         if self._measuring is not None:
             self._measuring.cancel()
@@ -102,7 +102,7 @@ class SeamPreview:
         self.update(context)
 
     def update(self, context: bpy.types.Context) -> None:
-        """Show in the status bar what is known by now."""
+        """Show in the status bar what is known."""
         if self._measuring is not None and self._measuring.wait(0.0):
             for count, found in self._measuring.result().items():
                 self._measured[count], self._maps[count] = found.quality, found.maps
@@ -134,7 +134,7 @@ class SeamPreview:
         clear_status(context)
 
     def _overlay(self, context: bpy.types.Context) -> None:
-        """Let the overlay show the map that the cuts would bring."""
+        """Show the map that the cuts would bring in the overlay."""
         for count in list(self._maps)[:-_KEPT_MAPS]:
             if count != self.count:
                 del self._maps[count]
@@ -149,7 +149,7 @@ class SeamPreview:
         return _STEPS.get(event.type, _SIGNS.get(event.ascii, 0))
 
     def _measure(self, counts: list[int], progress: Progress) -> dict[int, "_Measured"]:
-        """Return what the map is like after the first so many cuts; any thread may call it."""
+        """Measure the maps after the first `counts` cuts each; any thread may call this."""
         measured = {}
         for count in counts:
             meshes = seam_suggestion.cut_open(self._target.polygons, self._suggestion.part(0, count))
@@ -165,14 +165,14 @@ class SeamPreview:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The quality of a map, and its UVs, (C, 2), by the full names of the objects."""
+    """The quality of a map, and its UVs, (C, 2), by the full name of the object."""
 
     quality: MapQuality
     maps: dict[str, np.ndarray]
 
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:
-    """Zoom the 3D viewport under the mouse, as the wheel does by itself; return whether there is one."""
+    """Zoom the 3D viewport under the mouse, as the wheel does; return whether there is one."""
     area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
     if area is None or area.type != "VIEW_3D":
         return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that select faces by what the unwrap, or the map, is like there."""
+"""The operators that select faces by the result of the unwrap, or by their map."""
 
 import bpy
 import numpy as np
@@ -38,7 +38,7 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         return context.mode == "EDIT_MESH"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the amount or the limit, whichever counts."""
+        """Draw the amount or the limit, whichever applies."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -73,7 +73,7 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
         return context.mode == "EDIT_MESH"
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Select what is remembered; nothing is solved and nothing written."""
+        """Select the remembered faces."""
         edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
         if not edited:
             self.report({"WARNING"}, translate(texts.NO_RESULT_REMEMBERED))
@@ -136,7 +136,7 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
         layout.prop(self, "extend")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Look at the visible faces, in the UV editor at those shown there, and select the ones with defects."""
+        """Select the visible faces with defects; in the UV editor, those shown there."""
         if not (self.flipped or self.overlapping):
             self.report({"WARNING"}, translate(texts.NO_DEFECT_CHOSEN))
             return {"CANCELLED"}
@@ -155,5 +155,5 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
         if any(faces.any() for faces in chosen):
             faces = {edit_mesh.mesh: flags for edit_mesh, flags in zip(edit_meshes, chosen)}
             selection.select_shown(context, faces, self.extend)
-        # Finished even where there are none, so that the options can be changed.
+        # Finished even if there are none, so that the options can be adjusted.
         return {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that writes what a UV map does to the faces into attributes."""
+"""The operator that stores the distortion of faces as attributes."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty
@@ -15,7 +15,7 @@ from .reporting_operator import ReportingOperator
 
 
 class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
-    """Write angle distortion, size, texel density or defects of every face into an attribute."""
+    """Store angle distortion, size, texel density or defects of every face as an attribute."""
 
     bl_idname = names.STORE_OPERATOR
     bl_label = texts.STORE_LABEL
@@ -27,18 +27,18 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where there may be meshes to write to."""
+        """Allow the operator where there may be meshes."""
         return context.mode in {"EDIT_MESH", "OBJECT"}
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Store what the overlay shows, where that is a value."""
+        """Store what the overlay shows, if it has values."""
         shown = map_overlay.settings().kind
         if shown in names.ATTRIBUTES:
             self.kind = shown
         return self.execute(context)
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Measure the maps of the meshes that the overlay shows, hidden faces too, and write."""
+        """Measure the maps of the meshes that the overlay shows, hidden faces included, and store."""
         views = {}
         for shown in map_overlay.shown_objects(context):
             arrays = read_map.read_own_map(context, shown)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that marks seams where they lower the distortion most, and unwraps again."""
+"""The operator that marks the seams that lower the distortion most, and unwraps."""
 
 import time
 from collections.abc import Sequence
@@ -25,15 +25,15 @@ from .seam_preview import SeamPreview, length_text
 
 
 class Searched(Remembered):
-    """The last search, so that other settings of Adjust Last Operation need none."""
+    """The last search, so that Adjust Last Operation need not repeat it."""
 
     def __init__(self) -> None:
-        """Know no answer yet."""
+        """Begin without an answer."""
         self.search = Search()
 
 
 class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
-    """Mark seams that lower the distortion, shown before they are marked, and unwrap again."""
+    """Preview and mark the seams that lower the distortion most, and unwrap."""
 
     bl_idname = names.SUGGEST_SEAMS_OPERATOR
     bl_label = texts.SUGGEST_SEAMS_LABEL
@@ -137,7 +137,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         return self._write(context, target, cuts, solutions, start)
 
     def _current(self, context: bpy.types.Context, target: Target, done: Done | None) -> Target | None:
-        """Return the target as it is now; None having reported that it changed while Blender went on."""
+        """Return the current target; None, with a report, if it has changed meanwhile."""
         if done is None or not done.is_late:
             return target
         current = seams.read_again(context, target)
@@ -172,7 +172,7 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     def _options(self, target: Target) -> Options:
         options = target.settings.options
-        # At 1 a face that looks to the front counts as seven times as long.
+        # At 1, edges of faces toward the front count as seven times as long.
         front = (0.0, -6.0 * self.keep_front, 0.0) if self.keep_front else None
         return Options(
             self.size_variation,
@@ -200,14 +200,14 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
 @dataclass(frozen=True)
 class _Found:
-    """A suggestion; without cuts also the solutions of the meshes as they are, which tell what cannot be unwrapped."""
+    """A suggestion; without cuts also the solutions of the meshes, for what cannot be unwrapped."""
 
     suggestion: Suggestion
     uncut: Sequence[Solution] = ()
 
 
 def _find(target: Target, options: Options, preferences: Preferences, report_progress: Progress) -> _Found:
-    """Search for cuts; any thread may call it."""
+    """Search for cuts; any thread may call this."""
     suggestion = session.of(Searched).search.suggest(target.polygons, options, report_progress, preferences)
     if suggestion.cuts:
         return _Found(suggestion)

@@ -37,7 +37,7 @@ class UV_OT_spectral_unwrap(UnwrapProperties, JobOperator, bpy.types.Operator):
         start = time.perf_counter()
         settings = settings_of(self)
         edit_meshes, all_visible = steps.read(context, settings), False
-        # As Suggest Seams does. An editor that shows selected UVs shows none of what is not selected.
+        # As Suggest Seams does. The UV editor without sync selection shows selected faces only.
         if not edit_meshes and not selection.selects_uvs(context):
             edit_meshes, all_visible = steps.read(context, settings, all_visible=True), True
         if not edit_meshes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of Spectral Unwrap as properties: of the operator, and of the preferences, which have its defaults."""
+"""The settings of Spectral Unwrap as properties of the operator and, for its defaults, of the preferences."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
@@ -10,7 +10,7 @@ from ..extenders.storage import STRENGTH_LIMIT
 
 
 class UnwrapProperties:
-    """What an unwrap is asked to do."""
+    """The settings of an unwrap."""
 
     method: EnumProperty(**texts.METHOD_PROPERTY, items=texts.METHOD_ITEMS)
     weights: EnumProperty(**texts.WEIGHTS_PROPERTY, items=texts.WEIGHTS_ITEMS)
@@ -60,7 +60,7 @@ class UnwrapProperties:
 
 
 def take_as_last(chosen: UnwrapProperties) -> None:
-    """Let the operator begin with these settings when an artist calls it next; scripts say theirs."""
+    """Start the operator with these settings the next time an artist calls it; scripts pass theirs."""
     last = bpy.context.window_manager.operator_properties_last(names.UNWRAP_OPERATOR)
     for name in UnwrapProperties.__annotations__:
         if getattr(last, name) != getattr(chosen, name):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles coloured by a value per face, or by a checker in the UV map, for the 3D viewport and the UV editor."""
+"""Triangles colored by a value per face or by a UV checker, in the 3D viewport and the UV editor."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from ..session import Lifetime, Remembered
 
 Color = tuple[float, float, float]
 
-# Every driver has 128 bytes for constants, of which Blender takes some. So the last components of the colours are other
+# Drivers guarantee 128 bytes for constants, and Blender uses some. So the last components of the colors are other
 # numbers: the value at the lower end, the inverse of the range, and the squares of the checker, 0 for values.
 _CONSTANTS = (
     ("MAT4", "ModelViewProjectionMatrix"),
@@ -55,7 +55,7 @@ _MAP = (("uv", 2), ("value", 1))
 
 @dataclass(frozen=True)
 class Colors:
-    """The colours of the lower end, the middle and the upper end of the values, and their common opacity, 0 to 1."""
+    """The colors of the lower end, the middle and the upper end of the values, and their opacity, 0 to 1."""
 
     low: Color
     middle: Color
@@ -73,10 +73,9 @@ class _Shaders(Remembered):
 
 
 def shader(is_flat: bool, is_displayed: bool = True) -> gpu.types.GPUShader:
-    """Return the shader that places the triangles by their positions, or with `is_flat` by their UVs.
+    """Return the shader that draws the triangles at their positions, or with `is_flat` at their UVs.
 
-    Blender's editors take linear colours. Not `is_displayed`, they are written as they are, for a framebuffer of one's
-    own.
+    Blender's editors take linear colors. Without `is_displayed` the colors are not converted, for other framebuffers.
     """
     made, key = session.of(_Shaders).made, (is_flat, is_displayed)
     if key not in made:
@@ -101,7 +100,7 @@ def _compiled(is_flat: bool, is_displayed: bool) -> gpu.types.GPUShader:
 
 
 def places(positions: np.ndarray) -> gpu.types.GPUVertBuf:
-    """Return the positions, (3 T, 3) float32, of the corners of triangles, for as many batches as show them."""
+    """Return a buffer of the positions, (3 T, 3) float32, of the corners of triangles, which batches may share."""
     return _buffer(_PLACES, positions)
 
 

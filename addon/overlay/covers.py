@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What lies over the main region of an editor: toolbar, sidebar, headers, Adjust Last Operation."""
+"""The regions over the main region of an editor: toolbar, sidebar, headers, Adjust Last Operation."""
 
 import bpy
 
@@ -9,11 +9,11 @@ from ..core.drawing.free_room import Box
 def of(area: bpy.types.Area, region: bpy.types.Region, with_sidebar: bool = True) -> tuple[Box, ...]:
     """Return the parts of a region that the editor's other regions cover, in pixels from its lower left corner.
 
-    Where these lie beside it, as without Blender's Region Overlap, that is nothing. The sidebar, which counts if
-    `with_sidebar`, is seen through below its panels.
+    None if the other regions lie beside it, as without Blender's Region Overlap. The sidebar, which counts if
+    `with_sidebar`, is transparent below its panels.
     """
     uncounted = {"WINDOW"} if with_sidebar else {"WINDOW", "UI"}
-    # A region that is hidden is one pixel wide or high.
+    # A hidden region is one pixel wide or high.
     others = [each for each in area.regions if each.type not in uncounted and min(each.width, each.height) > 1]
     boxes = [(each.x - region.x, each.y - region.y, each.width, each.height) for each in others]
     return tuple(

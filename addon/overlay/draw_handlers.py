@@ -12,16 +12,16 @@ from ..session.problems import print_once
 
 
 class DrawHandler:
-    """Draws over the main regions of a kind of editor until it is removed; an error is printed once."""
+    """Draws over the main regions of a kind of editor until it is removed; each error is printed once."""
 
     def __init__(self, space: type, draw: Callable[[bpy.types.Context], None], when: str, name: str) -> None:
         """Call `draw` from now on.
 
         Args:
             space: the kind of editor, such as `bpy.types.SpaceView3D`.
-            draw: what draws.
-            when: "POST_VIEW" to draw in the coordinates of the view, "POST_PIXEL" to draw in pixels.
-            name: of what an error says was not drawn.
+            draw: the function to call.
+            when: "POST_VIEW" for coordinates of the view, "POST_PIXEL" for pixels.
+            name: of the drawing, for errors.
         """
 
         def guarded() -> None:
@@ -34,13 +34,13 @@ class DrawHandler:
         self._handle = space.draw_handler_add(guarded, (), "WINDOW", when)
 
     def remove(self) -> None:
-        """Draw nothing any more."""
+        """Stop drawing."""
         self._space.draw_handler_remove(self._handle, "WINDOW")
         editors.redraw(bpy.context)
 
 
 class _OfAddon(Remembered):
-    """The handlers that draw as long as the add-on is enabled."""
+    """The handlers that draw while the add-on is enabled."""
 
     lifetime = Lifetime.ADDON
 
@@ -53,6 +53,6 @@ class _OfAddon(Remembered):
 
 
 def add(space: type, draw: Callable[[bpy.types.Context], None], when: str, name: str) -> None:
-    """Draw as a `DrawHandler` does as long as the add-on is enabled; in background mode nothing is drawn."""
+    """Draw as a `DrawHandler` does while the add-on is enabled; not in background mode."""
     if not bpy.app.background:
         session.of(_OfAddon).handlers.append(DrawHandler(space, draw, when, name))

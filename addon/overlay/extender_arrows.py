@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the extenders of meshes in edit mode as arrows, in the 3D viewport and in the UV editor.
 
-Arrows point outward where an extender repels, inward where it attracts. They have the same size on the screen whatever
-the zoom, and stand in front of the mesh. In the UV editor, where a vertex may have several UVs, the nearest two of both
-vertices are connected.
+Arrows point outward if an extender repels, inward if it attracts. Their size on the screen does not depend on the zoom,
+and they are in front of the mesh. In the UV editor, where a vertex may have several UVs, they connect the closest two.
 """
 
 from collections.abc import Callable, Iterator
@@ -23,7 +22,7 @@ from ..session import edit_meshes
 from . import draw_handlers
 
 _Point = tuple[float, float]
-# A function that returns the places on the screen, in pixels, of two vertices of a mesh; None where one is not shown.
+# Returns the positions of two vertices on the screen, in pixels; None if one is not shown.
 _Places = Callable[[BMVert, BMVert], "tuple[_Point, _Point] | None"]
 
 _REPEL = (1.0, 0.42, 0.12, 1.0)
@@ -119,6 +118,6 @@ def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, 
 
 
 def add_draw_handlers() -> None:
-    """Draw from now on."""
+    """Start drawing."""
     for space, draw in ((bpy.types.SpaceView3D, _draw_in_viewport), (bpy.types.SpaceImageEditor, _draw_in_uv_editor)):
         draw_handlers.add(space, draw, "POST_PIXEL", name=texts.EXTENDERS_LABEL)

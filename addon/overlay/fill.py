@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fills triangles on a region of the screen, for the extenders' arrows."""
+"""Filled triangles on a region of the screen."""
 
 import gpu
 import numpy as np
@@ -9,7 +9,7 @@ from .. import compatibility
 
 
 def fill_triangles(corners: np.ndarray, colors: np.ndarray) -> None:
-    """Fill triangles, blending with what is there.
+    """Fill triangles, with blending.
 
     Args:
         corners: (N, 2) in pixels of the region, three for each triangle.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drawing over the faces of a mesh without sinking into them."""
+"""Drawing on the faces of a mesh without z-fighting."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,13 +8,13 @@ import bpy
 import gpu
 from mathutils import Matrix
 
-# What lies on faces is drawn this fraction of the distance nearer than it is.
+# Drawings on faces move this fraction of the distance toward the viewer.
 _NEARER = 0.003
 
 
 @contextmanager
 def in_front_of_faces(view: bpy.types.RegionView3D, nearer: float = _NEARER) -> Iterator[None]:
-    """Within, what is drawn blends, hides nothing, and wins over faces that it lies on."""
+    """Draw with blending, without writing depth, and in front of faces at the same depth, within the context."""
     if view.is_perspective:
         shift = Matrix.Scale(1.0 - nearer, 4)
         shift[3][3] = 1.0

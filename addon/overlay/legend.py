@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The legend of the UV map overlay: a bar with its colours, what they stand for, and the numbers of the map."""
+"""The legend of the UV map overlay: a bar with its colors, their values, and the numbers of the map."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ from .screen_text import LINE, draw_line, fill_box, text_width
 _SOUND_TO_FLIPPED = ((0.45, 0.45, 0.45), (1.0, 0.62, 0.05), (0.90, 0.05, 0.65))
 _CHECKER = ((0.12, 0.12, 0.12), (0.5, 0.5, 0.5), (0.92, 0.92, 0.92))
 _FIXED = {choices.LOOK_DEFECTS: _SOUND_TO_FLIPPED, choices.LOOK_CHECKER: _CHECKER}
-# The other kinds: where the preferences have their colours, and what these are without preferences.
+# The other kinds: the prefix of their colors in the preferences, and their default colors.
 _CHOSEN = {
     choices.LOOK_ANGLE: ("angle", color_ramp.GOOD_TO_BAD),
     choices.LOOK_SIZE: ("size", color_ramp.SMALL_TO_LARGE),
@@ -26,12 +26,12 @@ _CHOSEN = {
 _WIDTH, _BAR_HEIGHT, _PADDING, _DISTANCE = 240.0, 12.0, 10.0, 20.0
 _LABELS = 1.3 * LINE
 _BACKGROUND = (0.08, 0.08, 0.08, 0.72)
-# Smaller letters, of less than seven pixels, are not read.
+# Letters below seven pixels are illegible.
 _LEAST_SCALE = 0.6
 
 
 def colors_of(kind: str, opacity: float) -> Colors:
-    """Return the colours that stand for what is shown."""
+    """Return the colors of a kind that the overlay shows."""
     if kind in _FIXED:
         return Colors(*_FIXED[kind], opacity)
     scale, colors = _CHOSEN[kind]
@@ -43,9 +43,9 @@ def colors_of(kind: str, opacity: float) -> Colors:
 def draw(
     context: bpy.types.Context, kind: str, colors: Colors, low_high: tuple[float, float], lines: Sequence[str]
 ) -> None:
-    """Draw the legend in the lower right corner that other regions leave free, smaller where it does not fit.
+    """Draw the legend in the lower right corner that other regions leave free, scaled down if necessary.
 
-    Where it could not be read there, the sidebar counts as free; where not there either, everything does.
+    If it would be illegible, it may cover the sidebar, and then everything.
     """
     low, high = low_high
     labels = () if kind == choices.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
@@ -70,10 +70,10 @@ def draw(
 
 
 def _size(lines: Sequence[str], labels: Sequence[str], scale: float) -> tuple[float, float]:
-    """Return width and height in pixels that the legend takes, with its distance from what is around it."""
+    """Return width and height of the legend in pixels, with the distance around it."""
     widths = [text_width(line, scale) for line in lines]
     if labels:
-        # One stands at either end, one in the middle.
+        # One label at either end, one in the middle.
         ends = max(text_width(label, scale) for label in (labels[0], labels[-1]))
         widths.append(2.0 * ends + text_width(labels[1], scale) + 2.0 * _PADDING * scale)
     around = 2.0 * _DISTANCE + 2.0 * _PADDING
@@ -82,7 +82,7 @@ def _size(lines: Sequence[str], labels: Sequence[str], scale: float) -> tuple[fl
 
 
 def _draw_bar(colors: Colors, labels: Sequence[str], ends: tuple[float, float], top: float, scale: float) -> float:
-    """Draw the bar with the colours between its two `ends`, its labels below it; return where the next line begins."""
+    """Draw the bar with the colors between its `ends`, its labels below it; return where the next line begins."""
     left, right = ends
     middle, bottom = 0.5 * (left + right), top - _BAR_HEIGHT * scale
     low, between, high = ((*color, 1.0) for color in (colors.low, colors.middle, colors.high))

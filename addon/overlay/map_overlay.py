@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours faces by what the active UV map does to them, in the 3D viewport and in the UV editor.
+"""Color faces by the quality of the active UV map, in the 3D viewport and the UV editor.
 
-Shown are the meshes in edit mode, and in object mode those of the selected objects as their modifiers leave them. While
-the overlay is off nothing is read, computed or drawn. What is drawn follows every edit at once; the numbers that need
-the islands, which take longer, come when the mesh has been left alone for a moment.
+The overlay shows the meshes in edit mode or, in object mode, those of the selected objects with their modifiers. While
+it is off, nothing is read, computed or drawn. Colors follow every edit at once; numbers that need the islands, which
+take longer, follow after a moment without edits.
 """
 
 import time
@@ -25,9 +25,9 @@ from .colored_triangles import Colors
 from .in_front import in_front_of_faces
 from .shown_mesh import ShownMesh
 
-# Nearer than this fraction of the distance nothing lies before the faces; edges and vertices are drawn nearer still.
+# Faces move this fraction of the distance toward the viewer; Blender draws edges and vertices nearer still.
 _NEARER = 0.0003
-# Seconds without an edit after which the islands are looked at.
+# Seconds without an edit after which islands are computed.
 _QUIET_SECONDS = 0.3
 _NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS})
 
@@ -37,11 +37,11 @@ class Overlay(Remembered):
 
     Attributes:
         meshes: by the full names of their objects.
-        range: the automatic range, kept while the mesh is edited: colors that change all the time say nothing.
-        numbers: of the maps shown last, together.
-        preview: UVs, (C, 2), shown in place of those of objects, by their full names: a map that an artist may choose.
-        pointed_at: the face whose numbers the legend has, by the name of its object and its index.
-        edited_at: when a shown mesh was edited last.
+        range: the automatic range, kept while the mesh is edited, so that colors stay comparable.
+        numbers: of all shown maps together.
+        preview: UVs, (C, 2), shown instead of those of objects, by their full names.
+        pointed_at: the face in the legend, by the name of its object and its index.
+        edited_at: time of the last edit of a shown mesh.
     """
 
     def __init__(self) -> None:
@@ -54,7 +54,7 @@ class Overlay(Remembered):
         self.edited_at = 0.0
 
     def end(self) -> None:
-        """Stop waiting for the mesh to be left alone."""
+        """Stop the timer."""
         if bpy.app.timers.is_registered(_look_at_islands):
             bpy.app.timers.unregister(_look_at_islands)
 
@@ -70,7 +70,7 @@ def is_on() -> bool:
 
 
 def edited() -> None:
-    """Look at the shown meshes again when they are drawn next."""
+    """Read the shown meshes again when they are drawn next."""
     overlay = session.of(Overlay)
     overlay.edited_at = time.monotonic()
     for shown in overlay.meshes.values():
@@ -78,13 +78,13 @@ def edited() -> None:
 
 
 def on_update(depsgraph: bpy.types.Depsgraph) -> None:
-    """Look at the shown meshes again if Blender has updated a geometry."""
+    """Read the shown meshes again if Blender has updated a geometry."""
     if is_on() and any(update.is_updated_geometry for update in depsgraph.updates):
         edited()
 
 
 def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
-    """Show these UVs, (C, 2), of objects in edit mode by their full names, in place of their own; none to end that."""
+    """Show these UVs, (C, 2), of objects in edit mode, by full name, instead of their own; none to end that."""
     overlay = session.of(Overlay)
     if maps or overlay.preview:
         overlay.preview = dict(maps)
@@ -93,7 +93,7 @@ def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
 
 
 def point_at(context: bpy.types.Context, face: tuple[str, int] | None) -> None:
-    """Let the legend have the numbers of a face, given the full name of its object and its index; None for no face."""
+    """Show the numbers of a face in the legend, given the full name of its object and its index; None for no face."""
     overlay = session.of(Overlay)
     if face != overlay.pointed_at:
         overlay.pointed_at = face
@@ -108,7 +108,7 @@ def shown_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
 
 
 def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh, MapView]]:
-    """Return the objects that have a map to show, with it."""
+    """Return the objects with a map to show, and the map."""
     objects = shown_objects(context)
     keys = [each.name_full for each in objects]
     overlay = session.of(Overlay)
@@ -124,7 +124,7 @@ def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh,
 
 
 def automatic(context: bpy.types.Context) -> tuple[float, float]:
-    """Return the range of the colours that follows the shown maps."""
+    """Return the automatic range of the shown maps."""
     found, chosen = views(context), settings()
     key = (chosen.kind, chosen.image_size, *(each.name_full for each, *_ in found))
     known = session.of(Overlay).range
@@ -135,7 +135,7 @@ def automatic(context: bpy.types.Context) -> tuple[float, float]:
 
 
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
-    """Return the values at the two ends of the colours."""
+    """Return the values at the two ends of the colors."""
     chosen = settings()
     if chosen.use_range and chosen.kind not in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
         return chosen.range_low, max(chosen.range_high, chosen.range_low + 1e-6)
@@ -143,7 +143,7 @@ def shown_range(context: bpy.types.Context) -> tuple[float, float]:
 
 
 def colors() -> Colors:
-    """Return the colours that the overlay has now."""
+    """Return the current colors of the overlay."""
     chosen = settings()
     return legend.colors_of(chosen.kind, chosen.opacity)
 
@@ -174,7 +174,7 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     if not (space.show_uvedit and space.overlay.show_overlays and context.mode == "EDIT_MESH"):
         return
     if session.of(Overlay).preview:
-        # It would lie among the UVs that there are.
+        # It would lie among the actual UVs.
         return
     ready = list(_ready(context))
     chosen, low_high = settings(), shown_range(context)
@@ -190,7 +190,7 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
 
 
 def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, ShownMesh, MapView]]:
-    """Yield what can be drawn now: flipped and overlapping faces only once they are known."""
+    """Yield the maps that can be drawn now: flipped and overlapping faces need islands."""
     needs_islands = settings().kind in _NEEDS_ISLANDS
     for found in views(context):
         if needs_islands and not found[1].islands_known:
@@ -237,7 +237,7 @@ def _joined_numbers(shown: Sequence[MapView]) -> IslandNumbers:
 def _active_island_lines(
     context: bpy.types.Context, found: Sequence[tuple[bpy.types.Object, ShownMesh, MapView]]
 ) -> Sequence[str]:
-    """Return the lines on the island of the active object's active face; none without one."""
+    """Return the lines about the island of the active face; none without one."""
     for each, _, view in found:
         if each != context.object:
             continue
@@ -262,7 +262,7 @@ def _look_at_islands_later(context: bpy.types.Context) -> None:
 
 
 def _look_at_islands() -> float | None:
-    """Look at the islands of the shown meshes, unless an edit was just made; returns when to try again."""
+    """Compute the islands of the shown meshes; after a recent edit, return when to try again."""
     if not is_on():
         return None
     overlay = session.of(Overlay)
@@ -274,7 +274,7 @@ def _look_at_islands() -> float | None:
         for each, shown, _view in found:
             if not shown.islands_known:
                 view = shown.confirm(bpy.context, each, overlay.preview.get(each.name_full))
-                # Looked at here, and not while drawing.
+                # Computed here, not while drawing.
                 shown.islands_known = view is not None and len(view.island_of_face) > 0
                 overlay.range.clear()
                 editors.redraw(bpy.context)
@@ -286,7 +286,7 @@ def _look_at_islands() -> float | None:
 
 
 def _while_on(draw: Callable[[bpy.types.Context], None]) -> Callable[[bpy.types.Context], None]:
-    """Return a function that draws while the switch is on, and otherwise lets go of what was read."""
+    """Return a function that draws while the switch is on, and otherwise drops the read meshes."""
 
     def drawn(context: bpy.types.Context) -> None:
         if is_on():
@@ -298,7 +298,7 @@ def _while_on(draw: Callable[[bpy.types.Context], None]) -> Callable[[bpy.types.
 
 
 def add_draw_handlers() -> None:
-    """Draw from now on whenever the switch is on: nothing else says whether the overlay is drawn."""
+    """Start drawing; only the switch decides whether anything is drawn."""
     for space, draw, when in (
         (bpy.types.SpaceView3D, _draw_in_viewport, "POST_VIEW"),
         (bpy.types.SpaceView3D, _draw_legend, "POST_PIXEL"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Text and boxes on a region of the screen, in pixels; sizes follow Blender's scale of the interface."""
+"""Text and boxes on a region of the screen, in pixels, scaled with Blender's interface."""
 
 from collections.abc import Sequence
 
@@ -15,7 +15,7 @@ _COLOR = (0.92, 0.92, 0.92, 1.0)
 
 
 def fill_box(box: tuple[float, float, float, float], corner_colors: Sequence[tuple[float, ...]]) -> None:
-    """Fill a rectangle, given its left, bottom, right and top, and the colours of its corners counter-clockwise."""
+    """Fill a rectangle, given its left, bottom, right and top, and the colors of its corners, counterclockwise."""
     left, bottom, right, top = box
     corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
     order = [0, 1, 2, 0, 2, 3]

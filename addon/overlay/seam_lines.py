@@ -17,10 +17,10 @@ from .draw_handlers import DrawHandler
 from .in_front import in_front_of_faces
 
 _COLOR = (0.1, 1.0, 0.55)
-# Width in pixels and opacity of the cuts shown, and of those left out.
+# Width in pixels and opacity of the chosen cuts, and of the others.
 _SHOWN = (4.0, 1.0)
 _LEFT_OUT = (1.5, 0.5)
-# What is behind the mesh shines through faintly.
+# Opacity of lines behind the mesh.
 _THROUGH_MESH = 0.25
 
 
@@ -28,7 +28,7 @@ class SeamLines:
     """The cuts of a suggestion as lines in all 3D viewports."""
 
     def __init__(self, edit_meshes: Sequence[EditMesh], suggestion: Suggestion) -> None:
-        """Show nothing before `show`."""
+        """Show nothing yet."""
         self._edit_meshes = edit_meshes
         self._suggestion = suggestion
         self._batches: list[tuple[gpu.types.GPUBatch, float, float]] | None = None
@@ -38,13 +38,13 @@ class SeamLines:
     def show(self, context: bpy.types.Context, count: int) -> None:
         """Draw the first `count` cuts in full, the others fainter."""
         self._count, self._batches = count, None
-        # In background mode nothing is drawn.
+        # Background mode draws nothing.
         if self._handle is None and not bpy.app.background:
             self._handle = DrawHandler(bpy.types.SpaceView3D, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL)
         editors.redraw(context, "VIEW_3D")
 
     def remove(self) -> None:
-        """Draw nothing any more."""
+        """Stop drawing."""
         if self._handle is not None:
             self._handle.remove()
             self._handle = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the overlay knows and draws of the mesh of one object."""
+"""The mesh of one object in the overlay: what is read and drawn."""
 
 import bpy
 import gpu
@@ -14,11 +14,11 @@ from . import colored_triangles
 
 
 class ShownMesh:
-    """A mesh and its map as they were read last.
+    """A mesh and its map as read last.
 
     Attributes:
-        is_too_large: whether it has more faces than the preferences allow to read.
-        islands_known: whether its islands, flips and overlaps have been looked for.
+        is_too_large: whether it has more faces than the preferences allow.
+        islands_known: whether its islands, flips and overlaps are computed.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class ShownMesh:
     def view(
         self, context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
     ) -> MapView | None:
-        """Return what the object shows now, with `other_uv` in place of its own UVs; None without faces or a UV map."""
+        """Return the current map of the object, or with `other_uv` instead; None without faces or a UV map."""
         if self._is_stale:
             self._read(context, shown, other_uv, self._view and self._view.mesh)
         return self._view
@@ -48,7 +48,7 @@ class ShownMesh:
     def confirm(
         self, context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
     ) -> MapView | None:
-        """Return what `view` returns, after reading again what it took for granted to be fast."""
+        """Return the map after reading in full, without the assumptions of `view`."""
         if self._trusts_faces:
             self._read(context, shown, other_uv, None)
         return self._view
@@ -69,7 +69,7 @@ class ShownMesh:
         self._show(arrays)
 
     def _show(self, arrays: PolygonMesh | None) -> None:
-        """Take up what was read, and keep what it does not change."""
+        """Replace the map by what was read, and keep what has not changed."""
         before = self._view
         if arrays is None and before is None:
             return
@@ -84,7 +84,7 @@ class ShownMesh:
             self._places = self._tree = None
 
     def batch(self, kind: str, density: float, in_editor: bool) -> gpu.types.GPUBatch | None:
-        """Return the triangles to draw for the view that was asked for last; None for none."""
+        """Return the triangles to draw for the last view; None for none."""
         known, key = (self._in_editor if in_editor else self._batches), (kind, density)
         if key not in known:
             known.clear()
@@ -101,7 +101,7 @@ class ShownMesh:
         return known[key]
 
     def tree(self) -> BVHTree:
-        """Return the triangles of the view that was asked for last, to be hit by rays; made when first asked for."""
+        """Return a ray-casting tree of the triangles of the last view, made on first use."""
         if self._tree is None:
             mesh = self._view.mesh
             vertices = mesh.corner_vertices.take(self._view.triangles[0])

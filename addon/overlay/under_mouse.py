@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which face of the shown maps lies below the mouse, in the 3D viewport and in the UV editor."""
+"""The face of the shown maps under the mouse, in the 3D viewport and the UV editor."""
 
 from dataclasses import dataclass
 
@@ -22,10 +22,10 @@ class FaceBelow:
 def face_below(
     context: bpy.types.Context, area: bpy.types.Area, region: bpy.types.Region, x: float, y: float
 ) -> FaceBelow | None:
-    """Return the face at a place of a region, in pixels from its lower left corner, None for none."""
+    """Return the face at a point of a region, in pixels from its lower left corner; None for none."""
     if area.type == "IMAGE_EDITOR":
         return _in_uv_editor(context, region.view2d.region_to_view(x, y))
-    # Regions of a quad view have a view of their own.
+    # Regions of a quad view have their own view.
     view = area.spaces.active.region_3d
     if area.spaces.active.region_quadviews:
         quads = [each for each in area.regions if each.type == "WINDOW"]
@@ -49,13 +49,13 @@ def _in_viewport(
     place: tuple[float, float],
 ) -> FaceBelow | None:
     origin = view3d_utils.region_2d_to_origin_3d(region, region_3d, place)
-    towards = origin + view3d_utils.region_2d_to_vector_3d(region, region_3d, place)
+    toward = origin + view3d_utils.region_2d_to_vector_3d(region, region_3d, place)
     nearest, found = float("inf"), None
     for shown, mesh, view in map_overlay.views(context):
         if not shown.visible_in_viewport_get(space) or abs(shown.matrix_world.determinant()) < 1e-30:
             continue
         inverse = shown.matrix_world.inverted()
-        start, end = inverse @ origin, inverse @ towards
+        start, end = inverse @ origin, inverse @ toward
         hit, _, triangle, _ = mesh.tree().ray_cast(start, end - start)
         if hit is None:
             continue

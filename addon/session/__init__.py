@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one memory of the add-on: whatever a module knows from one call to the next is an object in here.
+"""The add-on's memory: everything that a module keeps between calls is an object in here.
 
-A module derives a class from `Remembered` and asks for its object by `of`. So forgetting cannot miss anything:
-`forget` drops all objects of a lifetime, `begin` lets the parts that follow Blender's data take up what there is now.
+A module derives a class from `Remembered` and gets its object by `of`. `forget` drops all objects of a lifetime, so
+nothing is missed; `begin` lets the parts that follow Blender's data start from its current state.
 """
 
 from collections.abc import Callable
@@ -12,10 +12,10 @@ from typing import TypeVar
 
 
 class Lifetime(IntEnum):
-    """How long something is remembered; what ends one lifetime ends the shorter ones, too."""
+    """How long something is remembered; the end of a lifetime ends the shorter ones, too."""
 
     EDIT_MODE = 0
-    """Until undo or redo, which make edit meshes anew."""
+    """Until undo or redo, which replace edit meshes."""
     FILE = 1
     """Until another file is loaded."""
     ADDON = 2
@@ -28,7 +28,7 @@ class Remembered:
     lifetime = Lifetime.FILE
 
     def end(self) -> None:
-        """Take back what Blender has of it: timers, drawings, texts, operators that run."""
+        """Remove its timers, drawings, texts and running operators from Blender."""
 
 
 Kind = TypeVar("Kind", bound=Remembered)
@@ -38,7 +38,7 @@ _beginnings: list[Callable[[], None]] = []
 
 
 def of(kind: type[Kind]) -> Kind:
-    """Return what is remembered of a kind; made when it is first asked for."""
+    """Return the object of a kind, made on first use."""
     found = _memory.get(kind)
     if found is None:
         found = _memory[kind] = kind()
@@ -53,22 +53,22 @@ def drop(kind: type[Remembered]) -> None:
 
 
 def follow(*beginnings: Callable[[], None]) -> None:
-    """Let `begin` call these functions, in this order."""
+    """Set the functions that `begin` calls, in order."""
     _beginnings[:] = beginnings
 
 
 def begin() -> None:
-    """Take up the file as it is: after loading, undo or redo, and when the add-on is enabled."""
+    """Start from the current file: after loading, undo or redo, and when the add-on is enabled."""
     for beginning in _beginnings:
         beginning()
 
 
 def forget(lifetime: Lifetime) -> None:
-    """End and forget everything that is remembered no longer than this, the newest first.
+    """End and forget everything of this lifetime or a shorter one, newest first.
 
-    All of it, also where something raises an error; and what the ends of others have made again.
+    All of it, even after an error, and including objects that are made again meanwhile.
     """
-    # A list: a thread may remember something meanwhile.
+    # A list, because a thread may add to it.
     while kinds := [kind for kind in list(_memory) if kind.lifetime <= lifetime]:
         with ExitStack() as ends:
             for kind in kinds:

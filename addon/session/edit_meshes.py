@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one keeper of Blender's Python wrappers of edit meshes, with what is known of each as long as it is kept.
+"""The keeper of Blender's Python wrappers of edit meshes, and of what is known of each.
 
-Making or freeing a wrapper moves the UVs in memory, to which a running transform holds pointers. So wrappers are made
-in handlers and timers, which run before a transform can start, never while drawing, and kept until edit mode is left.
+Making or freeing a wrapper moves UVs in memory, to which a running transform has pointers. So wrappers are made in
+handlers and timers, which run before a transform can start, never while drawing, and kept until edit mode ends.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ class KeptMesh:
 
     Attributes:
         bm: its edit mesh.
-        extenders: the vertices of its extenders, once they were looked for, and what they hold for.
-        seen: the mesh as live unwrapping saw it last, where it is followed.
+        extenders: the vertices of its extenders, if known, and the state that they belong to.
+        seen: the last snapshot of live unwrapping, if the mesh is followed.
     """
 
     def __init__(self, bm: BMesh) -> None:
-        """Know nothing but the edit mesh."""
+        """Begin with the edit mesh only."""
         self.bm = bm
         self.extenders: tuple[tuple, list[tuple[BMVert | None, BMVert | None]]] | None = None
         self.seen: Snapshot | None = None
@@ -42,17 +42,17 @@ class EditMeshes(Remembered):
     lifetime = Lifetime.EDIT_MODE
 
     def __init__(self) -> None:
-        """Keep nothing yet."""
+        """Begin without meshes."""
         self.by_address: dict[int, KeptMesh] = {}
 
 
 def keep(mesh: bpy.types.Mesh) -> KeptMesh:
-    """Keep a mesh in edit mode from now on; return what is known of it."""
+    """Keep a mesh in edit mode; return what is known of it."""
     return kept(mesh) or of(EditMeshes).by_address.setdefault(mesh.as_pointer(), KeptMesh(bmesh.from_edit_mesh(mesh)))
 
 
 def kept(mesh: bpy.types.Mesh) -> KeptMesh | None:
-    """Return what is known of a mesh; None where it is not kept, or has left edit mode since."""
+    """Return what is known of a mesh; None if it is not kept or has left edit mode."""
     found = of(EditMeshes).by_address.get(mesh.as_pointer())
     if found is not None and not found.bm.is_valid:
         del of(EditMeshes).by_address[mesh.as_pointer()]
@@ -67,15 +67,15 @@ def all_kept() -> list[KeptMesh]:
 
 
 def let_go_left() -> None:
-    """Let meshes go that have left edit mode."""
+    """Drop meshes that have left edit mode."""
     meshes = of(EditMeshes).by_address
     for address in [address for address, found in meshes.items() if not found.bm.is_valid]:
         del meshes[address]
 
 
 def edited() -> list[bpy.types.Object]:
-    """Return one object for every mesh in edit mode; none, without looking at any, in another mode."""
+    """Return one object for every mesh in edit mode."""
     if bpy.context.mode != "EDIT_MESH":
         return []
-    # While a file is opened they are not in it yet.
+    # While a file is being opened, they are not in it yet.
     return [each for each in bpy.context.objects_in_mode_unique_data if each.data.is_editmode]

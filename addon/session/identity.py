@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recognizes meshes: after they were renamed, and after undo, which may make a data-block anew."""
+"""Recognize meshes after renaming, and after undo, which may replace a data-block."""
 
 from dataclasses import dataclass
 
@@ -11,11 +11,11 @@ from . import Remembered
 
 @dataclass(eq=False)
 class Identity:
-    """Which mesh one is, as long as the file is open.
+    """The identity of a mesh while the file is open.
 
     Attributes:
         key: Blender's number for it.
-        name: the full name that it had when it was seen last.
+        name: its last known full name.
     """
 
     key: int
@@ -31,7 +31,7 @@ class _Identities(Remembered):
 
 
 def of(mesh: bpy.types.Mesh) -> Identity:
-    """Return which mesh this is, the same object each time; one that redo made anew is found by its name."""
+    """Return the identity of a mesh; one that redo replaced is found by its name."""
     known = session.of(_Identities)
     key, name = _key(mesh), mesh.name_full
     if key not in known.by_key and name in known.by_name:
@@ -45,7 +45,7 @@ def of(mesh: bpy.types.Mesh) -> Identity:
 
 
 def _look_again(known: _Identities) -> None:
-    """Look once at all meshes of the file: those that have gone give way to those that have come with their names."""
+    """Match all meshes of the file: new ones replace missing ones of the same name."""
     names = {_key(mesh): mesh.name_full for mesh in bpy.data.meshes}
     gone = {found.name: found for key, found in known.by_key.items() if key not in names}
     for key, name in names.items():
@@ -55,11 +55,11 @@ def _look_again(known: _Identities) -> None:
             anew = known.by_key[key] = known.by_key.pop(gone.pop(name).key)
             anew.key = key
     known.by_name.clear()
-    # Where another mesh has taken a name, the name means the mesh that is there.
+    # A name means the mesh that has it now.
     for found in sorted(known.by_key.values(), key=lambda each: each.key in names):
         known.by_name[found.name] = found
 
 
 def _key(mesh: bpy.types.Mesh) -> int:
-    # From 4.2 on Blender has a number for this; before, the address stays except where redo makes the mesh anew.
+    # From 4.2 Blender has a number for this; before, the address stays unless redo replaces the mesh.
     return getattr(mesh, "session_uid", 0) or mesh.as_pointer()

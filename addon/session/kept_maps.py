@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The maps of the islands that were solved last: what has not changed is not solved again.
+"""The maps of the islands solved last, so that unchanged islands are not solved again.
 
-A margin that is adjusted, a seam that is marked or a step of the seam preview changes few islands or none.
+An adjusted margin, a marked seam or a step of the seam preview changes few islands or none.
 """
 
 from typing import Any
@@ -17,12 +17,12 @@ class KeptMaps(Remembered):
     """Holds a `spectral_conformal.KeptMaps`."""
 
     def __init__(self) -> None:
-        """Make it, empty."""
+        """Begin empty."""
         self.maps = native.spectral_conformal().hosts.KeptMaps(_MAX_MEGABYTES)
 
 
 def of_session() -> Any:  # noqa: ANN401 - of the native module
-    """Return the maps that are kept, a `spectral_conformal.hosts.KeptMaps`.
+    """Return the kept maps, a `spectral_conformal.hosts.KeptMaps`.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
