@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The translations of `core/words/texts.py`: one file per language, a dictionary from English texts.
+"""The translations of `core/words/texts.py` and of the solver's sentences: one file per language, a dictionary from
+English texts.
 
 Words in braces are fields and stay as they are. For texts that Blender translates, such as "Margin", its own
 translation is shown.

@@ -581,6 +581,243 @@ TEXTS = {
     "angles off by {mean} on average": "Winkel weichen im Mittel um {mean} ab",
     "angles off by {mean} on average (now {now})": "Winkel weichen im Mittel um {mean} ab (jetzt {now})",
     "beyond measure": "mehr, als sich messen lässt",
+    # What the solver says: `spectral_conformal.message_templates`.
+    "The first solve failed its checks and was repeated with a larger shift and another start.": (
+        "Die erste Lösung bestand ihre Prüfungen nicht und wurde mit größerer Verschiebung und anderem Anfang "
+        "wiederholt."
+    ),
+    "The boundary of the map winds round {count} times instead of once.": (
+        "Der Rand der Map läuft {count}-mal herum statt einmal."
+    ),
+    "Hole rigidity lowered from {before} to {after}, which is what the island bears.": (
+        "Steifheit der Löcher von {before} auf {after} gesenkt; mehr verträgt die Insel nicht."
+    ),
+    "{count} triangle of the relaxed map could not be unfolded.": (
+        "{count} Dreieck der entspannten Map ließ sich nicht entfalten."
+    ),
+    "{count} triangles of the relaxed map could not be unfolded.": (
+        "{count} Dreiecke der entspannten Map ließen sich nicht entfalten."
+    ),
+    "The folds left no room to unfold them: replaced by an embedding, relaxed without folding it; mean QC {before} -> "
+    "{after}.": (
+        "Zum Entfalten war kein Platz: durch eine Einbettung ersetzt, die ohne Falten entspannt wurde; mittlere QC "
+        "{before} -> {after}."
+    ),
+    "{count} flipped triangle unfolded; mean QC {before} -> {after}.": (
+        "{count} umgedrehtes Dreieck entfaltet; mittlere QC {before} -> {after}."
+    ),
+    "{count} flipped triangles unfolded; mean QC {before} -> {after}.": (
+        "{count} umgedrehte Dreiecke entfaltet; mittlere QC {before} -> {after}."
+    ),
+    "Parts that covered each other moved apart; mean QC {before} -> {after}.": (
+        "Teile, die einander überdeckten, auseinandergerückt; mittlere QC {before} -> {after}."
+    ),
+    "Parts that covered each other came apart in an embedding, relaxed without folding it; mean QC {before} -> "
+    "{after}.": (
+        "Teile, die einander überdeckten, in einer Einbettung getrennt, die ohne Falten entspannt wurde; mittlere QC "
+        "{before} -> {after}."
+    ),
+    "Parts that covered each other moved apart; mean QC {after}.": (
+        "Teile, die einander überdeckten, auseinandergerückt; mittlere QC {after}."
+    ),
+    "The island still covers itself somewhere; add seams.": (
+        "Die Insel überdeckt sich noch irgendwo selbst; Nähte hinzufügen."
+    ),
+    "{count} triangle could not be unfolded in double precision; add seams that make the island flatter.": (
+        "{count} Dreieck ließ sich in doppelter Genauigkeit nicht entfalten; Nähte hinzufügen, die die Insel flacher "
+        "machen."
+    ),
+    "{count} triangles could not be unfolded in double precision; add seams that make the island flatter.": (
+        "{count} Dreiecke ließen sich in doppelter Genauigkeit nicht entfalten; Nähte hinzufügen, die die Insel "
+        "flacher machen."
+    ),
+    "{count} triangle could not be unfolded between the pins; move or remove pins.": (
+        "{count} Dreieck ließ sich zwischen den Pins nicht entfalten; Pins verschieben oder entfernen."
+    ),
+    "{count} triangles could not be unfolded between the pins; move or remove pins.": (
+        "{count} Dreiecke ließen sich zwischen den Pins nicht entfalten; Pins verschieben oder entfernen."
+    ),
+    "The map goes round an inner vertex more than once; add seams.": (
+        "Die Map läuft mehr als einmal um einen inneren Punkt; Nähte hinzufügen."
+    ),
+    "The boundary of the map winds round {count} times instead of once; add seams.": (
+        "Der Rand der Map läuft {count}-mal herum statt einmal; Nähte hinzufügen."
+    ),
+    "The map goes round an inner vertex more than once; move or remove pins.": (
+        "Die Map läuft mehr als einmal um einen inneren Punkt; Pins verschieben oder entfernen."
+    ),
+    "The boundary of the map winds round {count} times instead of once; move or remove pins.": (
+        "Der Rand der Map läuft {count}-mal herum statt einmal; Pins verschieben oder entfernen."
+    ),
+    "{count} triangle shrinks below what double precision resolves; add seams that make the island flatter.": (
+        "{count} Dreieck schrumpft unter das, was doppelte Genauigkeit auflöst; Nähte hinzufügen, die die Insel "
+        "flacher machen."
+    ),
+    "{count} triangles shrink below what double precision resolves; add seams that make the island flatter.": (
+        "{count} Dreiecke schrumpfen unter das, was doppelte Genauigkeit auflöst; Nähte hinzufügen, die die Insel "
+        "flacher machen."
+    ),
+    "{count} face wound the other way: reoriented.": ("{count} Fläche verkehrt herum: umgedreht."),
+    "{count} faces wound the other way: reoriented.": ("{count} Flächen verkehrt herum: umgedreht."),
+    "{count} duplicate face: placed on the first of the same vertices.": (
+        "{count} doppelte Fläche: auf die erste mit denselben Punkten gelegt."
+    ),
+    "{count} duplicate faces: placed on the first of the same vertices.": (
+        "{count} doppelte Flächen: auf die ersten mit denselben Punkten gelegt."
+    ),
+    "{count} self-intersecting polygon: split as a fan.": (
+        "{count} Polygon, das sich selbst schneidet: als Fächer geteilt."
+    ),
+    "{count} self-intersecting polygons: split as a fan.": (
+        "{count} Polygone, die sich selbst schneiden: als Fächer geteilt."
+    ),
+    "{count} degenerate triangle: given a minimal height.": ("{count} entartetes Dreieck: bekam eine Mindesthöhe."),
+    "{count} degenerate triangles: given a minimal height.": ("{count} entartete Dreiecke: bekamen eine Mindesthöhe."),
+    "The island has no area: its map is a point.": ("Die Insel hat keinen Flächeninhalt: ihre Map ist ein Punkt."),
+    "Faces with fewer than three different vertices, or with the same vertex twice in a row, cannot be unwrapped; "
+    "delete them or merge their vertices.": (
+        "Flächen mit weniger als drei verschiedenen Punkten, oder mit demselben Punkt zweimal nacheinander, lassen "
+        "sich nicht abwickeln; sie löschen oder ihre Punkte verschmelzen."
+    ),
+    "There is too little memory for this island of {count} face; close other programs.": (
+        "Für diese Insel aus {count} Fläche ist zu wenig Speicher frei; andere Programme schließen."
+    ),
+    "There is too little memory for this island of {count} faces; close other programs, or cut it into smaller ones "
+    "with seams.": (
+        "Für diese Insel aus {count} Flächen ist zu wenig Speicher frei; andere Programme schließen oder die Insel mit"
+        " Nähten in kleinere teilen."
+    ),
+    "solved with triangles thinner than 1e-5 of their length clamped to that instead.": (
+        "stattdessen gelöst, wobei Dreiecke, die dünner als 1e-5 ihrer Länge sind, diese Höhe bekamen."
+    ),
+    "solved with the boundary form 'length' instead.": ("stattdessen mit der Randform „length“ gelöst."),
+    "solved with the boundary form 'vertex' instead.": ("stattdessen mit der Randform „vertex“ gelöst."),
+    "solved with the weights 'uniform' instead.": ("stattdessen mit den Gewichten „uniform“ gelöst."),
+    "solved with the weights 'inverse_area' instead.": ("stattdessen mit den Gewichten „inverse_area“ gelöst."),
+    "replaced by an embedding, relaxed without folding it; mean QC {after}.": (
+        "durch eine Einbettung ersetzt, die ohne Falten entspannt wurde; mittlere QC {after}."
+    ),
+    "replaced by an embedding that does not cover itself, relaxed without folding it; mean QC {after}.": (
+        "durch eine Einbettung ersetzt, die sich nicht selbst überdeckt und ohne Falten entspannt wurde; mittlere QC "
+        "{after}."
+    ),
+    "Vertex {count} has a coordinate that is not finite; give it a valid position or delete it.": (
+        "Punkt {count} hat eine Koordinate, die nicht endlich ist; ihm eine gültige Position geben oder ihn löschen."
+    ),
+    "The island is non-orientable, like a Moebius strip; cut it with a seam.": (
+        "Die Insel ist nicht orientierbar, wie ein Möbiusband; sie mit einer Naht aufschneiden."
+    ),
+    "The island is closed, with {count} handle: it has no boundary to unfold from; mark seams that cut it open.": (
+        "Die Insel ist geschlossen, mit {count} Henkel: sie hat keinen Rand, von dem aus sie sich abwickeln lässt; "
+        "Nähte markieren, die sie öffnen."
+    ),
+    "The island is closed, with {count} handles: it has no boundary to unfold from; mark seams that cut it open.": (
+        "Die Insel ist geschlossen, mit {count} Henkeln: sie hat keinen Rand, von dem aus sie sich abwickeln lässt; "
+        "Nähte markieren, die sie öffnen."
+    ),
+    "The island is closed: it has no boundary to unfold from; mark seams that cut it open.": (
+        "Die Insel ist geschlossen: sie hat keinen Rand, von dem aus sie sich abwickeln lässt; Nähte markieren, die "
+        "sie öffnen."
+    ),
+    "The island has {count} handle and cannot lie flat without overlap; mark seams that cut the handle open.": (
+        "Die Insel hat {count} Henkel und kann nicht flach liegen, ohne sich zu überlappen; Nähte markieren, die ihn "
+        "aufschneiden."
+    ),
+    "The island has {count} handles and cannot lie flat without overlap; mark seams that cut the handles open.": (
+        "Die Insel hat {count} Henkel und kann nicht flach liegen, ohne sich zu überlappen; Nähte markieren, die sie "
+        "aufschneiden."
+    ),
+    "The island has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
+    "delete or rescale it.": (
+        "Die Insel hat keine Ausdehnung, die doppelte Genauigkeit fasst: alle ihre Punkte fallen zusammen oder liegen "
+        "zu weit auseinander; sie löschen oder skalieren."
+    ),
+    "The island's boundary has two vertices only, between which no map can open; mark more seams.": (
+        "Der Rand der Insel hat nur zwei Punkte, zwischen denen sich keine Map öffnen kann; mehr Nähte markieren."
+    ),
+    "The island has no area: its vertices lie on one line; delete it or move them apart.": (
+        "Die Insel hat keinen Flächeninhalt: ihre Punkte liegen auf einer Linie; sie löschen oder die Punkte "
+        "auseinanderrücken."
+    ),
+    "The area blend lowered the spread of scale by little, from {before} to {after} (log2)": (
+        "Der Flächenausgleich hat die Streuung des Maßstabs wenig gesenkt, von {before} auf {after} (log2)"
+    ),
+    "The area blend did not lower the spread of scale, {before} to {after} (log2)": (
+        "Der Flächenausgleich hat die Streuung des Maßstabs nicht gesenkt, {before} auf {after} (log2)"
+    ),
+    "{blend}; add seams, or clean up degenerate faces.": (
+        "{blend}; Nähte hinzufügen oder entartete Flächen bereinigen."
+    ),
+    "{blend}: its relaxation stopped at its bound of factorizations; add seams, or clean up degenerate faces.": (
+        "{blend}: seine Entspannung endete an ihrer Grenze von Faktorisierungen; Nähte hinzufügen oder entartete "
+        "Flächen bereinigen."
+    ),
+    "{blend}: its relaxation was held up by flipped or degenerate triangles; add seams, or clean up degenerate "
+    "faces.": (
+        "{blend}: seine Entspannung wurde von umgedrehten oder entarteten Dreiecken aufgehalten; Nähte hinzufügen oder"
+        " entartete Flächen bereinigen."
+    ),
+    "{blend}: its relaxation failed; add seams, or clean up degenerate faces.": (
+        "{blend}: seine Entspannung schlug fehl; Nähte hinzufügen oder entartete Flächen bereinigen."
+    ),
+    "The conformal energy could not be factorized, even with a shift of {after} of the boundary form": (
+        "Die konforme Energie ließ sich nicht faktorisieren, auch nicht mit einer Verschiebung um {after} der Randform"
+    ),
+    "The eigenvalue iteration did not converge": ("Die Iteration des Eigenwerts konvergierte nicht"),
+    "The map is not finite": ("Die Map ist nicht endlich"),
+    "The map shrinks the boundary to a point": ("Die Map lässt den Rand zu einem Punkt schrumpfen"),
+    "The triangles differ so much in size or shape that double precision does not resolve the map": (
+        "Die Dreiecke sind so verschieden groß oder geformt, dass doppelte Genauigkeit die Map nicht auflöst"
+    ),
+    "The map has no positive area": ("Die Map hat keinen positiven Flächeninhalt"),
+    "The boundary of the map winds round {count} times instead of once": (
+        "Der Rand der Map läuft {count}-mal herum statt einmal"
+    ),
+    "No embedding into a circle could be solved for in double precision": (
+        "Eine Einbettung in einen Kreis ließ sich in doppelter Genauigkeit nicht lösen"
+    ),
+    "The island is too large: its factor would have more than {count} entries": (
+        "Die Insel ist zu groß: ihr Faktor hätte mehr als {count} Einträge"
+    ),
+    "CHOLMOD reported status {count}": ("CHOLMOD meldete den Status {count}"),
+    "The pinned conformal energy is singular in double precision": (
+        "Die konforme Energie mit Pins ist in doppelter Genauigkeit singulär"
+    ),
+    "The pinned map is not finite": ("Die Map mit Pins ist nicht endlich"),
+    "The pinned map shrinks the boundary to a point": ("Die Map mit Pins lässt den Rand zu einem Punkt schrumpfen"),
+    "The pinned map does not satisfy its equations in double precision": (
+        "Die Map mit Pins erfüllt ihre Gleichungen in doppelter Genauigkeit nicht"
+    ),
+    "The pinned map has no positive area": ("Die Map mit Pins hat keinen positiven Flächeninhalt"),
+    "{reason}, in {attempts} attempts with different shifts and starts": (
+        "{reason}, in {attempts} Versuchen mit verschiedenen Verschiebungen und Anfängen"
+    ),
+    "cut it into smaller islands with seams.": ("sie mit Nähten in kleinere Inseln teilen."),
+    "please report this with the mesh.": ("bitte mit dem Mesh melden."),
+    "add seams that make the island flatter.": ("Nähte hinzufügen, die die Insel flacher machen."),
+    "the island has too many degenerate triangles; merge vertices by distance or dissolve degenerate faces.": (
+        "die Insel hat zu viele entartete Dreiecke; Punkte nach Abstand verschmelzen oder entartete Flächen auflösen."
+    ),
+    "add seams that make the island flatter, or clean up degenerate faces.": (
+        "Nähte hinzufügen, die die Insel flacher machen, oder entartete Flächen bereinigen."
+    ),
+    "the island has degenerate triangles or pins that coincide in 3D; clean the mesh or pin other vertices.": (
+        "die Insel hat entartete Dreiecke oder Pins, die in 3D zusammenfallen; das Mesh bereinigen oder andere Punkte "
+        "pinnen."
+    ),
+    "pin other vertices, or merge vertices by distance.": (
+        "andere Punkte pinnen oder Punkte nach Abstand verschmelzen."
+    ),
+    "use the spectral method, or pin other vertices.": ("die Methode „Spektral“ verwenden oder andere Punkte pinnen."),
+    "clean up degenerate faces, cut an island that is very long, or pin other vertices.": (
+        "entartete Flächen bereinigen, eine sehr lange Insel teilen oder andere Punkte pinnen."
+    ),
+    "lower the hole rigidity.": ("die Steifheit der Löcher senken."),
+    "weaken or remove extenders.": ("Extender schwächen oder entfernen."),
+    "weaken or remove extenders, or lower the hole rigidity.": (
+        "Extender schwächen oder entfernen, oder die Steifheit der Löcher senken."
+    ),
+    "{reason}: {consequence}": ("{reason}: {consequence}"),
     # What does not run.
     "The compiled module spectral_conformal cannot be imported; install the Spectral Unwrap package for this "
     "platform and Blender version ({reason})": (

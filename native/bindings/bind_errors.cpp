@@ -14,16 +14,24 @@ namespace py = pybind11;
 void bind_errors(pybind11::module_& module) {
   // Local to this module: a bundled copy and an installed one may be loaded side by side.
   pybind11::register_local_exception<InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
-  // The class that SolveFailure is raised as, with its step: the sentence is made in Python.
-  static PyObject* solve_error = nullptr;
-  module.def("raise_solve_failures_as", [](const py::object& type) { solve_error = py::object(type).release().ptr(); });
+  static PyObject* const invalid_mesh = module.attr("InvalidMeshError").ptr();
+  // The class that SolveFailure is raised as, with its step, and what puts the step of an InvalidMesh into words.
+  static PyObject* solve_error = PyExc_RuntimeError;
+  static PyObject* describe = nullptr;
+  module.def("put_errors_into_words", [](py::object type, py::object words) {
+    solve_error = type.release().ptr();
+    describe = words.release().ptr();
+  });
   pybind11::register_local_exception<Cancelled>(module, "Cancelled", PyExc_Exception);
   // pybind11 would make it a MemoryError that says "std::bad_alloc".
   pybind11::register_local_exception_translator([](std::exception_ptr problem) {
     try {
       if (problem) std::rethrow_exception(problem);
     } catch (const SolveFailure& failure) {
-      PyErr_SetObject(solve_error ? solve_error : PyExc_RuntimeError, steps_of({failure.step()}).ptr());
+      PyErr_SetObject(solve_error, steps_of({failure.step()}).ptr());
+    } catch (const InvalidMesh& broken) {
+      if (!broken.step() || !describe) throw;
+      PyErr_SetObject(invalid_mesh, py::handle(describe)(steps_of({*broken.step()})).ptr());
     } catch (const std::bad_alloc&) {
       PyErr_SetString(
           PyExc_MemoryError,

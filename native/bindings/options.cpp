@@ -75,7 +75,14 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"winding", Rejection::winding},
                                           {"no_embedding", Rejection::no_embedding},
                                           {"too_large", Rejection::too_large},
-                                          {"library_failed", Rejection::library_failed}};
+                                          {"library_failed", Rejection::library_failed},
+                                          {"vertex_not_finite", Rejection::vertex_not_finite},
+                                          {"not_orientable", Rejection::not_orientable},
+                                          {"closed", Rejection::closed},
+                                          {"handles", Rejection::handles},
+                                          {"no_extent", Rejection::no_extent},
+                                          {"border_of_two", Rejection::border_of_two},
+                                          {"no_surface", Rejection::no_surface}};
 constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
                                             {"extenders", Constraint::extenders},
                                             {"rigidity", Constraint::rigidity},

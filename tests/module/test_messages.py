@@ -5,6 +5,7 @@ import pickle
 from string import Formatter
 from typing import get_args
 
+import numpy as np
 import pytest
 import spectral_conformal as sc
 from spectral_conformal import _messages
@@ -67,7 +68,20 @@ def test_failures_name_their_reason_and_what_to_do():
 @pytest.mark.parametrize("reason", get_args(get_args(_messages.Reason)[0]))
 def test_every_failure_is_a_sentence(reason, constraint):
     text = said(rejected(reason, constraint, count=3))
-    assert text.endswith(".") and text[0].isupper() and ": " in text
+    assert text.endswith(".") and text[0].isupper() and "{" not in text
+    assert ": " in text or "; " in text
+
+
+def test_conditions_of_charts_name_what_to_do():
+    assert said(rejected("closed")) == (
+        "The island is closed: it has no boundary to unfold from; mark seams that cut it open."
+    )
+    assert said(rejected("closed", count=2)).startswith("The island is closed, with 2 handles: it has")
+    assert said(rejected("handles", count=1)).startswith("The island has 1 handle and cannot lie flat")
+    with pytest.raises(sc.InvalidMeshError, match="^The island is closed: it has no boundary"):
+        sc.parameterize(np.eye(4, 3), [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+    (chart,) = sc.unwrap(np.eye(4, 3), [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]).charts
+    assert (chart.steps, chart.message) == ((sc.Step("rejected", "closed"),), said(rejected("closed")))
 
 
 def test_fallbacks_follow_their_reason():

@@ -2,8 +2,9 @@
 """Totals over the charts of several meshes."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from ..words.translation import translate
 
 # Squares of a texture become rectangles of twice their width, which is obvious in spite of a good average.
 STRAINED_QC = 2.0
+# Reasons for which the solver rejects charts that more seams would cut open.
+_LACK_OF_SEAMS = {"closed", "handles", "border_of_two"}
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,7 @@ class Summary:
         repairs: how many charts were solved after each repair or fallback.
         pinned: how many charts with two or more pins were solved by each method.
         refused: why meshes were refused as a whole, one "name: reason" each.
+        lacks_seams: whether charts failed for lack of seams.
     """
 
     solved: int
@@ -48,16 +52,12 @@ class Summary:
     repairs: Counter[str]
     pinned: Counter[str]
     refused: tuple[str, ...]
+    lacks_seams: bool = False
 
     @property
     def failed(self) -> int:
         """Number of failed charts."""
         return sum(self.failures.values())
-
-    @property
-    def lacks_seams(self) -> bool:
-        """Whether charts failed for lack of seams, by the words of the solver's reasons."""
-        return any({"mark", "seams"} <= set(reason.lower().split()) for reason in self.failures)
 
 
 def mean_qc(solutions: Sequence[Solution]) -> float:
@@ -79,7 +79,8 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
 
     solved = are_solved(solutions)
     unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
-    messages = of("message")
+    messages, steps = of("message"), _steps_of_messages(solutions)
+    reasons = {step.reason for message in set(messages[~solved].tolist()) for step in steps[message]}
     return Summary(
         solved=int(np.count_nonzero(solved)),
         mean_qc=mean_qc(solutions),
@@ -90,14 +91,34 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         unfolded=sum(of("unfolded")[unfolded].tolist()),
         embedded=sum(of("is_embedding")[unfolded].tolist()),
         mean_qc_change=_mean_qc_change(*(of(name)[unfolded] for name in ("mean_qc_before", "mean_qc", "area"))),
-        failures=Counter(messages[~solved].tolist()),
+        failures=_counted(messages[~solved].tolist(), steps),
         # Unfolding is reported by a sentence of its own.
-        repairs=Counter(filter(None, messages[solved & ~unfolded].tolist())),
+        repairs=_counted(filter(None, messages[solved & ~unfolded].tolist()), steps),
         pinned=Counter(of("method")[solved & (of("n_pins") > 1)].tolist()),
         refused=tuple(
             f"{name}: {translate(solution.error)}" for solution, name in zip(solutions, names) if solution.error
         ),
+        lacks_seams=not reasons.isdisjoint(_LACK_OF_SEAMS),
     )
+
+
+def _steps_of_messages(solutions: Sequence[Solution]) -> dict[str, Sequence[Any]]:
+    """Return the solver's steps that each of its messages means; none for those without steps."""
+    steps: dict[str, Sequence[Any]] = {"": ()}
+    for solution in solutions:
+        for i, message in enumerate(solution.column("message").tolist()):
+            if message not in steps:
+                steps[message] = solution.charts[i].steps
+    return steps
+
+
+def _counted(messages: Iterable[str], steps: dict[str, Sequence[Any]]) -> Counter[str]:
+    """Count messages, in the language of the user."""
+    describe = native.spectral_conformal().describe
+    counts: Counter[str] = Counter()
+    for message, count in Counter(messages).items():
+        counts[describe(steps[message], translate) or message] += count
+    return counts
 
 
 def _mean_qc_change(before: np.ndarray, after: np.ndarray, area: np.ndarray) -> tuple[float, float] | None:

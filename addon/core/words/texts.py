@@ -5,8 +5,8 @@ A chart is an island here, as in Blender. A function that returns an empty text 
 
 Every text is a key of the tables in addon/locale/, with named fields for values. The functions translate their
 sentences and the labels that they get. The constants are English: Blender translates labels and descriptions itself;
-everything else goes through `translation.translate` where it is shown. Reasons and names of phases, which the solver
-returns, stay English.
+everything else goes through `translation.translate` where it is shown. The tables have the solver's sentences, too
+(`measure/summary.py`); names of phases stay English.
 """
 
 from __future__ import annotations

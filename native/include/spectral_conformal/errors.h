@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 
 #include "spectral_conformal/step.h"
@@ -10,6 +11,12 @@ namespace spectral_conformal {
 class InvalidMesh : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
+  explicit InvalidMesh(const Step& step) : std::invalid_argument("no map of the mesh can be made"), step_(step) {}
+  /// The condition that a chart breaks (chart_checks.h), of StepKind::rejected; empty where the message has it.
+  const std::optional<Step>& step() const { return step_; }
+
+ private:
+  std::optional<Step> step_;
 };
 
 /// The input is valid, but no result passed the numerical checks within the bounded number of attempts.

@@ -26,7 +26,7 @@ enum class BoundaryMeasure {
 /// A soft constraint of section 4.2 that pushes two vertices apart (strength > 0) or pulls them together (strength <
 /// 0).
 struct Extender {
-  std::vector<int> from;  ///< one vertex; or its copies along a seam, which count as their barycentre
+  std::vector<int> from;  ///< one vertex; or its copies along a seam, which count as their barycenter
   std::vector<int> to;
   double strength = 0;  ///< fraction of 1^T M 1: the same number means the same at any resolution and scale
 };

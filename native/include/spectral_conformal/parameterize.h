@@ -134,7 +134,7 @@ class Solver {
   Solver& operator=(Solver&& other) noexcept;
 
   /// Blends the metric where that was asked for, and factors L + s M, raising s a hundredfold while rounding breaks the
-  /// factorisation (bounded). Throws SolveFailure. Called by solve where needed.
+  /// factorization (bounded). Throws SolveFailure. Called by solve where needed.
   void factorize(const Progress& progress = {});
 
   /// pins: of chart vertices. Without pins (for Method::lscm: two farthest boundary vertices) the map is placed (see
@@ -146,12 +146,12 @@ class Solver {
   /// method a turning number of 1, or -1 where the longest loop in 3D is a hole of the map. An eigenvector that fails
   /// is solved again with another start and, unless it was raised already, a larger shift, then, where
   /// SolveOptions::fallbacks allows it (spectral only), gives way to the best of some other maps (fallbacks.h); the
-  /// fields of the result and `message` say which. Extenders and hole rigidity change the form
+  /// fields of the result and its steps say which. Extenders and hole rigidity change the form
   /// B of Method::spectral and leave the factor; a solve with them has no fallbacks, and fails where they are so strong
   /// that the map winds round more than once. What was solved before changes nothing, except that with a tolerance
   /// above 1e-7, less than single precision stores, a solve with them starts from the earlier maps. With `fold_free`
   /// flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced by an embedding;
-  /// `message` says what was done, what that cost, and where it could not be done.
+  /// steps say what was done, what that cost, and where it could not be done.
   ///
   /// Throws SolveFailure when nothing passes, InvalidMesh for pins or forces that the method does not take or that all
   /// have one position, and Cancelled.

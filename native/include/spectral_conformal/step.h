@@ -6,19 +6,27 @@
 
 namespace spectral_conformal {
 
-/// Why a map is not accepted.
+/// Why a map is not accepted, or why there can be none.
 enum class Rejection {
   none,
   not_factorized,  ///< L + s M, or the free part of L, is not positive definite in double precision
   not_converged,   ///< the eigenvalue iteration did not get near enough for the corrections
   not_finite,
-  collapsed,      ///< the boundary shrinks to a point: no quotient of Eq. 5
-  unresolved,     ///< it does not satisfy its equations in double precision
-  no_area,        ///< the signed area is not positive
-  winding,        ///< the boundary does not wind round once
-  no_embedding,   ///< no embedding into a circle could be solved for
-  too_large,      ///< the factor has more entries than int can number
-  library_failed  ///< the library of the factorisation reported an error
+  collapsed,       ///< the boundary shrinks to a point: no quotient of Eq. 5
+  unresolved,      ///< it does not satisfy its equations in double precision
+  no_area,         ///< the signed area is not positive
+  winding,         ///< the boundary does not wind round once
+  no_embedding,    ///< no embedding into a circle could be solved for
+  too_large,       ///< the factor has more entries than int can number
+  library_failed,  ///< the library of the factorization reported an error
+  // Conditions that a chart breaks (chart_checks.h).
+  vertex_not_finite,  ///< count: the vertex
+  not_orientable,
+  closed,         ///< count: handles
+  handles,        ///< count
+  no_extent,      ///< that double precision can hold
+  border_of_two,  ///< vertices, between which no map can open
+  no_surface      ///< the vertices lie on one line
 };
 
 /// The constraints that a map was solved with, and that may be the reason for what is wrong with it.
@@ -66,7 +74,7 @@ struct Step {
   std::optional<RelaxationStatus> relaxation = {};
 };
 
-/// Of a map that is rejected for a reason that needs no numbers.
+/// Of a map that is rejected, or of a chart that can have none; count: see Rejection.
 inline Step rejected(Rejection reason, int count = 0) { return {StepKind::rejected, reason, count}; }
 inline Step counted(StepKind kind, int count) { return {kind, Rejection::none, count}; }
 inline Step changed(StepKind kind, double before, double after, int count = 0) {

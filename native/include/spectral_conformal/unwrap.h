@@ -15,7 +15,7 @@ namespace spectral_conformal {
 class KeptMaps;
 
 /// An extender (section 4.2) between two mesh vertices. It acts in every chart that has copies of both; where a seam
-/// gives a vertex several copies in one chart, on their barycentre, so that symmetric meshes keep symmetric maps.
+/// gives a vertex several copies in one chart, on their barycenter, so that symmetric meshes keep symmetric maps.
 struct VertexExtender {
   int from = 0;
   int to = 0;
@@ -69,7 +69,7 @@ struct Unwrap {
   std::vector<std::pair<std::string, double>> timings;
 };
 
-/// Cuts a polygon mesh into charts and parameterises each. What one chart cannot do never stops the others: it is
+/// Cuts a polygon mesh into charts and parameterizes each. What one chart cannot do never stops the others: it is
 /// reported as failed, also where there is too little memory for it, unless that is so of all charts; degenerate faces
 /// together make one failed chart, the last. Each chart is placed as by place().
 /// Pins are those of mesh vertices, on all of their copies, and of corners (which win). A chart with several is solved

@@ -29,9 +29,9 @@ bring an OpenBLAS of their own, which is not touched; `build_info()["blas"]` nam
 from . import _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
-from ._messages import SolveError, Step, describe, message_templates
+from ._messages import SolveError, Step, describe, describe_native, message_templates
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
-from ._native import Cancelled, InvalidMeshError, raise_solve_failures_as
+from ._native import Cancelled, InvalidMeshError, put_errors_into_words
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, map_defects
@@ -42,7 +42,7 @@ from ._unwrapping import Unwrapper, unwrap
 
 __version__: str = _native.VERSION
 
-raise_solve_failures_as(SolveError)
+put_errors_into_words(SolveError, describe_native)
 
 __all__ = [
     "Cancelled",

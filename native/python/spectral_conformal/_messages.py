@@ -47,6 +47,13 @@ Reason = Optional[
         "no_embedding",
         "too_large",
         "library_failed",
+        "vertex_not_finite",
+        "not_orientable",
+        "closed",
+        "handles",
+        "no_extent",
+        "border_of_two",
+        "no_surface",
     ]
 ]
 Constraint = Optional[Literal["pins", "extenders", "rigidity", "extenders_and_rigidity"]]
@@ -70,7 +77,8 @@ class Step:
     reason: Reason = None
     """Why a map was rejected."""
     count: int = 0
-    """Of triangles or faces; the turning number of what winds; the status of a library that failed."""
+    """Of triangles, faces or handles; the vertex that is not finite; the turning number of what winds; the status of a
+    library that failed."""
     attempts: int = 0
     """At the problem whose map was rejected."""
     before: float = 0.0
@@ -203,6 +211,30 @@ _PINNED_REASONS = {
     "unresolved": "The pinned map does not satisfy its equations in double precision",
     "no_area": "The pinned map has no positive area",
 }
+# Conditions that a chart breaks, and what to do.
+_CONDITIONS: dict[str, tuple[str, ...]] = {
+    "vertex_not_finite": (
+        "Vertex {count} has a coordinate that is not finite; give it a valid position or delete it.",
+    ),
+    "not_orientable": ("The island is non-orientable, like a Moebius strip; cut it with a seam.",),
+    "closed": (
+        "The island is closed, with {count} handle: it has no boundary to unfold from; mark seams that cut it open.",
+        "The island is closed, with {count} handles: it has no boundary to unfold from; mark seams that cut it open.",
+    ),
+    "closed_without_handles": (
+        "The island is closed: it has no boundary to unfold from; mark seams that cut it open.",
+    ),
+    "handles": (
+        "The island has {count} handle and cannot lie flat without overlap; mark seams that cut the handle open.",
+        "The island has {count} handles and cannot lie flat without overlap; mark seams that cut the handles open.",
+    ),
+    "no_extent": (
+        "The island has no extent that double precision can hold: all of its vertices coincide or lie too far apart; "
+        "delete or rescale it.",
+    ),
+    "border_of_two": ("The island's boundary has two vertices only, between which no map can open; mark more seams.",),
+    "no_surface": ("The island has no area: its vertices lie on one line; delete it or move them apart.",),
+}
 _REPEATED = "{reason}, in {attempts} attempts with different shifts and starts"
 _ADVICE = {
     "too_large": "cut it into smaller islands with seams.",
@@ -266,9 +298,14 @@ def describe(steps: Iterable[Step], translate: Translate = str) -> str:
     return " ".join(sentences)
 
 
+def describe_native(steps: Iterable[tuple]) -> str:
+    """Return what steps that the native module has as tuples mean."""
+    return describe(steps_of(steps))
+
+
 def message_templates() -> Iterator[str]:
     """Go through the templates that `describe` has looked up."""
-    for forms in (*_SENTENCES.values(), *_STAND_INS.values()):
+    for forms in (*_SENTENCES.values(), *_STAND_INS.values(), *_CONDITIONS.values()):
         yield from forms
     for texts in (_RELAXATIONS, _REASONS, _PINNED_REASONS, _ADVICE):
         yield from texts.values()
@@ -305,6 +342,9 @@ def _reason(step: Step, translate: Translate) -> str:
 
 def _failure(step: Step, translate: Translate) -> str:
     """Return why there is no map, and what to do about it."""
+    if step.reason in _CONDITIONS:
+        is_plain = step.reason == "closed" and not step.count
+        return _filled(_CONDITIONS["closed_without_handles" if is_plain else step.reason], step, translate)
     constraint = step.constraint or ""
     keys = (f"{constraint} {step.reason}", constraint) if constraint else (step.reason or "", "")
     advice = next(_ADVICE[key] for key in keys if key in _ADVICE)

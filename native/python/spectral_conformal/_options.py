@@ -46,7 +46,7 @@ class Options:
             similarity that fits it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: pins are
             hard.
         hole_rigidity: 0 to 1e4, for "spectral": how strongly every boundary loop but the longest is kept from shrinking
-            to a point, as a soft constraint about its barycentre (section 4.2). At 1 a hole counts like the outer
+            to a point, as a soft constraint about its barycenter (section 4.2). At 1 a hole counts like the outer
             boundary. Without extenders and soft pins it is lowered as far as a map without flipped triangles asks for.
             "automatic": chosen for each patch by the mean QC, 0 where another constraint, a `metric` or an `area_blend`
             acts. The result's `hole_rigidity` says what was taken.

@@ -299,7 +299,7 @@ class Charts(Sequence[Chart]):
 
 @dataclass(frozen=True)
 class Unwrap:
-    """A polygon mesh unwrapped chart by chart. Charts are not packed: each is centred at the origin, or at its pins."""
+    """A polygon mesh unwrapped chart by chart. Charts are not packed: each lies around the origin, or at its pins."""
 
     uv: npt.NDArray[np.float64]
     """(C, 2) per face corner, 0 where not solved."""

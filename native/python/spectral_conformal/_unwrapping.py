@@ -59,7 +59,7 @@ def unwrap(
             and goes before `pins`.
         corner_uv: (C, 2) the map so far, finite where pinned; needed with `pinned_corners`.
         extenders: as in `parameterize`, of mesh vertices. An extender acts in every chart that has copies of both
-            vertices; where a seam gives a vertex several copies in one chart, it acts on their barycentre. One whose
+            vertices; where a seam gives a vertex several copies in one chart, it acts on their barycenter. One whose
             vertices lie in no common chart has no effect, like all in a chart held by hard pins, where the hole
             rigidity has none either: `Unwrap.unused_extenders` says which.
         metric: (faces, 3, 3) symmetric tensor of space for each face: a tangent vector t gets the squared length t G t

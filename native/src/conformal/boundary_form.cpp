@@ -4,7 +4,7 @@
 
 namespace spectral_conformal {
 
-Complex BoundaryForm::barycentre(const ComplexVector& z) const {
+Complex BoundaryForm::barycenter(const ComplexVector& z) const {
   Complex sum = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) sum += mass[i] * z[vertices[i]];
   return sum / total();
@@ -12,15 +12,15 @@ Complex BoundaryForm::barycentre(const ComplexVector& z) const {
 
 void BoundaryForm::add_applied(const ComplexVector& z, double factor, ComplexVector& result) const {
   // B^ z = M z - M 1 (1^T M z) / (1^T M 1) (Eq. 7)
-  const Complex mean = barycentre(z);
+  const Complex mean = barycenter(z);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     result[vertices[i]] += factor * mass[static_cast<Eigen::Index>(i)] * (z[vertices[i]] - mean);
   }
 }
 
 double BoundaryForm::value(const ComplexVector& z) const {
-  // z^H B^ z: u^T B u of Eq. 6, z taken about its barycentre
-  const Complex centre = barycentre(z);
+  // z^H B^ z: u^T B u of Eq. 6, z taken about its barycenter
+  const Complex centre = barycenter(z);
   double result = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) result += mass[i] * std::norm(z[vertices[i]] - centre);
   return result;

@@ -12,10 +12,10 @@ struct BoundaryForm {
   std::vector<int> vertices;                         ///< distinct
   Eigen::VectorXd mass;                              ///< (vertices.size(),), positive
   double total() const { return mass.sum(); }        ///< 1^T M 1
-  Complex barycentre(const ComplexVector& z) const;  ///< 1^T M z / 1^T M 1
+  Complex barycenter(const ComplexVector& z) const;  ///< 1^T M z / 1^T M 1
   /// result += factor B^ z; both (V,).
   void add_applied(const ComplexVector& z, double factor, ComplexVector& result) const;
-  /// z^H B^ z, summed about the barycentre so that a constant adds no rounding.
+  /// z^H B^ z, summed about the barycenter so that a constant adds no rounding.
   double value(const ComplexVector& z) const;
 };
 

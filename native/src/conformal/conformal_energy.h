@@ -36,7 +36,7 @@ class ConformalEnergy {
   /// Gives thin triangles a relative_height of at least this, in the energy only. Returns how many. All or nothing.
   int clamp(double min_height);
 
-  /// L, assembled by each call: it is large, and needed for a factorisation only.
+  /// L, assembled by each call: it is large, and needed for a factorization only.
   HermitianMatrix matrix() const;
   double max_diagonal() const;  ///< largest diagonal entry of L, summed up by each call
   int n_vertices() const { return n_vertices_; }

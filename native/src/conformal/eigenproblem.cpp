@@ -21,7 +21,7 @@ namespace {
 /// As many solves as a few restarts of Lanczos take, without its failures on tiny spaces.
 constexpr int dense_limit = 24;
 
-/// What left an operator by an exception while Spectra ran: the caller's progress function, a factorisation, a lack of
+/// What left an operator by an exception while Spectra ran: the caller's progress function, a factorization, a lack of
 /// memory. Spectra reports failures of its own as std::runtime_error, which such an exception may be as well.
 class Interruption {
  public:

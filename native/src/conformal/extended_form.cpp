@@ -3,7 +3,7 @@
 namespace spectral_conformal {
 namespace {
 
-Complex barycentre(const std::vector<int>& indices, const ComplexVector& x) {
+Complex barycenter(const std::vector<int>& indices, const ComplexVector& x) {
   Complex sum = 0;
   for (const int index : indices) sum += x[index];
   return sum / static_cast<double>(indices.size());
@@ -51,7 +51,7 @@ ComplexVector ExtendedForm::restrict(const ComplexVector& z) const {
 }
 
 Complex ExtendedForm::Difference::value(const ComplexVector& x) const {
-  return barycentre(from, x) - barycentre(to, x);
+  return barycenter(from, x) - barycenter(to, x);
 }
 
 void ExtendedForm::apply(const ComplexVector& x, ComplexVector& result) const {

@@ -12,7 +12,7 @@ namespace spectral_conformal {
 /// The form B of Eq. 5 with the soft constraints of section 4.2,
 ///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,
 /// of which extenders with alpha < 0 and attracting pins make an indefinite one. It acts on a few vertices only, its
-/// support, and vanishes on constants. B^_l is the spread of a boundary loop about its own barycentre: what remains
+/// support, and vanishes on constants. B^_l is the spread of a boundary loop about its own barycenter: what remains
 /// of the paper's rigid hole when the fake vertex, which has no conformal energy of its own, is eliminated.
 class ExtendedForm {
  public:
@@ -20,7 +20,7 @@ class ExtendedForm {
 
   /// Extenders that join a group with itself, or of strength 0, have no effect, but are part of the support.
   void add_extender(const Extender& extender);
-  /// Adds beta times the spread of `loop` about its own barycentre.
+  /// Adds beta times the spread of `loop` about its own barycenter.
   void add_spread(const BoundaryForm& loop, double beta);
   void add_attraction(const PinAttraction& attraction);
 

@@ -13,7 +13,7 @@ struct PinnedSolution {
   double residual = 0;        ///< |L z| over the free vertices / (largest diagonal entry x extent of the map)
 };
 
-/// Pinned LSCM, which is DCP (section 2.2): minimises E_C with the pinned vertices held, L_ff z_f = -L_fp z_p, followed
+/// Pinned LSCM, which is DCP (section 2.2): minimizes E_C with the pinned vertices held, L_ff z_f = -L_fp z_p, followed
 /// by iterative refinement, or, where that does not resolve z, as on long strips, by conjugate gradients that the
 /// factor preconditions. Precondition: at least two pins. Throws Cancelled, and what Factorization throws.
 PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,

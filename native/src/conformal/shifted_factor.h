@@ -17,7 +17,7 @@ struct ShiftedFactor {
 };
 
 /// Factors L + s M with s = relative_shift times the median of L_ii / M_ii over the vertices with mass, raised a
-/// hundredfold, at most four times, while rounding breaks the factorisation. L is singular (L 1 = 0), so that a
+/// hundredfold, at most four times, while rounding breaks the factorization. L is singular (L 1 = 0), so that a
 /// form without mass has no factor; the shift by the form itself leaves the eigenvectors of Eq. 5 as they are. Throws
 /// Cancelled, and what Factorization throws.
 /// matrix: L, used up. positions: (V, 3), of its rows. analyzed: of a matrix with the structure of L, to be used

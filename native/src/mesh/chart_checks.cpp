@@ -10,8 +10,6 @@
 namespace spectral_conformal {
 namespace {
 
-std::string handles(int genus) { return std::to_string(genus) + (genus == 1 ? " handle" : " handles"); }
-
 // Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal numbers
 // too.
 constexpr double least_extent = 1e-100;
@@ -41,35 +39,20 @@ bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& position
   return !(area > min_area);
 }
 
-std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
+std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    if (!positions.row(v).allFinite()) {
-      return "Vertex " + std::to_string(chart.vertices[v]) +
-             " has a coordinate that is not finite; give it a valid position or delete it.";
-    }
+    if (!positions.row(v).allFinite()) return rejected(Rejection::vertex_not_finite, chart.vertices[v]);
   }
-  if (!chart.orientable) return "The island is non-orientable, like a Moebius strip; cut it with a seam.";
-  if (chart.boundary_loops.empty()) {
-    return "The island is closed" + (chart.genus() > 0 ? ", with " + handles(chart.genus()) : std::string()) +
-           ": it has no boundary to unfold from; mark seams that cut it open.";
-  }
-  if (chart.genus() > 0) {
-    return "The island has " + handles(chart.genus()) +
-           " and cannot lie flat without overlap; mark seams that cut the handles open.";
-  }
+  if (!chart.orientable) return rejected(Rejection::not_orientable);
+  if (chart.boundary_loops.empty()) return rejected(Rejection::closed, chart.genus());
+  if (chart.genus() > 0) return rejected(Rejection::handles, chart.genus());
   const double extent = extent_of(positions);
-  if (!(extent > least_extent && extent < largest_extent)) {
-    return "The island has no extent that double precision can hold: all of its vertices coincide or lie too far "
-           "apart; "
-           "delete or rescale it.";
-  }
+  if (!(extent > least_extent && extent < largest_extent)) return rejected(Rejection::no_extent);
   if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
-    return "The island's boundary has two vertices only, between which no map can open; mark more seams.";
+    return rejected(Rejection::border_of_two);
   }
-  if (has_no_area(chart, positions)) {
-    return "The island has no area: its vertices lie on one line; delete it or move them apart.";
-  }
-  return "";
+  if (has_no_area(chart, positions)) return rejected(Rejection::no_surface);
+  return std::nullopt;
 }
 
 Chart single_chart(const PolygonMesh& mesh) {

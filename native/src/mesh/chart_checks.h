@@ -1,16 +1,16 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "mesh/charts.h"
+#include "spectral_conformal/step.h"
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
 
-/// Why a chart cannot be parameterised (closed, non-orientable, handles, a boundary of two vertices, non-finite
-/// coordinate, no area), naming the condition and what to do, or "" when it can. Holes are allowed. positions (V, 3) of
-/// its vertices.
-std::string why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions);
+/// Why a chart cannot be parameterized (closed, non-orientable, handles, a boundary of two vertices, non-finite
+/// coordinate, no area), of StepKind::rejected; none where it can. Holes are allowed. positions (V, 3) of its vertices.
+std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref<const Positions>& positions);
 
 /// Whether the triangles of a chart have no area, up to rounding: its vertices lie on one line or coincide. False where
 /// a coordinate is not finite or the extent's square is not. positions (V, 3) of its vertices.

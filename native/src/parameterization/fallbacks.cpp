@@ -104,9 +104,9 @@ class FallbackSearch {
   const SpectralProblem& problem() const { return task_.patch.problem; }
   void consider(PatchMap&& map) {
     const Cost cost = cost_of(*problem().patch, map.result.z);
-    if (best_ && !(cost < least_)) return;
+    if (best_ && !(cost < best_cost_)) return;
     best_ = std::move(map);
-    least_ = cost;
+    best_cost_ = cost;
   }
 
   const SolveTask& task_;
@@ -114,7 +114,7 @@ class FallbackSearch {
   const SolveOptions& options_;
   const Progress& progress_;
   std::optional<PatchMap> best_;
-  Cost least_;
+  Cost best_cost_;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double reduction = 4;
 /// Below, holes are as free as without: the form of the outer loop outweighs theirs a thousandfold.
-constexpr double least_rigidity = 1e-3;
+constexpr double min_rigidity = 1e-3;
 /// A mean QC up to which rigidity is not worth its solves.
 constexpr double hardly_distorted = 1.02;
 
@@ -31,7 +31,7 @@ Quality quality_of(const NormalizedPatch& patch, const SpectralMap& map) {
 
 std::vector<double> lowered_from(double rigidity) {
   std::vector<double> result;
-  for (; rigidity >= least_rigidity; rigidity /= reduction) result.push_back(rigidity);
+  for (; rigidity >= min_rigidity; rigidity /= reduction) result.push_back(rigidity);
   if (result.empty()) result.push_back(rigidity);
   return result;
 }
@@ -55,7 +55,7 @@ class RigiditySearch {
         continue;
       }
       const Quality quality = quality_of(*problem_.patch, map);
-      if (found_ && quality.flipped >= least_.flipped) continue;
+      if (found_ && quality.flipped >= best_quality_.flipped) continue;
       take(std::move(map), each, quality);
       if (quality.flipped == 0) break;
     }
@@ -68,10 +68,10 @@ class RigiditySearch {
     if (!problem_.is_factored()) return std::move(best_);
     double worst = std::numeric_limits<double>::infinity();
     if (best_.map.rejection == Rejection::none) {
-      least_ = quality_of(*problem_.patch, best_.map);
+      best_quality_ = quality_of(*problem_.patch, best_.map);
       found_ = true;
-      if (least_.flipped == 0 && least_.mean_qc <= hardly_distorted) return std::move(best_);
-      worst = 2 * least_.max_qc;
+      if (best_quality_.flipped == 0 && best_quality_.mean_qc <= hardly_distorted) return std::move(best_);
+      worst = 2 * best_quality_.max_qc;
     }
     for (const double rigidity : {0.1, 0.3, 1.0, 3.0, 10.0}) {
       SpectralMap map = solve(rigidity);
@@ -79,9 +79,11 @@ class RigiditySearch {
       const Quality quality = quality_of(*problem_.patch, map);
       // Where that of rigidity 0 is refused, only a map without flipped triangles is better than what fallbacks.h
       // finds.
-      const bool is_better =
-          found_ ? quality.flipped <= least_.flipped && quality.mean_qc < least_.mean_qc : quality.flipped == 0;
-      if (!is_better || quality.max_qc > worst || (found_ && quality.may_cover_itself && !least_.may_cover_itself))
+      const bool is_better = found_
+                                 ? quality.flipped <= best_quality_.flipped && quality.mean_qc < best_quality_.mean_qc
+                                 : quality.flipped == 0;
+      if (!is_better || quality.max_qc > worst ||
+          (found_ && quality.may_cover_itself && !best_quality_.may_cover_itself))
         continue;
       if (found_ && best_.rigidity == 0) best_.free = std::move(best_.map);
       take(std::move(map), rigidity, quality);
@@ -105,7 +107,7 @@ class RigiditySearch {
   void take(SpectralMap&& map, double rigidity, const Quality& quality) {
     best_.map = std::move(map);
     best_.rigidity = rigidity;
-    least_ = quality;
+    best_quality_ = quality;
     found_ = true;
   }
 
@@ -114,8 +116,8 @@ class RigiditySearch {
   const Progress& progress_;
   Timings& timings_;
   RigidMap best_;
-  Quality least_;       ///< of the best
-  bool found_ = false;  ///< whether it passes its checks
+  Quality best_quality_;  ///< of the best
+  bool found_ = false;    ///< whether it passes its checks
 };
 
 }  // namespace

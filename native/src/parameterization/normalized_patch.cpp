@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
+#include <optional>
 
 #include "geometry/quad_splits.h"
 #include "mesh/boundary_loops.h"
@@ -27,8 +27,7 @@ std::vector<T> joined(const std::vector<T>& first, const std::vector<T>& second)
 }  // namespace
 
 NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions, bool fill_holes) {
-  const std::string problem = why_not_parameterizable(chart, positions);
-  if (!problem.empty()) throw InvalidMesh(problem);
+  if (const std::optional<Step> problem = why_not_parameterizable(chart, positions)) throw InvalidMesh(*problem);
   NormalizedPatch patch;
   patch.n_vertices = chart.n_vertices();
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
@@ -59,7 +58,7 @@ NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Posi
 ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexVector& z) {
   ComplexVector all = ComplexVector::Zero(patch.positions.rows());
   all.head(patch.n_vertices) = z;
-  Eigen::VectorXd neighbours = Eigen::VectorXd::Zero(all.size());
+  Eigen::VectorXd neighbors = Eigen::VectorXd::Zero(all.size());
   for (std::size_t t = patch.triangles.size() - patch.n_virtual; t < patch.triangles.size(); ++t) {
     const auto& triangle = patch.triangles[t];
     for (int k = 0; k < 3; ++k) {
@@ -67,10 +66,10 @@ ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexV
       const int corner = triangle[(k + 1) % 3];
       if (centre < patch.n_vertices || corner >= patch.n_vertices) continue;
       all[centre] += z[corner];
-      neighbours[centre] += 1;
+      neighbors[centre] += 1;
     }
   }
-  for (Eigen::Index v = patch.n_vertices; v < all.size(); ++v) all[v] /= std::max(neighbours[v], 1.0);
+  for (Eigen::Index v = patch.n_vertices; v < all.size(); ++v) all[v] /= std::max(neighbors[v], 1.0);
   return all;
 }
 

@@ -11,7 +11,7 @@
 
 namespace spectral_conformal {
 
-/// A disk-like chart, centred and scaled to extent 1, so that any coordinates give the same numbers; its holes filled
+/// A disk-like chart, centered and scaled to extent 1, so that any coordinates give the same numbers; its holes filled
 /// where that was asked for.
 struct NormalizedPatch {
   Positions positions;  ///< of the chart's vertices, then of those added in filled holes
@@ -29,7 +29,7 @@ struct NormalizedPatch {
 /// positions (V, 3) of the chart's vertices. Throws InvalidMesh when why_not_parameterizable says so.
 NormalizedPatch normalized_patch(const Chart& chart, const Eigen::Ref<const Positions>& positions, bool fill_holes);
 
-/// The map z (chart vertices,) with the vertices added in filled holes, each at the mean of its neighbours.
+/// The map z (chart vertices,) with the vertices added in filled holes, each at the mean of its neighbors.
 ComplexVector with_virtual_vertices(const NormalizedPatch& patch, const ComplexVector& z);
 
 /// Distortion of a map (chart vertices,) in 3D, without virtual triangles.

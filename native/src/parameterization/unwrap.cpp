@@ -183,7 +183,11 @@ class ChartUnwrapper {
       }
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
-      result.report.problem = problem.what();
+      if (problem.step()) {
+        result.report.steps = {*problem.step()};
+      } else {
+        result.report.problem = problem.what();
+      }
       if (has_no_area(chart_, chart_.positions(cut_.mesh))) result.point = mean_of_pins();
     } catch (const SolveFailure& problem) {
       result.report.steps = {problem.step()};
@@ -387,10 +391,10 @@ class ChartLoop {
       std::vector<std::optional<ChartUnwrapper::Solution>> solutions(static_cast<std::size_t>(last - first));
       run_in_parallel(
           last - first,
-          [&](int k, const Progress& going_on) {
+          [&](int k, const Progress& charts_progress) {
             const int i = first + k;
             try {
-              solutions[static_cast<std::size_t>(k)] = solve(i, part(going_on, end_[i], end_[i + 1]));
+              solutions[static_cast<std::size_t>(k)] = solve(i, part(charts_progress, end_[i], end_[i + 1]));
             } catch (const std::bad_alloc&) {
               // It has none, then.
             }
@@ -414,7 +418,7 @@ class ChartLoop {
   }
 
  private:
-  /// Charts of more faces share their own factorisation among threads, and take too much memory for two at a time.
+  /// Charts of more faces share their own factorization among threads, and take too much memory for two at a time.
   static constexpr std::size_t max_faces_together = 20000;
   /// In a batch: the maps of all its charts are kept until it ends.
   static constexpr std::size_t max_faces_in_batch = 400000;
@@ -468,11 +472,11 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
   Points points;
   loop.run(
       progress,
-      [&](int i, const Progress& going_on) {
+      [&](int i, const Progress& charts_progress) {
         Chart& chart = charts[static_cast<std::size_t>(i)];
         ChartUnwrapper::Solution solution =
             ChartUnwrapper(cut, chart, options)
-                .solve(extenders, options.solve.hole_rigidity, options.solve.tolerance, going_on, kept);
+                .solve(extenders, options.solve.hole_rigidity, options.solve.tolerance, charts_progress, kept);
         // Each gives its memory back before the next solve.
         const Chart solved = std::move(chart);
         return solution;
@@ -509,9 +513,9 @@ Unwrap Unwrapper::solve(const std::vector<VertexExtender>& extenders, std::optio
   Points points;
   state_->loop.run(
       progress,
-      [&](int i, const Progress& going_on) {
+      [&](int i, const Progress& charts_progress) {
         return state_->charts[static_cast<std::size_t>(i)].solve(extenders_of_charts, hole_rigidity, tolerance,
-                                                                 going_on);
+                                                                 charts_progress);
       },
       [&](int i) { return state_->charts[static_cast<std::size_t>(i)].out_of_memory(); },
       [&](ChartUnwrapper::Solution&& solution) { add(state_->cut, std::move(solution), result, points); });

@@ -10,7 +10,8 @@ from spectral_unwrap.core.measure.defects import Defects
 from spectral_unwrap.core.measure.quality import MapQuality
 from spectral_unwrap.core.measure.summary import summarize
 from spectral_unwrap.core.solve.solution import Solution
-from spectral_unwrap.core.words import texts
+from spectral_unwrap.core.words import texts, translation
+from spectral_unwrap.locale import TABLES
 
 
 def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="spectral", n_pins=0, **unfolding):
@@ -18,6 +19,7 @@ def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="
         **{"unfolded": 0, "is_embedding": False, "mean_qc_before": float("nan"), **unfolding},
         status="solved",
         message="",
+        steps=(),
         area=area,
         mean_qc=mean_qc,
         max_qc=max_qc,
@@ -28,11 +30,12 @@ def solved(area=1.0, mean_qc=1.0, max_qc=1.0, flipped=0, overlapping=0, method="
     )
 
 
-def failed(message):
+def failed(message, steps=()):
     nan = float("nan")
     return SimpleNamespace(
         status="failed",
         message=message,
+        steps=steps,
         area=nan,
         mean_qc=nan,
         max_qc=nan,
@@ -210,10 +213,17 @@ def test_where_seams_are_missing_suggest_seams_is_named():
     faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     offsets, corners = np.arange(0, 25, 4), np.concatenate(faces)
     (chart,) = spectral_conformal.unwrap(cube, offsets, corners).charts
-    text = texts.failures(summary(failed(chart.message)))
+    text = texts.failures(summary(failed(chart.message, chart.steps)))
     assert "closed" in text
     assert text.endswith("Suggest Seams finds where to cut")
     assert "Suggest Seams" not in texts.failures(summary(failed("The map winds.")))
+
+
+def test_reasons_of_the_solver_come_in_the_language_of_the_user(monkeypatch):
+    steps = (spectral_conformal.Step("rejected", "closed"),)
+    monkeypatch.setattr(translation, "_look_up", lambda text: TABLES["de"].get(text, text))
+    text = texts.failures(summary(failed("In English", steps)))
+    assert "Die Insel ist geschlossen: sie hat keinen Rand" in text and "In English" not in text
 
 
 def test_what_is_infinite_is_said_in_words():

@@ -41,7 +41,7 @@ TEST_CASE("adds to the boundary form what section 4.2 says") {
   CHECK(value(form, z) == doctest::Approx(expected + 2.5 * f.hole().value(z) - attraction.value(z)).epsilon(1e-13));
 }
 
-TEST_CASE("copies of a vertex count as their barycentre") {
+TEST_CASE("copies of a vertex count as their barycenter") {
   const Fixture f;
   const ComplexVector z = random_map(f.n());
   ExtendedForm form(f.outer);
