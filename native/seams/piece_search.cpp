@@ -42,6 +42,9 @@ constexpr double coarse_energy = 0.85;
 constexpr double filling_nanoseconds = 3000;
 constexpr double pricing_nanoseconds = 500;
 constexpr double unfolding_nanoseconds = 2000;
+/// What the seams of an unfolding may cost for the value of those that were found: of more, which curved surfaces need,
+/// too much is left when chains were taken back.
+constexpr double hopeless_price = 3.5;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
   options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
@@ -221,15 +224,16 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   SeamEdges edges;
   call_while_listening(unfolding_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
                        [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph(), price); });
-  if (edges.empty()) return;
+  const auto value = [&](const Cutter& of) {
+    return of.is_sound() ? functional(of.seams().edges(), of.charts()) : std::numeric_limits<double>::infinity();
+  };
+  const double found = value(*cutter_);
+  if (edges.empty() || functional.price(edges) > hopeless_price * found * std::sqrt(piece().area())) return;
   unfolded.add(edges);
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
   cutter->settle(functional, progress);
-  const auto value = [&](const Cutter& of) {
-    return of.is_sound() ? functional(of.seams().edges(), of.charts()) : std::numeric_limits<double>::infinity();
-  };
-  if (!(value(*cutter) < value(*cutter_))) return;
+  if (!(value(*cutter) < found)) return;
   cutter_ = std::move(cutter);
   cuts_.assign(1, {cutter_->seams().edges(), std::numeric_limits<double>::infinity()});
 }

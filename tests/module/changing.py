@@ -147,7 +147,7 @@ CALLS = {
 }
 WITH_PROGRESS = [name for name, call in CALLS.items() if "p" in call.__code__.co_varnames]
 # What takes no arrays.
-WITHOUT_ARRAYS = {"build_info", "limit_threads"}
+WITHOUT_ARRAYS = {"build_info", "describe", "limit_threads", "message_templates"}
 
 
 def changed_after(made, arguments, progress):

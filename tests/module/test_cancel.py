@@ -21,7 +21,7 @@ def two_patches():
 def unwrap_arguments(**options):
     vertices, faces = two_patches()
     offsets, corners = meshes.polygons(faces)
-    return sc.unwrap, {"vertices": vertices, "face_offsets": offsets, "corner_vertices": corners, **options}
+    return sc.unwrap, {"vertices": vertices, "faces": offsets, "corner_vertices": corners, **options}
 
 
 def patch_arguments(function, **options):
@@ -37,7 +37,7 @@ def folded_arguments(mesh):
 def seams_arguments():
     vertices, quads = meshes.bulge(5, 2.0)
     offsets, corners = meshes.polygons(quads)
-    return sc.suggest_seams, {"vertices": vertices, "face_offsets": offsets, "corner_vertices": corners}
+    return sc.suggest_seams, {"vertices": vertices, "faces": offsets, "corner_vertices": corners}
 
 
 CALLS = {

@@ -3,7 +3,8 @@
 
 import numpy as np
 import pytest
-from spectral_conformal import chart_of_face, unwrap
+from spectral_conformal import unwrap
+from spectral_conformal.hosts import chart_of_face
 
 
 def grid(columns=3, rows=2, extra=()):

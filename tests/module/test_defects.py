@@ -128,21 +128,21 @@ def test_without_faces():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "kind", "said"),
     [
-        ({"corner_uv": [[0, 0], [1, 0], [np.nan, 1]]}, r"corner 2 \(face 0\) is not finite"),
-        ({"corner_uv": [[0, 0], [1, 0]]}, "corner_uv has 2 rows"),
-        ({"corner_uv": [0, 1, 2]}, "corner_uv must have the shape"),
-        ({"face_offsets": []}, "face_offsets is empty"),
-        ({"face_offsets": [0, 2]}, "face_offsets must rise"),
-        ({"corner_vertices": [0, 1, -2]}, "corner_vertices must lie between"),
-        ({"corner_vertices": [0, 1, 2**31 - 1]}, "2147483647 vertices; at most"),
-        ({"corner_vertices": [0, 1, 2**31]}, "corner_vertices must lie between"),
-        ({"selected_faces": [True, False]}, "selected_faces must be 1 booleans"),
-        ({"between_islands": 1}, "between_islands must be"),
+        ({"corner_uv": [[0, 0], [1, 0], [np.nan, 1]]}, ValueError, r"corner 2 \(face 0\) is not finite"),
+        ({"corner_uv": [[0, 0], [1, 0]]}, ValueError, "corner_uv has 2 rows"),
+        ({"corner_uv": [0, 1, 2]}, ValueError, "corner_uv must have the shape"),
+        ({"faces": []}, ValueError, "faces is empty"),
+        ({"faces": [0, 2]}, ValueError, "faces, as offsets, must rise"),
+        ({"corner_vertices": [0, 1, -2]}, ValueError, "corner_vertices must lie between"),
+        ({"corner_vertices": [0, 1, 2**31 - 1]}, ValueError, "2147483647 vertices; at most"),
+        ({"corner_vertices": [0, 1, 2**31]}, ValueError, "corner_vertices must lie between"),
+        ({"selected_faces": [True, False]}, ValueError, "selected_faces must be 1 booleans"),
+        ({"between_islands": 1}, TypeError, "between_islands must be"),
     ],
 )
-def test_bad_arguments_are_named(arguments, said):
-    good = {"face_offsets": [0, 3], "corner_vertices": [0, 1, 2], "corner_uv": [[0, 0], [1, 0], [0, 1]]}
-    with pytest.raises(ValueError, match=said):
+def test_bad_arguments_are_named(arguments, kind, said):
+    good = {"faces": [0, 3], "corner_vertices": [0, 1, 2], "corner_uv": [[0, 0], [1, 0], [0, 1]]}
+    with pytest.raises(kind, match=said):
         sc.map_defects(**{**good, **arguments})

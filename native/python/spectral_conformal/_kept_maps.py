@@ -18,7 +18,7 @@ class KeptMaps:
         """Begin with none.
 
         Args:
-            max_megabytes: what is kept at most, in 10^6 bytes; about 80 bytes per triangle.
+            max_megabytes: what is kept at most, in 10^6 bytes; about 16 bytes per vertex.
 
         Raises:
             ValueError: `max_megabytes` is no whole number from 0 to 2147483647.
