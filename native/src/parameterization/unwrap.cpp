@@ -283,7 +283,7 @@ class ChartUnwrapper {
   std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
 };
 
-/// Gives the corners of some faces, each at its vertex of the chart, their places in the map.
+/// Gives the corners of some faces, each at its vertex of the chart, their UVs of the map.
 template <class Map>
 void write_corners(const Cut& cut, const std::vector<int>& faces, const Map& map, Unwrap& result) {
   constexpr double face_nanoseconds = 30;
@@ -300,7 +300,7 @@ void write_corners(const Cut& cut, const std::vector<int>& faces, const Map& map
 /// Charts without area, by their number in the result, and the point that each becomes.
 using Points = std::vector<std::pair<std::size_t, Complex>>;
 
-/// Adds a chart to the result: the places of its corners, and the extenders that act, which are no longer unused. Its
+/// Adds a chart to the result: the UVs of its corners, and the extenders that act, which are no longer unused. Its
 /// map goes to `kept`, which may be null, unless there is no memory for it.
 void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Points& points,
          KeptMaps* kept = nullptr) {
