@@ -10,6 +10,7 @@
 
 #include "concurrency/parallel_calls.h"
 #include "seams/carried_seams.h"
+#include "seams/cut_surface.h"
 #include "seams/rigid_unfolding.h"
 #include "seams/seam_functional.h"
 #include "seams/seam_preferences.h"
@@ -235,7 +236,34 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   cutter->settle(functional, progress);
   if (!(value(*cutter) < found)) return;
   cutter_ = std::move(cutter);
-  cuts_.assign(1, {cutter_->seams().edges(), std::numeric_limits<double>::infinity()});
+  cuts_ = chains_as_cuts(cutter_->seams());
+}
+
+/// The seams chain by chain, longest first; those without which there are handles or closed charts are the first cut.
+std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams& seams) const {
+  std::vector<FoundCut> cuts{{{}, std::numeric_limits<double>::infinity()}};
+  double left = seams.length(seams.edges());
+  bool is_open = false;
+  std::vector<std::array<int, 2>> edges;
+  for (SeamEdges& chain : seams.chains()) {
+    left -= seams.length(chain);
+    if (is_open) {
+      cuts.push_back({std::move(chain), left});
+      continue;
+    }
+    for (const int e : chain) edges.push_back(seams.graph().edges()[static_cast<std::size_t>(e)].vertices);
+    SeamEdges& first = cuts.front().edges;
+    first.insert(first.end(), chain.begin(), chain.end());
+    std::vector<std::array<int, 2>> all = piece().seams;
+    all.insert(all.end(), edges.begin(), edges.end());
+    PolygonMesh mesh = piece().view();
+    mesh.seam_edges = all.data();
+    mesh.n_seam_edges = static_cast<int>(all.size());
+    const std::vector<Chart> charts = build_charts(mesh).charts;
+    is_open = std::all_of(charts.begin(), charts.end(),
+                          [](const Chart& chart) { return !chart.boundary_loops.empty() && handle_curves(chart) == 0; });
+  }
+  return cuts;
 }
 
 /// Keeps what was found, and gives the memory of the search back.

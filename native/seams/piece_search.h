@@ -77,6 +77,7 @@ class PieceSearch {
   void refine(const Progress& progress);
   PieceSeams with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const;
   void take_unfolded(double longest, const Progress& progress);
+  std::vector<FoundCut> chains_as_cuts(const PieceSeams& seams) const;
   std::vector<double> cost_factors_of(const SeamGraph& graph, const Piece& piece) const;
   void finish();
 
