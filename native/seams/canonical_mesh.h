@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// The selected faces of a mesh, and the vertices that they use, in an order that their shape alone decides, so that
 /// what is computed from them does not depend on how the caller's arrays number them. Vertices are in the order of
 /// their coordinates (x, then y, then z), those at one position in the order of the faces around them, refined until
-/// nothing tells them apart any more (colour refinement; Weisfeiler and Leman 1968). Faces begin with their first
+/// nothing tells them apart any more (color refinement; Weisfeiler and Leman 1968). Faces begin with their first
 /// vertex, keep their winding, and are in the order of their vertices.
 class CanonicalMesh {
  public:

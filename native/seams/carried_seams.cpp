@@ -153,13 +153,13 @@ class SeamCarrier {
   }
 
  private:
-  /// The vertices of the chain, by their indices in it, that a coarse vertex is or has for neighbours.
+  /// The vertices of the chain, by their indices in it, that a coarse vertex is or has for neighbors.
   struct Reach {
     int first = -1;  ///< -1 outside the corridor
     int last = -1;
   };
   const Reach& reach(int v) const { return reach_[coarse_.cluster[v]]; }
-  /// The vertices of a chain, and beside them those neighbours that are on no seam.
+  /// The vertices of a chain, and beside them those neighbors that are on no seam.
   void open_corridor(const std::vector<int>& vertices) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const int position = static_cast<int>(i);

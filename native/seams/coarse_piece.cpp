@@ -299,7 +299,7 @@ void ShrinkingMesh::collect_neighbours(int v, Fan& fan) const {
   neighbours.resize(n);
 }
 
-/// Whether the faces around a vertex are one fan, closed inside and open on the boundary. Leaves its neighbours.
+/// Whether the faces around a vertex are one fan, closed inside and open on the boundary. Leaves its neighbors.
 bool ShrinkingMesh::is_simple_fan(int v, Fan& fan) const {
   collect_neighbours(v, fan);
   const auto& neighbours = fan.neighbours;
@@ -317,7 +317,7 @@ double ShrinkingMesh::cost(int v, int w) const {
 }
 
 /// Vertices next to both have to be those of the triangles that vanish, and must have more faces than these. Expects
-/// the neighbours of v.
+/// the neighbors of v.
 bool ShrinkingMesh::has_only_common_triangles(int v, int w, Fan& fan) const {
   fan.others.swap(fan.neighbours);  // those of v
   collect_neighbours(w, fan);
@@ -380,7 +380,7 @@ bool ShrinkingMesh::leaves_hubs(int v, int w) const {
   });
 }
 
-/// Expects the neighbours of v, and the shapes of the faces around it.
+/// Expects the neighbors of v, and the shapes of the faces around it.
 bool ShrinkingMesh::can_merge(int v, int w, Fan& fan) const {
   if (is_hub(w)) return false;
   if (is_border(v) && is_border(w)) {
@@ -394,7 +394,7 @@ bool ShrinkingMesh::can_merge(int v, int w, Fan& fan) const {
   return keeps_shapes(v, w, fan) && has_only_common_triangles(v, w, fan);
 }
 
-/// Of merging v into a neighbour, whether or not it can be; infinite where v has to stay.
+/// Of merging v into a neighbor, whether or not it can be; infinite where v has to stay.
 double ShrinkingMesh::least_cost(int v) const {
   double least = std::numeric_limits<double>::infinity();
   if (border_[v] == 2 || (symmetric_ && side_[v] < 0)) return least;

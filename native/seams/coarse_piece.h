@@ -19,7 +19,7 @@ struct CoarsePiece {
 
 /// Merges vertices until about `n_vertices` are left, or no other can be merged: in rounds of vertices that have no
 /// face in common, those first whose merging moves the surface least (quadric error metric; Garland and Heckbert 1997),
-/// each into the neighbour that is best. Polygons lose corners. Vertices on the boundary stay on it, those of seams
+/// each into the neighbor that is best. Polygons lose corners. Vertices on the boundary stay on it, those of seams
 /// stay, and those on a mirror plane stay on it; mirrored vertices are merged together. `index` is the number of the
 /// piece, `preference` (V,) a number per vertex across whose changes vertices are rather not merged, or empty. `side`
 /// (V,) as in MirrorSymmetry, used where the piece is its own image. Coordinates must be finite. Throws Cancelled.

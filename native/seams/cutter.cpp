@@ -40,7 +40,7 @@ constexpr std::size_t parted_at_once = 4;
 /// What a cut gains counts less by this factor where it makes an island: artists prefer few.
 constexpr double island_penalty = 0.4;
 /// A cut is priced at its length and this fraction of the root of the area, what any cut costs: without it the gain for
-/// a length favours ever shorter cuts.
+/// a length favors ever shorter cuts.
 constexpr double base_price = 0.25;
 /// Of larger pieces, which have fine edges, no cut shorter than this fraction of the root of the area is tried: it
 /// costs a solve and gains little.

@@ -17,7 +17,7 @@ struct DistortedRegion {
 /// loop: minima, and inside the chart maxima. `mesh` is the one that the chart was built from.
 std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialMap& mapped, double median_log2_scale);
 
-/// Vertices, not on the outer loop, whose faces have more QC in excess of 1 than those of their neighbours.
+/// Vertices, not on the outer loop, whose faces have more QC in excess of 1 than those of their neighbors.
 std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped);
 
 /// Vertices inside the chart, and not on seams, around which the angles of the faces are far from a full turn; the

@@ -26,7 +26,7 @@ struct SeparableFaces {
   Adjacency dual;  ///< the faces as nodes, joined over the edges that are not cut, with the numbers of these
 };
 
-/// Distance of every face from the nearest source over the centres of neighbouring faces; infinite where there is no
+/// Distance of every face from the nearest source over the centers of neighboring faces; infinite where there is no
 /// path.
 std::vector<double> face_distances(const SeparableFaces& faces, const std::vector<int>& sources);
 

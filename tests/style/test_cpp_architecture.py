@@ -142,12 +142,11 @@ def test_no_library_is_listed_in_vain():
 
 
 def test_header_source_and_test_share_their_name_and_floor():
-    sources = {(path.parent.name, path.stem) for path in SOURCES}
-    without_sources = TEMPLATES | {("base", name) for name in HEADER_ONLY}
-    assert {(floor_of(path), path.stem) for path in HEADERS} == sources | without_sources
+    units = {(path.parent.name, path.stem) for path in SOURCES} | TEMPLATES
+    assert {(floor_of(path), path.stem) for path in HEADERS} == units | {("base", name) for name in HEADER_ONLY}
     tests = {(path.parent.name, path.stem) for path in TESTS.rglob("test_*.cpp")}
-    assert tests == {(floor, f"test_{name}") for floor, name in sources | TEMPLATES}
-    assert len({name for _, name in sources}) == len(sources)
+    assert tests == {(floor, f"test_{name}") for floor, name in units}
+    assert len({name for _, name in units}) == len(units)
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=relative)

@@ -36,17 +36,17 @@ struct Distortion {
 /// weight, not flipped.
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
                               const std::vector<std::array<int, 3>>& triangles,
-                              const std::vector<double>& triangle_weights, const ComplexVector& z);
+                              const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z);
 
 /// The same, from the triangles in their local isometric frames: shapes (at least F).
 Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
                               const std::vector<std::array<int, 3>>& triangles,
-                              const std::vector<double>& triangle_weights, const ComplexVector& z);
+                              const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z);
 
 /// Their mean_qc alone, at a third of the cost. Of the first n_triangles; the map's signed area must not be negative.
 double mean_quasi_conformal_distortion(const std::vector<TriangleShape>& shapes,
                                        const std::vector<std::array<int, 3>>& triangles,
-                                       const std::vector<double>& triangle_weights, std::size_t n_triangles,
+                                       const std::vector<TriangleWeight>& triangle_weights, std::size_t n_triangles,
                                        const ComplexVector& z);
 
 /// The same for a mesh of triangles as it comes: orients every chart first, so that a triangle that is wound the wrong

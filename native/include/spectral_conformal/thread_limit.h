@@ -2,8 +2,8 @@
 
 namespace spectral_conformal {
 
-/// While it lives, calls made by the thread that made it share at most so many threads, that one among them; a thread's
-/// limits nest, and threads that the library starts have that of the thread they work for. Results do not depend on it.
+/// While it lives, a call of the thread that made it uses at most `limit` threads, including its own. Limits nest, and
+/// threads that the library starts inherit the limit of their caller. Results do not depend on it.
 class ThreadLimit {
  public:
   /// limit: 0 for as many as the machine has cores.
@@ -16,8 +16,8 @@ class ThreadLimit {
   /// Sets the limit of the calling thread until it is set again, for languages without destructors; returns the one
   /// before.
   static unsigned exchange(unsigned limit);
-  static unsigned
-  available();  ///< how many threads a call may share: the limit, or this thread's part of the cores if that is less
+  /// How many threads a call may use: the limit, or this thread's part of the cores if that is less.
+  static unsigned available();
 
  private:
   unsigned before_;

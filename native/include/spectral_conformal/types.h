@@ -27,6 +27,21 @@ using ComplexVector = Eigen::VectorXcd;
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// The lower triangle of a Hermitian matrix, columns sorted, every diagonal entry stored (first in its column).
 using HermitianMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
+/// How much a triangle counts: 1, or 1/2 as one of the four triangles of a quad with both splits (quad_splits.h), so
+/// that the quad counts once.
+class TriangleWeight {
+ public:
+  constexpr TriangleWeight() = default;
+  constexpr explicit TriangleWeight(bool in_both_splits) : in_both_splits_(in_both_splits) {}
+  constexpr bool in_both_splits() const { return in_both_splits_; }
+  constexpr operator double() const { return in_both_splits_ ? 0.5 : 1.0; }
+
+ private:
+  bool in_both_splits_ = false;
+};
+constexpr TriangleWeight whole_triangle(false);
+constexpr TriangleWeight split_of_quad(true);
+
 /// Vertices in the order of the walk; the surface lies to the left, the last vertex is joined to the first.
 using BoundaryLoop = std::vector<int>;
 /// Position in the plane, u + i v, per pinned vertex.

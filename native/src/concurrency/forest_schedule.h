@@ -6,19 +6,18 @@
 
 namespace spectral_conformal {
 
-/// The order in which several threads go through a forest, from the leaves to the roots or back: cheap subtrees as a
-/// whole, what lies above them one by one, the most costly way first. Threads that have nothing to do sleep.
+/// The order in which several threads traverse a forest, from the leaves to the roots or back: cheap subtrees as a
+/// whole, the nodes above them one by one, those with the most expensive path to the root first. Idle threads sleep.
 class ForestSchedule {
  public:
   ForestSchedule() = default;
   /// parent (n,): greater than the node, -1 for a root. cost (n,): of each node, not negative, in any unit.
   ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost);
 
-  /// Calls work(node) for every node, after all of its children, in up to `threads` threads at once, the caller's among
-  /// them; in fewer where the system gives no more. What a call has written can be read by those that come after it.
-  /// Once a call has thrown no other subtree begins; what it threw is thrown here when all have ended. The caller's
-  /// Listening is asked while its thread has nothing to do; it leaves tasks of this cost to threads that have nothing
-  /// to do either.
+  /// Calls work(node) for every node, after all of its children, in up to `threads` threads including the caller's, or
+  /// fewer if the system has no more. Later calls see what earlier ones wrote. After a call has thrown no other subtree
+  /// begins, and its exception is thrown here when all have ended. While the caller's thread is idle it asks its
+  /// Listening; it leaves tasks of long_cost to other idle threads.
   void run_up(unsigned threads, const std::function<void(int node)>& work,
               double long_cost = std::numeric_limits<double>::infinity()) const;
   /// The same, each node after its parent.
@@ -36,7 +35,7 @@ class ForestSchedule {
   std::vector<int> nodes_;                  ///< of each task, ascending
   std::vector<int> parent_;                 ///< of each task, a task or -1
   std::vector<std::vector<int>> children_;  ///< of each task, tasks
-  std::vector<double> way_up_;              ///< cost of a task, all below it and all on its way to the root
+  std::vector<double> way_up_;              ///< cost of a task, all below it and all on its path to the root
   std::vector<double> below_;               ///< cost of a task and all below it
   std::vector<double> task_cost_;
 };

@@ -8,9 +8,9 @@
 
 namespace spectral_conformal {
 
-/// Threads beside the caller's, under its ThreadLimit and WorkCounter, that all do the same work; joined when the
-/// object ends. Fewer, or none, where the ThreadBudget or the system has no more threads, or no memory for them: the
-/// work must be such that the caller can do all of it.
+/// Threads beside the caller's, with its ThreadLimit and WorkCounter, that all do the same work; joined by the
+/// destructor. There are fewer, or none, if the ThreadBudget, the system or the memory has no room for more: the caller
+/// must be able to do all of the work.
 class HelperThreads {
  public:
   /// `work` must not throw.

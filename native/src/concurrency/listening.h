@@ -11,13 +11,13 @@
 
 namespace spectral_conformal {
 
-/// While it lives, long work of the thread that made it is heard by a progress function also where it reports nothing
-/// itself: `still_working` repeats the last report, and threads that work for this one hear of a cancellation there.
-/// One within another takes its place.
+/// While it lives, long work of the thread that made it can be canceled by a progress function even where it reports no
+/// progress itself: `still_working` repeats the last report, and threads that work for this one see a cancellation
+/// there. An inner object replaces the outer one.
 class Listening {
  public:
-  /// How often the listener is asked, by work or by time. Python's listeners wait up to 5 ms for its lock where another
-  /// thread is busy.
+  /// How often the listener is asked, by work or by time. A listener in Python waits up to 5 ms for the interpreter's
+  /// lock while another thread is busy.
   static constexpr std::chrono::milliseconds interval{40};
 
   /// progress: must outlive the object; where it is empty, nothing changes. phase: until the first report, with 0.
@@ -26,7 +26,7 @@ class Listening {
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
 
-  /// To be reported to in place of the one that was given.
+  /// Report to this one instead of the one that was given.
   const Progress& progress() const { return heard_; }
 
   /// Asks the listener of this thread now, if it has one. Throws Cancelled, or what the listener throws.
@@ -40,7 +40,7 @@ class Listening {
   /// That of this thread, or of the one that it works for; null for none.
   static Listening* current();
 
-  /// Lets the calling thread hear of another's cancellation while it lives.
+  /// While it lives, the calling thread sees the cancellation of another.
   class Overheard {
    public:
     explicit Overheard(Listening* listening);
@@ -66,23 +66,21 @@ class Listening {
   std::exception_ptr thrown_;  ///< by the listener
 };
 
-/// For tests: another interval of work, in nanoseconds, for the threads that begin to listen from then on, by which the
-/// listener is then asked alone, without a look at the clock. Returns the one before; 0 stands for the usual one.
+/// For tests: sets the interval of work, in nanoseconds, for threads that begin to listen from now on; they then ignore
+/// the clock. Returns the previous one; 0 stands for the usual one.
 double exchange_listening_interval(double nanoseconds);
 /// The one in use.
 double listening_interval();
-/// For tests: the most work, in nanoseconds, that this thread has said it did between two calls of a listener. Begins
-/// anew.
+/// For tests: the most work, in nanoseconds, that this thread has reported between two calls of a listener. Resets it.
 double take_longest_silence();
 
-/// Says that this thread has worked for about so long since it said so last; after each Listening::interval of such
-/// work the listener is asked, and before where the clock says that it is due: new memory, above all, may take many
-/// times as long as work in it. Costs little, and throws as Listening::ask does: to be called where nothing is left
-/// half done.
+/// Reports that this thread has worked for about so long since its last report. The listener is asked after each
+/// Listening::interval of such work, and earlier where the clock says that it is due: the first use of new memory,
+/// above all, may take many times as long. Cheap. Throws as Listening::ask does, so call it where nothing is half done.
 void still_working(double nanoseconds);
 
-/// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: about what each takes, which is said
-/// between blocks of them; throws as still_working does.
+/// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: about what each takes, which is reported
+/// between blocks of them. Throws as still_working does.
 template <class Index, class Work>
 void for_each_heard(Index n, double nanoseconds, const Work& work) {
   constexpr Index at_once = 8192;
@@ -94,13 +92,18 @@ void for_each_heard(Index n, double nanoseconds, const Work& work) {
   }
 }
 
+/// The same where each takes a few dozens of nanoseconds, as a triangle or an edge of which some numbers are computed.
+template <class Index, class Work>
+void for_each_heard(Index n, const Work& work) {
+  for_each_heard(n, 50, work);
+}
+
 /// A copy of large elements, made so.
 template <class T>
 std::vector<T> heard_copy(const std::vector<T>& elements) {
-  constexpr double byte_nanoseconds = 0.25;
   std::vector<T> result;
   result.reserve(elements.size());
-  for_each_heard(elements.size(), byte_nanoseconds * sizeof(T), [&](std::size_t i) { result.push_back(elements[i]); });
+  for_each_heard(elements.size(), 0.25 * sizeof(T), [&](std::size_t i) { result.push_back(elements[i]); });
   return result;
 }
 

@@ -19,18 +19,18 @@ constexpr unsigned all_threads = std::numeric_limits<unsigned>::max();
 inline unsigned max_threads_for(double nanoseconds) { return nanoseconds < 2 * shared_nanoseconds ? 1 : all_threads; }
 
 /// Calls work(i, progress) once for every i from 0 to n - 1, in as many threads as the caller's part of the
-/// ThreadBudget allows, at most max_threads, the caller's among them. The calls must not depend on each other.
-/// `progress` is called in the caller's thread only, with fractions that never fall, also while it waits for the
-/// others, and not again once it returned false or threw; the one that the work gets tells all threads then. Where it
-/// is empty, the caller's Listening is asked while it waits. Throws Cancelled then, or what it threw, and otherwise
-/// what the first of the calls that failed has thrown.
+/// ThreadBudget allows, at most max_threads including the caller's. The calls must not depend on each other.
+/// `progress` is called in the caller's thread only, also while that waits for the others, with fractions that never
+/// fall. Once it returned false or threw it is not called again, and the function that the work gets stops all threads.
+/// Where `progress` is empty, the caller's Listening is asked instead. Throws Cancelled or what `progress` threw, and
+/// otherwise what the first failed call threw.
 void run_in_parallel(int n, const std::function<void(int i, const Progress& progress)>& work, const Progress& progress,
                      const char* phase_of_waiting, unsigned max_threads = all_threads);
 
-/// Makes a call that may take long and reports nothing, such as one of another library: in a helper thread, while the
-/// caller's asks its Listening; in the caller's where it is short, nobody listens or the ThreadBudget has no thread for
-/// it. nanoseconds: about what it takes. It is waited for even where the listener cancels. Throws what the listener or
-/// the call throws.
+/// Makes a call that may take long and reports nothing, such as one of another library: in a helper thread while the
+/// caller's thread asks its Listening, or in the caller's thread if the call is short, nobody listens or the
+/// ThreadBudget has no thread left. nanoseconds: about what it takes. Waits for its end even after a cancellation.
+/// Throws what the listener or the call throws.
 void call_while_listening(double nanoseconds, const std::function<void()>& call);
 
 /// Calls work(begin, end) once for every block of the numbers from 0 to n - 1, as run_in_parallel does; where there is

@@ -4,18 +4,18 @@
 
 namespace spectral_conformal {
 
-/// The threads that the process may have at work: as many as there are cores. What a call shares its work among is
-/// divided among the threads that it begins, and again where these share calls of their own; several calls at once
-/// divide the cores. Threads that have ended leave their part to those that work for the same caller.
+/// Divides the cores among the threads of the process. A call divides its part among the threads that it begins, these
+/// divide theirs again where they share calls of their own, and calls made at the same time divide the cores. A thread
+/// that has ended leaves its part to those that work for the same caller.
 class ThreadBudget {
  public:
-  /// How many threads a call of this thread may share, this one among them: its part of the cores, or of its
-  /// ThreadLimit if that is less.
+  /// How many threads a call of this thread may use, including this one: its part of the cores, or of its ThreadLimit
+  /// if that is less.
   static unsigned available();
   /// Threads that were begun and not yet joined, in the whole process.
   static unsigned n_helpers();
 
-  /// For tests: while it lives, the process is taken to have so many cores; 0 for those of the machine.
+  /// For tests: while it lives, the process acts as if it had this many cores; 0 for those of the machine.
   class Pretended {
    public:
     explicit Pretended(unsigned cores) : before_(exchange_cores(cores)) {}
@@ -26,12 +26,12 @@ class ThreadBudget {
    private:
     unsigned before_;
   };
-  /// The same until it is set again. Returns what was pretended before.
+  /// The same until it is set again. Returns the previous number.
   static unsigned exchange_cores(unsigned cores);
   static unsigned cores();
 
-  /// The helpers of a thread, which belong to it while the object lives. To be destroyed by the thread that made it,
-  /// in the order opposite to that of construction, after the helpers were joined.
+  /// The helpers of a thread while the object lives. The thread that made it destroys it, after it joined the helpers
+  /// and in reverse order of construction.
   class Share {
    public:
     /// wanted: helpers; there may be fewer, or none.

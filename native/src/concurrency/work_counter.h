@@ -5,13 +5,13 @@
 
 namespace spectral_conformal {
 
-/// What factorisations and searches cost: the same on every machine, however busy, for one SuiteSparse. The tests hold
+/// What factorizations and searches cost: the same on every machine, however busy, for one SuiteSparse. The tests hold
 /// the speed of the module as it ships to these.
 struct WorkCounts {
   std::uint64_t analyses = 0;
   std::uint64_t factorizations = 0;
   std::uint64_t solves = 0;           ///< whole ones, or forward and backward parts of one
-  std::uint64_t multiplications = 0;  ///< of supernodal factorisations, four for one of complex numbers
+  std::uint64_t multiplications = 0;  ///< of supernodal factorizations, four for one of complex numbers
   std::uint64_t solve_doubles = 0;    ///< of supernodal factors, read in solves
   std::uint64_t steps = 0;            ///< corners, edges and list entries that the search for seams looks at
 };

@@ -30,8 +30,8 @@ void for_each_index(std::size_t n, const Work& work) {
 }  // namespace
 
 ConformalEnergy::ConformalEnergy(const Eigen::Ref<const Positions>& positions,
-                                 SharedVector<std::array<int, 3>> triangles, SharedVector<double> triangle_weights,
-                                 Weights weights, std::size_t n_virtual)
+                                 SharedVector<std::array<int, 3>> triangles,
+                                 SharedVector<TriangleWeight> triangle_weights, Weights weights, std::size_t n_virtual)
     : triangles_(std::move(triangles)),
       triangle_weights_(std::move(triangle_weights)),
       weights_(weights),

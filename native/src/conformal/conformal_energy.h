@@ -24,7 +24,7 @@ class ConformalEnergy {
   /// triangles (filled holes) are in the energy and in no measure of the surface.
   /// Nearly degenerate triangles are clamped as local_isometric_frame does and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, SharedVector<std::array<int, 3>> triangles,
-                  SharedVector<double> triangle_weights, Weights weights, std::size_t n_virtual = 0);
+                  SharedVector<TriangleWeight> triangle_weights, Weights weights, std::size_t n_virtual = 0);
   /// The same patch and metric with other weights.
   ConformalEnergy(const ConformalEnergy& like, Weights weights);
 
@@ -62,7 +62,7 @@ class ConformalEnergy {
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
   /// Stretched by the metric, and clamped.
   const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
-  const std::vector<double>& triangle_weights() const { return triangle_weights_; }
+  const std::vector<TriangleWeight>& triangle_weights() const { return triangle_weights_; }
 
  private:
   void weigh();
@@ -71,7 +71,7 @@ class ConformalEnergy {
   void for_each_half_edge(const Visit& visit) const;
 
   SharedVector<std::array<int, 3>> triangles_;
-  SharedVector<double> triangle_weights_;
+  SharedVector<TriangleWeight> triangle_weights_;
   std::vector<TriangleShape> shapes_;
   std::vector<TriangleShape> stretched_;  ///< empty without a metric or clamped triangles
   Weights weights_;

@@ -61,7 +61,7 @@ class EarClipping {
         clip(corner);
         continue;
       }
-      if (turn(corner) <= 0) continue;  // until a neighbour is clipped
+      if (turn(corner) <= 0) continue;  // until a neighbor is clipped
       const int blocker = find_blocker(corner, Contact::blocks);
       if (blocker < 0) {
         clip(corner);

@@ -12,12 +12,11 @@ ComplexVector merge_points(const ComplexVector& points, const std::vector<double
   std::vector<PlaneBox> boxes;
   boxes.reserve(radii.size());
   for (const Complex p : points) boxes.push_back(PlaneBox::of({p}));
-  constexpr double nanoseconds_per_point = 300;
   const BoxTree tree(boxes);
   ComplexVector result = points;
   std::vector<char> is_placed(radii.size(), 0);
   for (std::size_t first = 0; first < radii.size(); ++first) {
-    still_working(nanoseconds_per_point);
+    still_working(300);
     if (is_placed[first] != 0) continue;
     const Complex place = points[static_cast<Eigen::Index>(first)];
     const Complex diagonal(radii[first], radii[first]);

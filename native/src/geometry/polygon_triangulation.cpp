@@ -64,7 +64,7 @@ void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangu
   const bool both = along_02 == along_13;
   if (both || along_02) result.triangles.insert(result.triangles.end(), quad_splits.begin(), quad_splits.begin() + 2);
   if (both || along_13) result.triangles.insert(result.triangles.end(), quad_splits.begin() + 2, quad_splits.end());
-  result.triangle_weights.assign(result.triangles.size(), both ? quad_split_weight : 1.0);
+  result.triangle_weights.assign(result.triangles.size(), both ? split_of_quad : whole_triangle);
   // Two corners may coincide, or all lie on one line.
   result.simple =
       along_02 || along_13 || are_above(0, -min_fraction) || are_above(2, -min_fraction) || has_no_area(corners);
@@ -288,7 +288,7 @@ void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTria
   result.simple = true;
   if (corners.rows() == 3) {
     result.triangles.push_back({0, 1, 2});
-    result.triangle_weights.push_back(1.0);
+    result.triangle_weights.push_back(whole_triangle);
     return;
   }
   if (corners.rows() == 4) {
@@ -299,7 +299,7 @@ void triangulate_polygon(const Eigen::Ref<const Positions>& corners, PolygonTria
     fan(corners, result);
     result.simple = has_no_area(corners);
   }
-  result.triangle_weights.assign(result.triangles.size(), 1.0);
+  result.triangle_weights.assign(result.triangles.size(), whole_triangle);
 }
 
 }  // namespace spectral_conformal

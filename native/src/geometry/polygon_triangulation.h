@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// Triangles of one polygon, as corner numbers, and the weight with which each counts (quad_splits.h).
 struct PolygonTriangulation {
   std::vector<std::array<int, 3>> triangles;
-  std::vector<double> triangle_weights;
+  std::vector<TriangleWeight> triangle_weights;
   bool simple = true;  ///< false: the projected polygon crosses itself, and a fan stands in
 };
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "concurrency/listening.h"
-#include "geometry/signed_area.h"
 
 namespace spectral_conformal {
 namespace {
@@ -27,31 +26,19 @@ bool second_split_is_better(const std::array<double, 4>& area) {
 }
 
 std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,
-                                      const std::vector<double>& triangle_weights, const ComplexVector& z) {
+                                      const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z) {
   std::vector<int> result;
   result.reserve(triangles.size());
-  const auto area = [&](std::size_t t) {
-    const auto& [a, b, c] = triangles[t];
-    return signed_area(z[a], z[b], z[c]);
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (triangle_weights.empty() || !begins_quad(triangle_weights[t])) {
-      result.push_back(static_cast<int>(t));
-      continue;
-    }
-    const bool second = second_split_is_better({area(t), area(t + 1), area(t + 2), area(t + 3)});
-    const int chosen = static_cast<int>(t) + (second ? 2 : 0);
-    result.insert(result.end(), {chosen, chosen + 1});
-    t += 3;
-  }
+  for_each_mapped_triangle(triangles.size(), triangles, triangle_weights, z,
+                           [&](std::size_t t) { result.push_back(static_cast<int>(t)); });
   still_working(10 * static_cast<double>(triangles.size()));
   return result;
 }
 
 std::vector<int> drawable_triangulation(const std::vector<std::array<int, 3>>& triangles,
-                                        const std::vector<double>& triangle_weights) {
+                                        const std::vector<TriangleWeight>& triangle_weights) {
   const auto is_first_of_quad = [&](std::size_t t) {
-    return !triangle_weights.empty() && begins_quad(triangle_weights[t]);
+    return !triangle_weights.empty() && triangle_weights[t].in_both_splits();
   };
   std::vector<int> result;
   result.reserve(triangles.size());

@@ -2,8 +2,8 @@
 
 namespace spectral_conformal {
 
-double signed_area(const std::vector<std::array<int, 3>>& triangles, const std::vector<double>& triangle_weights,
-                   const ComplexVector& z) {
+double signed_area(const std::vector<std::array<int, 3>>& triangles,
+                   const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z) {
   double area = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];

@@ -19,7 +19,7 @@ inline double signed_area(Complex a, Complex b, Complex c) { return 0.5 * cross(
 
 /// Signed area of a map z (V,): that of its triangles, times their weights, summed up. triangle_weights (F,) or empty
 /// for 1.
-double signed_area(const std::vector<std::array<int, 3>>& triangles, const std::vector<double>& triangle_weights,
-                   const ComplexVector& z);
+double signed_area(const std::vector<std::array<int, 3>>& triangles,
+                   const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z);
 
 }  // namespace spectral_conformal

@@ -57,15 +57,13 @@ class TriangleSweep {
     }
     std::sort(events.begin(), events.end());
     for (const Event& event : events) {
-      still_working(nanoseconds_per_event);
+      still_working(1000);
       event.begins ? begin(event.triangle) : end(event.triangle);
       if (is_ended_) return;
     }
   }
 
  private:
-  static constexpr double nanoseconds_per_event = 1000;
-
   /// Where a triangle begins or ends. At one point they end first: those that meet there only do not meet inside.
   struct Event {
     Complex point;

@@ -3,16 +3,11 @@
 #include "concurrency/listening.h"
 
 namespace spectral_conformal {
-namespace {
-
-/// Of an arc and its reverse in one of two passes. A column of a mesh's matrix has about four entries.
-constexpr double arcs_nanoseconds = 15;
-
-}  // namespace
+namespace {}  // namespace
 
 Adjacency::Adjacency(int n_nodes, const std::vector<std::array<int, 2>>& edges)
     : Adjacency(from_arcs(n_nodes, [&](auto&& visit) {
-        for_each_heard(edges.size(), arcs_nanoseconds, [&](std::size_t e) {
+        for_each_heard(edges.size(), [&](std::size_t e) {
           const auto [a, b] = edges[e];
           visit(a, static_cast<int>(e), b);
           visit(b, static_cast<int>(e), a);
@@ -21,7 +16,7 @@ Adjacency::Adjacency(int n_nodes, const std::vector<std::array<int, 2>>& edges)
 
 Adjacency graph_of(const HermitianMatrix& matrix) {
   return Adjacency::from_arcs(static_cast<int>(matrix.rows()), [&](const auto& visit) {
-    for_each_heard(matrix.cols(), 4 * arcs_nanoseconds, [&](Eigen::Index i) {
+    for_each_heard(matrix.cols(), [&](Eigen::Index i) {
       const auto column = static_cast<int>(i);
       for (int e = matrix.outerIndexPtr()[column]; e < matrix.outerIndexPtr()[column + 1]; ++e) {
         const int row = matrix.innerIndexPtr()[e];

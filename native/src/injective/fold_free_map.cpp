@@ -20,9 +20,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of an element in one pass through all.
-constexpr double visit_nanoseconds = 50;
-
 class FoldFree {
  public:
   FoldFree(const FoldFreePatch& patch, const Progress& progress) : patch_(patch), progress_(progress) {
@@ -31,12 +28,12 @@ class FoldFree {
     const auto end = static_cast<std::ptrdiff_t>(n);
     triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
     const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
-    const std::vector<double> triangle_weights(energy.triangle_weights().begin(),
-                                               energy.triangle_weights().begin() + end);
+    const std::vector<TriangleWeight> triangle_weights(energy.triangle_weights().begin(),
+                                                       energy.triangle_weights().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
     std::size_t next = 0;
     const std::vector<int> drawable = drawable_triangulation(triangles_, triangle_weights);
-    for_each_heard(drawable.size(), visit_nanoseconds, [&](std::size_t i) {
+    for_each_heard(drawable.size(), [&](std::size_t i) {
       const auto chosen = static_cast<std::size_t>(drawable[i]);
       for (; next < chosen; ++next) elements_[next].measured = false;
       single_.push_back(triangles_[chosen]);
@@ -117,7 +114,7 @@ class FoldFree {
   }
 
   int turning_number_of(const ComplexVector& z) const {
-    const std::vector<double> whole(single_.size(), 1.0);
+    const std::vector<TriangleWeight> whole(single_.size());
     return turning_number(patch_.loops.front(), single_, whole, z);
   }
 
@@ -200,7 +197,7 @@ class FoldFree {
       if (element.barrier()) area += element.shape.area();
     }
     const double min_side = min_height * std::sqrt(area / static_cast<double>(elements_.size()));
-    for_each_heard(clamped.size(), visit_nanoseconds, [&](std::size_t t) {
+    for_each_heard(clamped.size(), [&](std::size_t t) {
       DistortionElement& element = clamped[t];
       TriangleShape& shape = element.shape;
       if (element.barrier()) {

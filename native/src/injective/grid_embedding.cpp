@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The neighbours of each vertex, counter-clockwise: of a vertex of the outer loop from the next one of the loop to the
+/// The neighbors of each vertex, counter-clockwise: of a vertex of the outer loop from the next one of the loop to the
 /// one before it.
 class Rotations {
  public:
@@ -30,7 +30,7 @@ class Rotations {
   }
 
   bool is_simple() const { return is_simple_; }
-  /// The neighbour of v that follows `w` counter-clockwise; -1 where no triangle lies between them.
+  /// The neighbor of v that follows `w` counter-clockwise; -1 where no triangle lies between them.
   int next(int v, int w) const {
     const auto [first, last] = corners_[v];
     const Corner* const found = std::lower_bound(first, last, Corner{w, -1});
@@ -56,7 +56,7 @@ class Rotations {
 /// of what is left, where it is the end of no edge that is a chord of it.
 class CanonicalOrder {
  public:
-  /// A vertex, and the border below it from left to right: its neighbours among the vertices before it.
+  /// A vertex, and the border below it from left to right: its neighbors among the vertices before it.
   struct Step {
     int vertex;
     std::vector<int> below;
@@ -110,7 +110,7 @@ class CanonicalOrder {
   void offer(int v) {
     if (n_chords_[v] == 0 && v != first_ && v != second_) open_.push_back(v);
   }
-  /// Of two neighbours on the border.
+  /// Of two neighbors on the border.
   bool is_chord(int v, int w) const {
     const bool is_base = (v == first_ && w == second_) || (v == second_ && w == first_);
     const bool is_on_border = state_[w] == border || state_[w] == just_exposed;
@@ -188,8 +188,8 @@ ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, c
   if (static_cast<int>(steps.size()) != n_closed - 2) return {};
   std::reverse(steps.begin(), steps.end());
 
-  // From the base upwards. Of each vertex of the border the distance from its left neighbour, and of one that came to
-  // lie below a vertex that from this one, or from the neighbour that came to lie below together with it.
+  // From the base upwards. Of each vertex of the border the distance from its left neighbor, and of one that came to
+  // lie below a vertex that from this one, or from the neighbor that came to lie below together with it.
   std::vector<std::int64_t> offset(static_cast<std::size_t>(n_closed), 0);
   std::vector<std::int64_t> x(offset);
   std::vector<std::int64_t> y(offset);

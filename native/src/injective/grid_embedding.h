@@ -12,7 +12,7 @@ namespace spectral_conformal {
 /// triangle is flipped, whatever the length of its limbs, and double precision holds it exactly. By the shift method
 /// (de Fraysseix, Pach and Pollack, How to Draw a Planar Graph on a Grid, 1990) as Chrobak and Payne count it (A
 /// Linear-Time Algorithm for Drawing a Planar Graph on a Grid, 1995), in time linear in V but for the sorting of each
-/// vertex' neighbours. The angles are as bad as the grid is large.
+/// vertex' neighbors. The angles are as bad as the grid is large.
 ///
 /// triangles (F, 3): one triangulation of the chart, counter-clockwise, of the vertices below n; loops: as in Chart,
 /// `outer` the index of the outer one. Each hole is closed by a vertex in its middle, a slit of two vertices by itself.

@@ -10,9 +10,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of an element in one pass through all.
-constexpr double pass_nanoseconds = 50;
-
 /// The vertices that are free to move, and all elements that have one of them.
 struct Region {
   std::vector<int> free;
@@ -30,7 +27,7 @@ class Unfolding {
         progress_(progress),
         elements_at_(static_cast<int>(z.size()),
                      [&](const auto& visit) {
-                       for_each_heard(elements.size(), pass_nanoseconds, [&](std::size_t t) {
+                       for_each_heard(elements.size(), [&](std::size_t t) {
                          for (const int v : elements[t].corners) visit(v, static_cast<int>(t));
                        });
                      }),
@@ -56,7 +53,7 @@ class Unfolding {
   std::vector<double> vertex_log_scale() const {
     std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
     std::vector<double> weight(sum.size(), 0);
-    for_each_heard(elements_.size(), pass_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements_.size(), [&](std::size_t t) {
       const DistortionElement& element = elements_[t];
       if (!element.measured || is_flipped(element, z_, unplaced)) return;
       const double logarithm = 0.5 * std::log(jacobian(element, z_).determinant);
@@ -100,7 +97,7 @@ class Unfolding {
       near[v] = 1;
       reached.push_back(v);
     };
-    for_each_heard(elements_.size(), pass_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements_.size(), [&](std::size_t t) {
       if (!is_flipped(elements_[t], z_, unplaced)) return;
       for (const int v : elements_[t].corners) reach(v);
     });

@@ -9,7 +9,7 @@
 namespace spectral_conformal {
 
 /// Unfolds the flipped triangles of a map and leaves the rest of it where it is: frees the vertices around them, ring
-/// by ring further, until a descent (descent.h) of the symmetric Dirichlet energy, at the scale of their neighbourhood,
+/// by ring further, until a descent (descent.h) of the symmetric Dirichlet energy, at the scale of their neighborhood,
 /// finds room for them; what was freed is then relaxed to the minimum of the conformal distortion. Flipped: beyond the
 /// tolerance `unplaced` of distortion_energy.h.
 ///

@@ -23,9 +23,6 @@ namespace {
 /// Edges without length count as this fraction of the mean one: their vertices must come apart, too.
 constexpr double min_relative_length = 1e-3;
 
-/// Of an edge in one pass through all.
-constexpr double edge_nanoseconds = 50;
-
 struct WeightedEdge {
   int i;
   int j;
@@ -48,7 +45,7 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size());
   double total = 0;
-  for_each_heard(pairs.size(), edge_nanoseconds, [&](std::size_t k) {
+  for_each_heard(pairs.size(), [&](std::size_t k) {
     const auto& [i, j] = pairs[k];
     edges.push_back({i, j, (positions.row(i) - positions.row(j)).norm()});
     total += edges.back().length;
@@ -78,7 +75,7 @@ void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& 
   for (std::size_t i = 0; i < loop.size(); ++i) z[loop[i]] = std::polar(1.0, 2 * pi * reached[i] / reached.back());
 }
 
-/// The Tutte system: each vertex that is not on the circle lies at the weighted mean of its neighbours.
+/// The Tutte system: each vertex that is not on the circle lies at the weighted mean of its neighbors.
 class TutteSystem {
  public:
   TutteSystem(const std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n,
@@ -100,7 +97,7 @@ class TutteSystem {
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * edges_.size());
     ComplexVector right_side = ComplexVector::Zero(n_unknown_);
-    for_each_heard(edges_.size(), edge_nanoseconds, [&](std::size_t k) {
+    for_each_heard(edges_.size(), [&](std::size_t k) {
       const WeightedEdge& edge = edges_[k];
       const int i = unknown_[edge.i];
       const int j = unknown_[edge.j];
@@ -136,7 +133,7 @@ std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const Co
   constexpr double min_distance = 1e-15;  // rounding leaves no shorter ones in the unit circle
   std::vector<double> result;
   result.reserve(edges.size());
-  for_each_heard(edges.size(), edge_nanoseconds, [&](std::size_t k) {
+  for_each_heard(edges.size(), [&](std::size_t k) {
     const WeightedEdge& edge = edges[k];
     result.push_back(std::log(std::max(std::abs(z[edge.i] - z[edge.j]), min_distance) / edge.length));
   });
@@ -155,11 +152,11 @@ double variance(const std::vector<double>& values) {
 }
 
 /// Lowers the weights of edges that are short in the plane for their length in 3D, and raises those of the others: by
-/// the root of the stretch, since the lengths answer to the weights of whole neighbourhoods.
+/// the root of the stretch, since the lengths answer to the weights of whole neighborhoods.
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
   constexpr double max_log = 23;  // the changes of one round span 1e10 at most, which double precision solves
   const double centre = mean(log_stretch);
-  for_each_heard(edges.size(), edge_nanoseconds, [&](std::size_t k) {
+  for_each_heard(edges.size(), [&](std::size_t k) {
     edges[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -max_log, max_log));
   });
 }
@@ -185,7 +182,7 @@ struct Embedding {
 Embedding reweighted_embedding(const std::vector<std::array<int, 3>>& triangles, std::vector<WeightedEdge>& edges,
                                TutteSystem& system, ComplexVector z, const Progress& progress) {
   Embedding best;
-  constexpr int rounds = 10;  // bounds the time: one factorisation each
+  constexpr int rounds = 10;  // bounds the time: one factorization each
   for (int round = 0; round < rounds; ++round) {
     report(progress, static_cast<double>(round) / rounds, "embedding");
     if (!system.solve(z)) break;

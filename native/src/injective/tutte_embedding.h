@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 
 /// A Tutte embedding of a disk, holes allowed, into the unit circle: the outer loop lies on the circle, by its lengths
-/// in 3D, or in equal arcs where it has none, and every other vertex at a weighted mean of its neighbours, with
+/// in 3D, or in equal arcs where it has none, and every other vertex at a weighted mean of its neighbors, with
 /// positive weights; each hole is closed by a vertex in its middle. By Tutte's theorem (How to Draw a Graph, 1963), for
 /// weighted means by Floater (Parametrization and Smooth Approximation of Surface Triangulations, 1997; One-to-One
 /// Piecewise Linear Mappings over Triangulations, 2003), it is one-to-one: no triangle is flipped, as far as double

@@ -19,7 +19,7 @@ using Order = std::vector<std::size_t>;
 
 /// Packs the boxes, in the given order, into a strip; returns the side of the square that holds them.
 double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes) {
-  // From so many segments on, a tree takes less time.
+  // From this many segments on, a tree takes less time.
   constexpr std::size_t many = 100;
   Skyline skyline(width);
   std::optional<SkylineTree> tree;

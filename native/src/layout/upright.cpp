@@ -70,7 +70,7 @@ struct Moment {
 constexpr int max_order = 6;
 
 /// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline: those over the triangles between
-/// the centre, from which w is taken, and the edges. There w is s times a point of the edge, 0 <= s <= 1, so that each
+/// the center, from which w is taken, and the edges. There w is s times a point of the edge, 0 <= s <= 1, so that each
 /// is the mean of w^p conj(w)^q along the edge times cross(start, end) / (p + q + 2). The Gauss rule is exact for it.
 class RegionIntegrals {
  public:

@@ -23,7 +23,7 @@ void set_blas_thread_setting(int threads);
 /// last of them ends, however it ends; a number that somebody else set in between is kept. May be held by several
 /// threads at once, which wait for each other unless the BLAS serves many. A thread may hold several.
 /// Without effect with another BLAS. A second thread of the BLAS itself would spin while it waits and stall where the
-/// other core is busy; a factorisation works on several subtrees at once instead (supernodal_factor.h).
+/// other core is busy; a factorization works on several subtrees at once instead (supernodal_factor.h).
 class BlasThreads {
  public:
   BlasThreads();
@@ -37,7 +37,7 @@ class BlasThreads {
   [[maybe_unused]] bool is_alone_;  ///< holds the lock alone
 };
 
-/// The file of the BLAS that the factorisation's calls are bound to and what it says of itself, or "" without CHOLMOD.
+/// The file of the BLAS that the factorization's calls are bound to and what it says of itself, or "" without CHOLMOD.
 std::string blas_library();
 /// The kernels that OpenBLAS runs, by the processor that they are written for, such as "SkylakeX" for AVX-512; "" with
 /// another BLAS. Releases older than a processor may run those of a much older one.

@@ -102,7 +102,7 @@ CholmodAnalysis analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& 
   return {structure_of(*symbolic), workspace->fl};
 }
 
-/// From so many rows on CHOLMOD tries METIS, too, where AMD seems poor; it takes ten times as long and saves memory
+/// From this many rows on CHOLMOD tries METIS, too, where AMD seems poor; it takes ten times as long and saves memory
 /// (0.71 instead of 1.08 GB).
 constexpr Eigen::Index compare_from = 600000;
 

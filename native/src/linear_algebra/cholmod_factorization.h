@@ -11,7 +11,7 @@ namespace spectral_conformal {
 bool has_cholmod();
 
 /// A supernodal L L^H whose order and structure SuiteSparse CHOLMOD finds (Chen, Davis, Hager and Rajamanickam,
-/// Algorithm 887, 2008), and whose numbers are supernodal_factor.h: CHOLMOD's own factorisation goes through the
+/// Algorithm 887, 2008), and whose numbers are supernodal_factor.h: CHOLMOD's own factorization goes through the
 /// supernodes one after the other and keeps complex numbers where all are real, its solve allocates and cannot stop at
 /// selected vertices. Throws std::invalid_argument without CHOLMOD.
 std::unique_ptr<Factorization> make_cholmod_factorization();

@@ -24,7 +24,11 @@ void zgemv_(const char*, const int*, const int*, const void*, const void*, const
 namespace spectral_conformal {
 namespace {
 
+// Arguments of the BLAS: a stride, and factors.
 constexpr int one = 1;
+constexpr double real_unit = 1;
+constexpr double real_minus = -1;
+constexpr double zero = 0;
 const Complex unit = 1;
 const Complex minus = -1;
 /// A block of no more multiplications, width times height squared, takes less time here than calls do.
@@ -113,7 +117,6 @@ bool eliminate_columns(const DenseBlock<Complex>& block) {
 void divide_below(const DenseBlock<double>& block) {
   if (is_small(block)) return;
   const int below = block.below();
-  constexpr double real_unit = 1;
   dtrsm_("R", "L", "T", "N", &below, &block.width, &real_unit, block.values, &block.height, block.values + block.width,
          &block.height);
 }
@@ -127,15 +130,11 @@ void divide_below(const DenseBlock<Complex>& block) {
 void multiply_below(const DenseBlock<double>& block, double* c) {
   if (is_small(block)) return multiply_small(block, c);
   const int below = block.below();
-  constexpr double real_minus = -1;
-  constexpr double zero = 0;
   dsyrk_("L", "N", &below, &block.width, &real_minus, block.values + block.width, &block.height, &zero, c, &below);
 }
 void multiply_below(const DenseBlock<Complex>& block, Complex* c) {
   if (is_small(block)) return multiply_small(block, c);
   const int below = block.below();
-  constexpr double real_minus = -1;
-  constexpr double zero = 0;
   zherk_("L", "N", &below, &block.width, &real_minus, block.values + block.width, &block.height, &zero, c, &below);
 }
 

@@ -19,7 +19,7 @@ struct DenseBlock {
 };
 
 // The three steps of an elimination, by BLAS and LAPACK. Small blocks have them here: OpenBLAS locks a mutex of the
-// process in each call, at which threads that factorise small matrices wait for each other; on two cores they were no
+// process in each call, at which threads that factorize small matrices wait for each other; on two cores they were no
 // faster than one.
 
 /// A = L L^H in place. Of a small block, also the next step. False when A is not positive definite.

@@ -9,7 +9,7 @@
 
 namespace spectral_conformal {
 
-/// The factorisation of one Hermitian positive definite matrix and the solves with it. Owns all its memory: different
+/// The factorization of one Hermitian positive definite matrix and the solves with it. Owns all its memory: different
 /// objects can be used in different threads at once, one object by one thread at a time (solves share its workspace).
 /// Results do not depend on the number of BLAS threads that the process has set (blas_threads.h).
 class Factorization {
@@ -21,11 +21,11 @@ class Factorization {
   /// positions: (n, 3), where the rows lie in space, which helps to order large matrices; null where they lie nowhere.
   virtual void analyze(const HermitianMatrix& matrix, const Positions* positions) = 0;
   void analyze(const HermitianMatrix& matrix) { analyze(matrix, nullptr); }
-  /// Factorises a matrix of the analysed structure. Returns false when it is not positive definite in double precision.
+  /// Factorizes a matrix of the analyzed structure. Returns false when it is not positive definite in double precision.
   virtual bool factorize(const HermitianMatrix& matrix) = 0;
   /// Solves with the last factor: x = A^-1 b. b and x may be the same vector.
   virtual void solve(const ComplexVector& b, ComplexVector& x) = 0;
-  /// Chooses the vertices of the two solves below: distinct, of the analysed matrix.
+  /// Chooses the vertices of the two solves below: distinct, of the analyzed matrix.
   virtual void select(std::vector<int> vertices) = 0;
   /// x = S^T A^-1 S b for the selected vertices, S embedding them: both (n selected,). Passes only through the part of
   /// the factor that they reach.
@@ -36,7 +36,8 @@ class Factorization {
   virtual double factor_nonzeros() const = 0;
 };
 
-/// The lower triangle of an n x n matrix from its entries; those of one place are summed up. Heard by a listener.
+/// The lower triangle of an n x n matrix from its entries; entries of the same row and column are summed. Can be
+/// canceled.
 HermitianMatrix lower_triangle(Eigen::Index n, const std::vector<Eigen::Triplet<Complex>>& entries);
 
 /// Throws SolveFailure when a factor of this many nonzeros is too large for the index type, an int.

@@ -14,7 +14,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// So many nodes or fewer are a leaf: minimum degree orders them nearly as well, in less time.
+/// A part of this many nodes or fewer is a leaf: minimum degree orders it nearly as well, in less time.
 constexpr int max_leaf_size = 2000;
 /// Tried all round, and how often the best is turned by half of what it was before.
 constexpr int n_directions = 8;
@@ -157,7 +157,7 @@ class Dissector {
       const double low = sorted[sorted.size() / 3];
       const double high = sorted[sorted.size() - 1 - sorted.size() / 3];
       if (!(high > low)) return false;
-      // How many of the sample, on average, a plane in the middle third parts from a neighbour above it.
+      // How many of the sample, on average, a plane in the middle third parts from a neighbor above it.
       double n_cut = 0;
       for (std::size_t i = 0; i < places.size(); ++i) {
         if (height[i] < low || height[i] > high) continue;
@@ -216,7 +216,7 @@ class Dissector {
     }
   }
 
-  /// The part's nodes with a neighbour on the other side, and those at most so many edges from them that they are not
+  /// The part's nodes with a neighbor on the other side, and those at most so many edges from them that they are not
   /// too many. Gives them their place.
   std::vector<int> near_cut(const Part& part) {
     std::vector<int> near;

@@ -12,7 +12,7 @@ namespace spectral_conformal {
 
 /// L L^H of a Hermitian positive definite matrix by the multifrontal method (Duff and Reid 1983; Liu 1992), and the
 /// solves with it. Each supernode sums up what its children pass on, eliminates its columns by BLAS and passes the rest
-/// on to its parent; subtrees do not know of each other and are factorised by as many threads as the ThreadBudget
+/// on to its parent; subtrees do not know of each other and are factorized by as many threads as the ThreadBudget
 /// allows. What a supernode does never depends on the number of threads, so neither does any bit of the result. Blocks
 /// are real as long as no imaginary part has reached them: in the conformal energy with uniform weights only the
 /// boundary's edges have one (Eq. 3).
@@ -23,7 +23,7 @@ class SupernodalFactor {
 
   void analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
   const SymbolicFactor& symbolic() const { return symbolic_; }
-  /// Factorises a matrix of the analysed pattern. Returns false when it is not positive definite in double precision.
+  /// Factorizes a matrix of the analyzed pattern. Returns false when it is not positive definite in double precision.
   bool factorize(const HermitianMatrix& matrix);
   /// What the last factor takes: one for an entry of a real block, two of a complex one.
   double n_doubles() const { return static_cast<double>(offset_.back()); }

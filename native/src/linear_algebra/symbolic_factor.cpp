@@ -23,8 +23,7 @@ SymbolicFactor::SymbolicFactor(const HermitianMatrix& matrix, const Adjacency& g
   first_entry_.assign(n_super + 1, 0);
   std::vector<double> cost(n_super);
   const auto for_each_supernode = [&](const auto& visit) {
-    constexpr double nanoseconds = 2000;
-    run_blocks_in_parallel(n_super, nanoseconds, [&](int begin, int end) {
+    run_blocks_in_parallel(n_super, 2000, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) visit(k);
     });
   };

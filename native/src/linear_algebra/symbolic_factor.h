@@ -18,7 +18,7 @@ struct SupernodalStructure {
   std::vector<int> rows;                  ///< of each supernode, ascending: its own columns, then those below
 };
 
-/// What a factorisation needs to know before it has numbers: the supernodes as a forest, where each entry of the matrix
+/// What a factorization needs to know before it has numbers: the supernodes as a forest, where each entry of the matrix
 /// goes, and the order in which threads work.
 class SymbolicFactor {
  public:

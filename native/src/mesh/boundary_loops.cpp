@@ -33,11 +33,10 @@ int outer_loop(const std::vector<BoundaryLoop>& loops, const Eigen::Ref<const Po
 namespace {
 
 std::vector<double> distances_from(int source, const Adjacency& graph, const Eigen::Ref<const Positions>& positions) {
-  constexpr double settling_nanoseconds = 400;
   ShortestPathSearch search(graph.n_nodes());
   search.offer(source, 0);
   for (int vertex = search.settle(); vertex >= 0; vertex = search.settle()) {
-    still_working(settling_nanoseconds);
+    still_working(400);
     for (const auto& arc : graph.arcs(vertex)) {
       search.offer(arc.to, search.distance(vertex) + (positions.row(arc.to) - positions.row(vertex)).norm());
     }

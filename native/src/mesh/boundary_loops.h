@@ -15,7 +15,7 @@ int outer_loop(const std::vector<BoundaryLoop>& loops, const Eigen::Ref<const Po
 /// The two boundary vertices that are farthest from each other along the mesh's edges, found by repeated sweeps
 /// (Dijkstra from a vertex to the farthest boundary vertex, from there again, until the distance stops growing): a
 /// lower bound of the true diameter that is nearly always attained. The pins that LSCM and DCP recommend
-/// (section 3.1). `neighbours` (V x V) holds a nonzero for every edge, in its lower triangle.
+/// (section 3.1). `neighbors` (V x V) holds a nonzero for every edge, in its lower triangle.
 std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
                                               const HermitianMatrix& neighbours);
 

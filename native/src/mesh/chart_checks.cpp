@@ -12,9 +12,8 @@ namespace {
 
 // Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal numbers
 // too.
-constexpr double least_extent = 1e-100;
-constexpr double largest_extent = 1e100;
-constexpr double area_nanoseconds = 20;
+constexpr double min_extent = 1e-100;
+constexpr double max_extent = 1e100;
 
 double extent_of(const Eigen::Ref<const Positions>& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
@@ -25,11 +24,11 @@ double extent_of(const Eigen::Ref<const Positions>& positions) {
 bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   if (!positions.allFinite()) return false;
   const double extent = extent_of(positions);
-  if (!(extent > least_extent)) return true;
-  if (!(extent < largest_extent)) return false;
+  if (!(extent > min_extent)) return true;
+  if (!(extent < max_extent)) return false;
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   double area = 0;
-  for_each_heard(chart.triangles.size(), area_nanoseconds, [&](std::size_t t) {
+  for_each_heard(chart.triangles.size(), [&](std::size_t t) {
     const auto& [a, b, c] = chart.triangles[t];
     const auto corner = [&](int v) -> Eigen::Vector3d { return (positions.row(v) - low).transpose() / extent; };
     area += triangle_area(corner(a), corner(b), corner(c));
@@ -47,7 +46,7 @@ std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref
   if (chart.boundary_loops.empty()) return rejected(Rejection::closed, chart.genus());
   if (chart.genus() > 0) return rejected(Rejection::handles, chart.genus());
   const double extent = extent_of(positions);
-  if (!(extent > least_extent && extent < largest_extent)) return rejected(Rejection::no_extent);
+  if (!(extent > min_extent && extent < max_extent)) return rejected(Rejection::no_extent);
   if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
     return rejected(Rejection::border_of_two);
   }

@@ -96,15 +96,15 @@ class ChartBuilder {
   void complete(Chart& chart) {
     triangles_.clear();
     triangle_weights_.clear();
-    std::size_t most_triangles = 0;
+    std::size_t max_triangles = 0;
     for (const int face : chart.faces) {
       // A quad has both of its splits.
       const int size = mesh_.n_corners(face);
-      most_triangles += static_cast<std::size_t>(size == 4 ? 4 : size - 2);
+      max_triangles += static_cast<std::size_t>(size == 4 ? 4 : size - 2);
     }
-    triangles_.reserve(most_triangles);
-    triangle_weights_.reserve(most_triangles);
-    chart.triangle_face.reserve(most_triangles);
+    triangles_.reserve(max_triangles);
+    triangle_weights_.reserve(max_triangles);
+    chart.triangle_face.reserve(max_triangles);
     next_vertex_.assign(chart.vertices.size(), -1);
     long long n_half_edges = 0;
     long long n_boundary = 0;
@@ -138,7 +138,7 @@ class ChartBuilder {
     const auto corner = [&](int i) { return reversed ? first + size - 1 - i : first + i; };
     if (size == 3) {
       triangles_.push_back({vertex_of_corner_[corner(0)], vertex_of_corner_[corner(1)], vertex_of_corner_[corner(2)]});
-      triangle_weights_.push_back(1.0);
+      triangle_weights_.push_back(whole_triangle);
       chart.triangle_face.push_back(index);
       return;
     }
@@ -164,7 +164,7 @@ class ChartBuilder {
   const std::vector<char>& reversed_;
   const std::vector<int>& vertex_of_corner_;
   std::vector<std::array<int, 3>> triangles_;  ///< of the chart that is being completed
-  std::vector<double> triangle_weights_;
+  std::vector<TriangleWeight> triangle_weights_;
   std::vector<int> next_vertex_;
   Positions corners_;
   PolygonTriangulation polygon_;

@@ -11,12 +11,12 @@ namespace spectral_conformal {
 
 /// A connected set of faces, consistently wound, with vertices of its own.
 struct Chart {
-  std::vector<int> faces;                      ///< in the mesh, ascending
-  std::vector<int> vertices;                   ///< the mesh vertex of each chart vertex, ascending
-  SharedVector<std::array<int, 3>> triangles;  ///< chart vertices, counter-clockwise
-  SharedVector<double> triangle_weights;       ///< per triangle: 1, or 1/2 in a row of four: see quad_splits
-  std::vector<int> triangle_face;              ///< per triangle: index into `faces`
-  std::vector<BoundaryLoop> boundary_loops;    ///< chart vertices; unordered
+  std::vector<int> faces;                         ///< in the mesh, ascending
+  std::vector<int> vertices;                      ///< the mesh vertex of each chart vertex, ascending
+  SharedVector<std::array<int, 3>> triangles;     ///< chart vertices, counter-clockwise
+  SharedVector<TriangleWeight> triangle_weights;  ///< per triangle: 1, or 1/2 in a row of four: see quad_splits
+  std::vector<int> triangle_face;                 ///< per triangle: index into `faces`
+  std::vector<BoundaryLoop> boundary_loops;       ///< chart vertices; unordered
   int euler_characteristic = 0;
   bool orientable = true;
   int self_intersecting_polygons = 0;  ///< n-gons whose projection has no simple triangulation

@@ -43,7 +43,7 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
       centres.push_back(centre);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         result.triangles.push_back({apex, loop[i], loop[(i + 1) % loop.size()]});
-        result.triangle_weights.push_back(1.0);
+        result.triangle_weights.push_back(whole_triangle);
       }
       continue;
     }

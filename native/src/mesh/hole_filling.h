@@ -9,12 +9,12 @@ namespace spectral_conformal {
 
 /// Virtual triangles that close the inner boundary loops of a chart. They stiffen the holes; nothing measures them.
 struct HoleFilling {
-  Positions centres;                          ///< (n, 3) positions of added vertices, numbered from V on
-  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise, like those of the chart
-  std::vector<double> triangle_weights;       ///< per triangle
+  Positions centres;                             ///< (n, 3) positions of added vertices, numbered from V on
+  std::vector<std::array<int, 3>> triangles;     ///< counter-clockwise, like those of the chart
+  std::vector<TriangleWeight> triangle_weights;  ///< per triangle
 };
 
-/// Fills every loop but `outer`. A loop that is star-shaped about its barycentre, as seen along its vector area, gets a
+/// Fills every loop but `outer`. A loop that is star-shaped about its barycenter, as seen along its vector area, gets a
 /// fan around it, so that a symmetric hole is filled symmetrically; loops of three and four vertices, and all others,
 /// are triangulated like polygons (triangulate_polygon). loops: as in Chart; positions (V, 3), finite.
 HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer, const Eigen::Ref<const Positions>& positions);

@@ -14,9 +14,9 @@ namespace {
 
 /// Vertices around the mirror image of one, by which a spot that the tolerance does not resolve costs no more than this
 /// for each of its vertices. A pole whose faces have vertices of their own has fewer.
-constexpr int most_told_apart = 256;
-/// Of a polygon with more vertices that have images, so many decide about another: all of them say much the same.
-constexpr std::ptrdiff_t most_deciding = 64;
+constexpr int max_candidates = 256;
+/// Of a polygon with more vertices that have images, only this many vote on another vertex: all say much the same.
+constexpr std::ptrdiff_t max_deciding = 64;
 
 /// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
 class NearbyVertices {
@@ -45,7 +45,7 @@ class NearbyVertices {
           for (int v = first_[bucket(cell)]; v >= 0; v = next_[static_cast<std::size_t>(v)]) {
             // Others are in the bucket by chance.
             if (cell_of(points_.row(v)) != cell) continue;
-            if (++n_seen > most_told_apart) {
+            if (++n_seen > max_candidates) {
               result.clear();
               return;
             }
@@ -67,7 +67,7 @@ class NearbyVertices {
     std::uint64_t key = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
                         static_cast<std::uint64_t>(cell[1]) * 19349663U ^
                         static_cast<std::uint64_t>(cell[2]) * 83492791U;
-    key *= 0x9E3779B97F4A7C15U;  // Fibonacci hashing: neighbouring cells have keys that differ in few bits
+    key *= 0x9E3779B97F4A7C15U;  // Fibonacci hashing: neighboring cells have keys that differ in few bits
     return static_cast<std::size_t>(key >> 32) & (first_.size() - 1);
   }
 
@@ -134,7 +134,7 @@ class AmbiguousMatch {
         }
       }
       const auto n = static_cast<std::ptrdiff_t>(own.size());
-      const std::ptrdiff_t n_deciding = std::min(n, most_deciding);
+      const std::ptrdiff_t n_deciding = std::min(n, max_deciding);
       for (std::ptrdiff_t k = 0; k < n_deciding; ++k) {
         matched_.push_back(own[static_cast<std::size_t>(k * n / n_deciding)]);
       }
@@ -302,7 +302,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   }
   const double extent = (high - low).maxCoeff();
   if (!(extent > 0) || !std::isfinite(extent)) return best;
-  // In units of the extent, from the centre, the cells of the grid have small numbers.
+  // In units of the extent, from the center, the cells of the grid have small numbers.
   Positions points = Positions::Zero(mesh.n_vertices, 3);
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);

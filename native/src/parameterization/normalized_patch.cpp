@@ -91,7 +91,7 @@ int n_covering_triangles(const NormalizedPatch& patch, const ComplexVector& z) {
   if (!may_cover_itself(patch, z)) return 0;
   const auto n = static_cast<std::ptrdiff_t>(patch.triangles.size() - patch.n_virtual);
   const std::vector<std::array<int, 3>> all(patch.triangles.begin(), patch.triangles.begin() + n);
-  const std::vector<double> weights(patch.triangle_weights.begin(), patch.triangle_weights.begin() + n);
+  const std::vector<TriangleWeight> weights(patch.triangle_weights.begin(), patch.triangle_weights.begin() + n);
   std::vector<std::array<int, 3>> triangles;
   for (const int t : mapped_triangulation(all, weights, z)) triangles.push_back(all[static_cast<std::size_t>(t)]);
   const std::vector<bool> overlapping = overlapping_triangles(triangles, z);

@@ -19,9 +19,9 @@ struct NormalizedPatch {
   double scale = 1;     ///< input units per unit of `positions`
   BoundaryLoop outer;   ///< the longest in 3D
   std::vector<BoundaryLoop> inner;
-  SharedVector<std::array<int, 3>> triangles;  ///< counter-clockwise; the chart's, then those in filled holes
-  SharedVector<double> triangle_weights;       ///< per triangle, see Chart
-  std::size_t n_virtual = 0;                   ///< triangles in filled holes
+  SharedVector<std::array<int, 3>> triangles;     ///< counter-clockwise; the chart's, then those in filled holes
+  SharedVector<TriangleWeight> triangle_weights;  ///< per triangle, see Chart
+  std::size_t n_virtual = 0;                      ///< triangles in filled holes
 
   auto surface() const { return positions.topRows(n_vertices); }  ///< positions of the chart's vertices
 };

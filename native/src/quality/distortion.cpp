@@ -142,7 +142,7 @@ int Distortion::n_flipped() const { return static_cast<int>(std::count(flipped.b
 
 Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
                               const std::vector<std::array<int, 3>>& triangles,
-                              const std::vector<double>& triangle_weights, const ComplexVector& z) {
+                              const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z) {
   Distortion result = measure_triangles(shapes, triangles, z);
   const ComplexVector oriented = positively_oriented(triangles, triangle_weights, z);
   result.triangulation = mapped_triangulation(triangles, triangle_weights, oriented);
@@ -157,38 +157,23 @@ Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
 
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
                               const std::vector<std::array<int, 3>>& triangles,
-                              const std::vector<double>& triangle_weights, const ComplexVector& z) {
+                              const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z) {
   return measure_distortion(frames_of(positions, triangles), triangles, triangle_weights, z);
 }
 
 double mean_quasi_conformal_distortion(const std::vector<TriangleShape>& shapes,
                                        const std::vector<std::array<int, 3>>& triangles,
-                                       const std::vector<double>& triangle_weights, std::size_t n_triangles,
+                                       const std::vector<TriangleWeight>& triangle_weights, std::size_t n_triangles,
                                        const ComplexVector& z) {
   double sum = 0;
   double total = 0;
-  const auto count = [&](std::size_t t) {
+  for_each_mapped_triangle(n_triangles, triangles, triangle_weights, z, [&](std::size_t t) {
     const TriangleShape& shape = shapes[t];
     if (shape.clamped) return;
     const auto& [a, b, c] = triangles[t];
     sum += shape.area() * shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
     total += shape.area();
-  };
-  const auto area = [&](std::size_t t) {
-    const auto& [a, b, c] = triangles[t];
-    return signed_area(z[a], z[b], z[c]);
-  };
-  for (std::size_t t = 0; t < n_triangles; ++t) {
-    if (triangle_weights.empty() || !begins_quad(triangle_weights[t])) {
-      count(t);
-      continue;
-    }
-    const bool second = second_split_is_better({area(t), area(t + 1), area(t + 2), area(t + 3)});
-    const std::size_t chosen = t + (second ? 2 : 0);
-    count(chosen);
-    count(chosen + 1);
-    t += 3;
-  }
+  });
   still_working(30 * static_cast<double>(n_triangles));
   return total > 0 ? sum / total : 1;
 }

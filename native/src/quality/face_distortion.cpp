@@ -16,15 +16,12 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of a face.
-constexpr double measuring_nanoseconds = 200;
-
 /// Squares of lengths between these bounds, whose squares neither overflow nor vanish, need no unit.
-constexpr double least_square = 0x1p-400;
-constexpr double largest_square = 0x1p400;
+constexpr double min_square = 0x1p-400;
+constexpr double max_square = 0x1p400;
 
 /// Whether lengths can be calculated with as they are, given a sum of their squares.
-bool is_moderate(double square) { return square > least_square && square < largest_square; }
+bool is_moderate(double square) { return square > min_square && square < max_square; }
 
 /// What the triangles of a face add up to.
 struct FaceSums {
@@ -178,7 +175,7 @@ class FaceMeasure {
     if (is_mirrored_) z_ = z_.conjugate().eval();
     return fit;
   }
-  bool has_both_splits() const { return begins_quad(polygon_.triangle_weights.front()); }
+  bool has_both_splits() const { return polygon_.triangle_weights.front().in_both_splits(); }
   double area_of(std::size_t t) const {
     const auto& [a, b, c] = polygon_.triangles[t];
     return signed_area(z_[a], z_[b], z_[c]);
@@ -200,7 +197,7 @@ FaceDistortion measured(const PolygonMesh& mesh, const Real* corner_uv) {
   FaceDistortion result;
   result.qc = Eigen::VectorXd::Ones(mesh.n_faces);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(mesh.n_faces);
-  run_blocks_in_parallel(mesh.n_faces, measuring_nanoseconds, [&](int begin, int end) {
+  run_blocks_in_parallel(mesh.n_faces, 200, [&](int begin, int end) {
     FaceMeasure<Real> measure(mesh, corner_uv);
     for (int face = begin; face < end; ++face) measure.measure(face, result);
   });

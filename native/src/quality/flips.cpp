@@ -34,7 +34,7 @@ std::vector<int> non_positive_triangles(const std::vector<std::array<int, 3>>& t
 }
 
 ComplexVector positively_oriented(const std::vector<std::array<int, 3>>& triangles,
-                                  const std::vector<double>& triangle_weights, const ComplexVector& z) {
+                                  const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z) {
   return signed_area(triangles, triangle_weights, z) < 0 ? ComplexVector(z.conjugate()) : z;
 }
 

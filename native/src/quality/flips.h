@@ -40,6 +40,6 @@ std::vector<int> non_positive_triangles(const std::vector<std::array<int, 3>>& t
 /// The map z (V,), or its mirror image if its signed area is negative: a map that is mirrored as a whole has no flips.
 /// triangle_weights (F,) or empty for 1.
 ComplexVector positively_oriented(const std::vector<std::array<int, 3>>& triangles,
-                                  const std::vector<double>& triangle_weights, const ComplexVector& z);
+                                  const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z);
 
 }  // namespace spectral_conformal

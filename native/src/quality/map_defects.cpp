@@ -22,16 +22,13 @@ namespace {
 /// both directions of the plane, move a height by up to 1.7e-7; this leaves half as much again.
 constexpr double resolution = 2.5e-7;
 
-/// Of a face of three or four corners, or a fifth of a vertex with six.
-constexpr double images_nanoseconds = 20;
-
 /// The mesh in the plane of its map: its vertices are the different images that mesh vertices have.
 class MapMesh {
  public:
   MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
     const int n_corners = mesh.n_corners();
     Grouped<Image> images(mesh.n_vertices, [&](const auto& visit) {
-      for_each_heard(mesh.n_faces, images_nanoseconds, [&](int face) {
+      for_each_heard(mesh.n_faces, [&](int face) {
         if (!mesh.is_selected(face)) return;
         for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
           const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
@@ -44,7 +41,7 @@ class MapMesh {
       });
     });
     vertex_of_corner_.assign(static_cast<std::size_t>(n_corners), 0);
-    for_each_heard(mesh.n_vertices, 5 * images_nanoseconds, [&](int v) {
+    for_each_heard(mesh.n_vertices, [&](int v) {
       const auto [first, last] = images[v];
       std::sort(first, last);
       for (const Image* image = first; image != last; ++image) {

@@ -21,7 +21,7 @@ struct BoundaryEdge {
   int loop;
 };
 
-/// Whether two boundary edges have no point in common but the vertex that neighbours share.
+/// Whether two boundary edges have no point in common but the vertex that neighbors share.
 bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const ComplexVector& z) {
   const auto doubles_back = [&](int before, int shared, int after) {
     if (orientation(z[before], z[shared], z[after]) != 0) return false;
@@ -48,7 +48,7 @@ class Boundary {
 
   std::size_t n_edges() const { return edges_.size(); }
 
-  /// Whether no edge has a point in common with another but for those that neighbours share. Takes those that it looks
+  /// Whether no edge has a point in common with another but for those that neighbors share. Takes those that it looks
   /// at from `most`, and returns false where none is left.
   bool is_simple(std::size_t& most) const {
     bool simple = true;
@@ -189,7 +189,7 @@ class DegreeTest {
     // The degree is the same over triangles that share an inner vertex. In between there is no boundary: the vertex
     // would have to lie on it.
     DisjointSets joined(static_cast<int>(on_boundary_.size()));
-    for_each_heard(triangles_.size(), joining_nanoseconds, [&](std::size_t t) {
+    for_each_heard(triangles_.size(), [&](std::size_t t) {
       const int first = is_off_[t] != 0 ? inner_vertex(t) : -1;
       if (first < 0) return;
       for (const int v : triangles_[t]) {
@@ -198,7 +198,7 @@ class DegreeTest {
     });
     std::vector<int> degree(on_boundary_.size(), unknown);
     std::vector<int> result;
-    for_each_heard(triangles_.size(), joining_nanoseconds, [&](std::size_t t) {
+    for_each_heard(triangles_.size(), [&](std::size_t t) {
       if (is_off_[t] == 0 || degree_over(t, joined, degree) > 1) result.push_back(static_cast<int>(t));
     });
     return result;
@@ -206,11 +206,9 @@ class DegreeTest {
 
  private:
   static constexpr int unknown = std::numeric_limits<int>::min();
-  static constexpr double nanoseconds_per_triangle = 300;
-  static constexpr double joining_nanoseconds = 60;
 
   void find_triangles_off_the_boundary() {
-    run_blocks_in_parallel(triangles_.size(), nanoseconds_per_triangle, [&](std::size_t begin, std::size_t end) {
+    run_blocks_in_parallel(triangles_.size(), 300, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         is_off_[t] = is_positive(triangles_[t], z_) && boundary_.is_off(triangles_[t]) ? 1 : 0;
       }
@@ -230,7 +228,7 @@ class DegreeTest {
     }
     const auto& [a, b, c] = triangles_[t];
     const Complex centre = z_[a] / 3.0 + z_[b] / 3.0 + z_[c] / 3.0;
-    // Rounding puts the centre of a thin triangle anywhere.
+    // Rounding puts the center of a thin triangle anywhere.
     const bool inside = orientation(z_[a], z_[b], centre) > 0 && orientation(z_[b], z_[c], centre) > 0 &&
                         orientation(z_[c], z_[a], centre) > 0;
     return inside ? boundary_.winding_number(centre) : std::numeric_limits<int>::max();

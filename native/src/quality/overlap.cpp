@@ -23,12 +23,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of a triangle that is tested, and of one that is copied, placed or sorted among many.
-constexpr double testing_nanoseconds = 1000;
-constexpr double copying_nanoseconds = 20;
-constexpr double placing_nanoseconds = 80;
-constexpr double stacking_nanoseconds = 300;
-
 /// Pairs of meeting boxes that are looked at for each triangle before a sweep takes over, which costs about as much.
 constexpr std::size_t pairs_of_each = 100;
 
@@ -47,7 +41,7 @@ class OverlapTest {
     // Products of coordinates must neither overflow nor vanish, whatever the unit. A power of two keeps points on
     // lines.
     double extent = 0;
-    for_each_heard(triangles.size(), copying_nanoseconds, [&](std::size_t t) {
+    for_each_heard(triangles.size(), [&](std::size_t t) {
       for (const int v : triangles[t]) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
     });
     if (!(extent > 0)) return;
@@ -92,7 +86,7 @@ class OverlapTest {
     covering.reserve(triangles.size());
     placed.reserve(triangles.size());
     boxes.reserve(triangles.size());
-    for_each_heard(triangles.size(), placing_nanoseconds, [&](std::size_t i) {
+    for_each_heard(triangles.size(), [&](std::size_t i) {
       const int t = triangles[i];
       const PlaneTriangle triangle = place(t);
       if (covers_nothing(triangle)) {
@@ -134,15 +128,13 @@ class OverlapTest {
     };
     std::vector<std::pair<std::array<double, 6>, int>> placed;
     placed.reserve(some.size());
-    for_each_heard(some.size(), copying_nanoseconds,
-                   [&](std::size_t i) { placed.emplace_back(place_of(some[i]), some[i]); });
-    call_while_listening(stacking_nanoseconds * static_cast<double>(placed.size()),
-                         [&] { std::sort(placed.begin(), placed.end()); });
+    for_each_heard(some.size(), [&](std::size_t i) { placed.emplace_back(place_of(some[i]), some[i]); });
+    call_while_listening(300 * static_cast<double>(placed.size()), [&] { std::sort(placed.begin(), placed.end()); });
     const auto face_of = [this](int t) { return face_.empty() ? t : face_[static_cast<std::size_t>(t)]; };
     std::vector<int> result;
     result.reserve(some.size());
     for (std::size_t i = 0; i < placed.size();) {
-      still_working(copying_nanoseconds);
+      still_working(20);
       const int first = placed[i].second;
       result.push_back(first);
       bool has_other_face = false;
@@ -179,7 +171,7 @@ class OverlapTest {
   bool for_each_triangle(const Work& work, std::size_t most = pairs_of_each) const {
     const std::size_t limit = most == no_limit ? no_limit : most * triangles_.size();
     std::atomic<std::size_t> pairs{0};
-    run_blocks_in_parallel(triangles_.size(), testing_nanoseconds, [&](std::size_t begin, std::size_t end) {
+    run_blocks_in_parallel(triangles_.size(), 1000, [&](std::size_t begin, std::size_t end) {
       const std::size_t before = pairs.load(std::memory_order_relaxed);
       std::size_t own = 0;
       for (std::size_t t = begin; t < end && before + own <= limit; ++t) {
@@ -332,7 +324,7 @@ class OverlapTest {
   }
 
   bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {
-    // Neighbours share an edge up to rounding of their heights, some 1e-16 of the coordinates; 1e-9 leaves room for
+    // Neighbors share an edge up to rounding of their heights, some 1e-16 of the coordinates; 1e-9 leaves room for
     // triangles a millionth of the map's extent.
     constexpr double contact = 1e-9;
     const double tolerance = std::max(contact * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
@@ -358,7 +350,7 @@ std::vector<bool> overlapping_triangles(const std::vector<std::array<int, 3>>& t
 void MapOfCharts::add(const Chart& chart, const ComplexVector& chart_z, bool is_mirrored, const std::vector<int>& which,
                       const std::vector<int>& face_of_each) {
   const int first = static_cast<int>(z.size());
-  for_each_heard(which.size(), copying_nanoseconds, [&](std::size_t i) {
+  for_each_heard(which.size(), [&](std::size_t i) {
     const auto& [a, b, c] = chart.triangles[static_cast<std::size_t>(which[i])];
     if (!chart.orientable) loose.push_back(static_cast<int>(triangles.size()));
     triangles.push_back({first + a, first + b, first + c});
@@ -402,7 +394,7 @@ std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, d
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> face;
   const std::vector<int> mapped = mapped_triangulation(chart.triangles, chart.triangle_weights, z);
-  for_each_heard(mapped.size(), copying_nanoseconds, [&](std::size_t i) {
+  for_each_heard(mapped.size(), [&](std::size_t i) {
     triangles.push_back(chart.triangles[static_cast<std::size_t>(mapped[i])]);
     face.push_back(chart.triangle_face[static_cast<std::size_t>(mapped[i])]);
   });

@@ -8,7 +8,7 @@
 namespace spectral_conformal {
 
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
-                   const std::vector<double>& triangle_weights, const ComplexVector& map) {
+                   const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& map) {
   // Products of coordinates must neither overflow nor vanish, whatever the unit.
   double extent = 0;
   for (const Complex p : map) extent = std::max({extent, std::abs(p.real()), std::abs(p.imag())});

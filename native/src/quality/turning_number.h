@@ -13,6 +13,6 @@ namespace spectral_conformal {
 /// counter-clockwise in 3D; triangle_weights per triangle. Edges without length are skipped; a map without
 /// extent has 0.
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
-                   const std::vector<double>& triangle_weights, const ComplexVector& map);
+                   const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& map);
 
 }  // namespace spectral_conformal

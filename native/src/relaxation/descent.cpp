@@ -12,9 +12,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of an element in one pass through all.
-constexpr double element_nanoseconds = 50;
-
 /// The quadratic form that stands for the Hessian of the energy, one weight each for |f_z|^2 and |f_zbar|^2 per
 /// triangle.
 class QuadraticForm {
@@ -25,7 +22,7 @@ class QuadraticForm {
     std::vector<Eigen::Triplet<Complex>> entries;
     entries.reserve(3 * elements.size() + static_cast<std::size_t>(n));
     for (int v = 0; v < n; ++v) entries.emplace_back(v, v, 0.0);
-    for_each_heard(elements.size(), element_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements.size(), [&](std::size_t t) {
       const DistortionElement& element = elements[t];
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(element.corners[(k + 1) % 3], element.corners[(k + 2) % 3]);
@@ -33,7 +30,7 @@ class QuadraticForm {
       }
     });
     matrix_ = lower_triangle(n, entries);
-    for_each_heard(elements.size(), element_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements.size(), [&](std::size_t t) {
       const DistortionElement& element = elements[t];
       std::array<int, 3> entry{};
       for (int k = 0; k < 3; ++k) {
@@ -52,7 +49,7 @@ class QuadraticForm {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
     double largest = 0;
-    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements_.size(), [&](std::size_t t) {
       weights.push_back(stiffness(elements_[t], measure_, jacobian(elements_[t], z)));
       largest = std::max(largest, weights.back().antiholomorphic);
     });
@@ -80,7 +77,7 @@ class QuadraticForm {
     Complex* const value = matrix_.valuePtr();
     const int* const diagonal = matrix_.outerIndexPtr();
     std::fill(value, value + matrix_.nonZeros(), Complex(0));
-    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements_.size(), [&](std::size_t t) {
       const auto& [x1, x2, y2, clamped] = elements_[t].shape;
       const double double_area = x1 * y2;
       const double clamping = std::max(weights[t].antiholomorphic, min_weight) / weights[t].antiholomorphic;
@@ -118,8 +115,8 @@ class QuadraticForm {
   HermitianMatrix matrix_;
   std::vector<std::array<int, 3>> edge_entries_;  ///< of the edges opposite to the corners
   /// Weights are clamped to this fraction of the largest one from below. Over a wider range rounding leaves nothing of
-  /// the small ones and breaks the factorisation; clamping keeps the form a majoriser and only slows down what has the
-  /// least to gain. Raised a hundredfold, for good, where the factorisation still fails.
+  /// the small ones and breaks the factorization; clamping keeps the form a majorizer and only slows down what has the
+  /// least to gain. Raised a hundredfold, for good, where the factorization still fails.
   double min_weight_ = 1e-12;
 };
 
@@ -136,7 +133,7 @@ class Relaxation {
 
   Descent run(const Progress& progress) {
     // Each round presses harder on triangles that the last one left flipped: the barrier's limit is approached from
-    // regularisations of their own size. The first suffices on ordinary meshes (12 of 12, relaxed to equal areas).
+    // regularizations of their own size. The first suffices on ordinary meshes (12 of 12, relaxed to equal areas).
     constexpr double fractions[] = {1, 0.5, 0.1};
     for (const double fraction : fractions) {
       const bool first = fraction == fractions[0];
@@ -177,7 +174,7 @@ class Relaxation {
 
   State state() const {
     State state{z_, {}, regularized_, energy_, result_.status};
-    for_each_heard(elements_.size(), element_nanoseconds,
+    for_each_heard(elements_.size(),
                    [&](std::size_t t) { state.regularization.push_back(elements_[t].regularization); });
     return state;
   }
@@ -192,7 +189,7 @@ class Relaxation {
   }
 
   DescentStatus minimize(const Progress& progress) {
-    constexpr int steps_per_factor = 10;  // together they take about as long as one factorisation
+    constexpr int steps_per_factor = 10;  // together they take about as long as one factorization
     while (result_.factorizations < options_.max_factorizations) {
       const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
@@ -273,11 +270,11 @@ class Relaxation {
     return step;
   }
 
-  /// Regularises the triangles without image area, in proportion to their size: as little as their surroundings bear.
+  /// Regularizes the triangles without image area, in proportion to their size: as little as their surroundings bear.
   void regularize(double fraction) {
     constexpr double min_regularization = 1e-2;  // of collapsed ones, relative to the mean scale, which is about 1
     regularized_ = 0;
-    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements_.size(), [&](std::size_t t) {
       DistortionElement& element = elements_[t];
       const MapJacobian j = jacobian(element, z_);
       // Once a barrier stands, it is kept.
@@ -298,7 +295,7 @@ class Relaxation {
     constexpr double enough = 0.03;
     if (regularized_ == 0) return;
     const int before = regularized_;
-    for_each_heard(elements_.size(), element_nanoseconds, [&](std::size_t t) {
+    for_each_heard(elements_.size(), [&](std::size_t t) {
       DistortionElement& element = elements_[t];
       if (!element.without_area()) return;
       const MapJacobian j = jacobian(element, z_);

@@ -14,7 +14,7 @@ struct DescentOptions {
   DistortionMeasure measure = DistortionMeasure::symmetric_dirichlet;
   /// Stop when a step with a fresh factor takes away less than this fraction of the energy above its infimum.
   double tolerance = 1e-2;
-  /// Bounds the time: each factorisation, with its steps, takes a few times as long as one of the conformal energy.
+  /// Bounds the time: each factorization, with its steps, takes a few times as long as one of the conformal energy.
   int max_factorizations = 20;
   /// Whether triangles with next to no image area keep their barrier, too, which takes longer but leaves none behind.
   bool keep_all_barriers = false;
@@ -35,23 +35,23 @@ enum class DescentStatus {
 
 struct Descent {
   DescentStatus status = DescentStatus::factorization_limit;  ///< of the round that led to the returned map
-  /// Of the given and of the returned map, each with the determinant regularisation that its elements had then.
+  /// Of the given and of the returned map, each with the determinant regularization that its elements had then.
   double energy_before = 0;
   double energy = 0;
   int iterations = 0;      ///< steps taken, those of rejected rounds included
   int factorizations = 0;  ///< those of rejected rounds and those repeated because of rounding included
 };
 
-/// Minimises a distortion energy. The direction comes from a quadratic form that stands for the Hessian, reweighted
+/// Minimizes a distortion energy. The direction comes from a quadratic form that stands for the Hessian, reweighted
 /// like the one of Rabinovich, Poranne, Panozzo and Sorkine-Hornung (Scalable Locally Injective Mappings, 2017), but
 /// Hermitian in one complex unknown per vertex; L-BFGS steps (Liu and Nocedal 1989) reuse its factor. No step takes the
 /// image area of a triangle that has one: the map moves continuously without a new flip, so that its turning number is
-/// kept. The determinants of elements without image area are regularised, in up to three rounds of falling
-/// regularisation; an element that has gained area gets its barrier. A round that leaves no fewer flipped triangles
-/// than the one before is rejected: map and regularisation return to what they were.
+/// kept. The determinants of elements without image area are regularized, in up to three rounds of falling
+/// regularization; an element that has gained area gets its barrier. A round that leaves no fewer flipped triangles
+/// than the one before is rejected: map and regularization return to what they were.
 ///
-/// elements: their weights add up to about 1, their regularisation is 0 or infinite; triangles connected. Returned with
-/// the regularisation of the returned map, whose energy is finite. z (V,) finite. `fixed` (V,) or empty: vertices that
+/// elements: their weights add up to about 1, their regularization is 0 or infinite; triangles connected. Returned with
+/// the regularization of the returned map, whose energy is finite. z (V,) finite. `fixed` (V,) or empty: vertices that
 /// stay. Throws Cancelled, and what Factorization throws.
 Descent descend(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
                 FactorizationBackend backend, const DescentOptions& options, const Progress& progress = {});

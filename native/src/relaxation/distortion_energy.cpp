@@ -10,9 +10,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of one element, where a few numbers are computed of it.
-constexpr double energy_nanoseconds = 40;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
 constexpr double isometry = 4;
@@ -53,15 +50,6 @@ Density density(const DistortionElement& element, DistortionMeasure measure, con
           -4 * j.half_square * inverse_square * inverse * determinant.slope};
 }
 
-/// The smallest positive root of c0 + c1 t + c2 t^2, or infinity.
-double smallest_positive_root(double c0, double c1, double c2) {
-  double smallest = infinity;
-  for (const double root : quadratic_roots(c0, c1, c2)) {
-    if (root > 0) smallest = std::min(smallest, root);
-  }
-  return smallest;
-}
-
 }  // namespace
 
 MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
@@ -97,10 +85,10 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
   }
   const double larger = std::abs(j.holomorphic) + std::abs(j.antiholomorphic);
   // SLIM's weight (Rabinovich et al. 2017, Table 1): the slope of s^2 + 1 / s^2 over s - 1, halved. Of the two singular
-  // values the smaller one has the larger weight, which majorises.
+  // values the smaller one has the larger weight, which majorizes.
   const double inverse = larger / determinant;
   const double local_global = 1 + inverse * (1 + inverse * (1 + inverse));
-  // It aims at s = 1 in one step, which would compress the neighbours of triangles that are very small in the map until
+  // It aims at s = 1 in one step, which would compress the neighbors of triangles that are very small in the map until
   // their barriers cut it short. With this weight such a triangle grows to about 1 + 1 / 0.1 times its size at once.
   const double growth = 0.1 * (inverse * inverse) * (inverse * inverse);
   const double both = isometry * std::max(local_global, growth);
@@ -121,7 +109,7 @@ double energy_and_gradient(const std::vector<DistortionElement>& elements, Disto
     const Complex h = scale * (f.by_square - f.by_determinant) * j.antiholomorphic;
     element.shape.add_gradient(element.corners, g, h, gradient.data());
   }
-  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  still_working(40 * static_cast<double>(elements.size()));
   return sum;
 }
 
@@ -136,9 +124,9 @@ double max_step(const std::vector<DistortionElement>& elements, const ComplexVec
     const Complex change1 = direction[b] - direction[a];
     const Complex change2 = direction[c] - direction[a];
     const double linear = cross(d1, change2) + cross(change1, d2);
-    largest = std::min(largest, smallest_positive_root(cross(d1, d2), linear, cross(change1, change2)));
+    largest = first_root(cross(d1, d2), linear, cross(change1, change2), largest);
   }
-  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  still_working(40 * static_cast<double>(elements.size()));
   return largest;
 }
 
@@ -148,7 +136,7 @@ bool is_flipped(const DistortionElement& element, const ComplexVector& z, const 
 
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
                   const FlipTolerance& tolerance) {
-  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  still_working(40 * static_cast<double>(elements.size()));
   return static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](const DistortionElement& element) {
     return is_flipped(element, z, tolerance);
   }));
@@ -156,7 +144,7 @@ int count_flipped(const std::vector<DistortionElement>& elements, const ComplexV
 
 DistortionElements::DistortionElements(const std::vector<std::array<int, 3>>& triangles,
                                        const std::vector<TriangleShape>& shapes,
-                                       const std::vector<double>& triangle_weights, std::size_t n_virtual)
+                                       const std::vector<TriangleWeight>& triangle_weights, std::size_t n_virtual)
     : triangles_(triangles), shapes_(shapes), triangle_weights_(triangle_weights), n_virtual_(n_virtual) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (!shapes[t].clamped) area_ += triangle_weights[t] * shapes[t].area();
@@ -180,11 +168,12 @@ DistortionElement DistortionElements::operator[](std::size_t t) const {
 
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
-                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual) {
+                                                   const std::vector<TriangleWeight>& triangle_weights,
+                                                   std::size_t n_virtual) {
   const DistortionElements source(triangles, shapes, triangle_weights, n_virtual);
   std::vector<DistortionElement> elements;
   elements.reserve(source.size());
-  for_each_heard(source.size(), energy_nanoseconds, [&](std::size_t t) { elements.push_back(source[t]); });
+  for_each_heard(source.size(), [&](std::size_t t) { elements.push_back(source[t]); });
   return elements;
 }
 
@@ -197,7 +186,7 @@ double mean_scale_factor(const std::vector<DistortionElement>& elements, const C
     logarithms += element.weight * std::log(j.determinant);
     weight += element.weight;
   }
-  still_working(energy_nanoseconds * static_cast<double>(elements.size()));
+  still_working(40 * static_cast<double>(elements.size()));
   return weight > 0 ? std::exp(-0.5 * logarithms / weight) : 0;
 }
 

@@ -28,7 +28,7 @@ struct DistortionElement {
   TriangleShape shape;
   double weight = 0;
   bool measured = true;  ///< whether its distortion and its flips count; not for virtual and degenerate triangles
-  /// The determinant regularisation e. 0: a barrier, the determinant stays positive. Otherwise it is replaced by
+  /// The determinant regularization e. 0: a barrier, the determinant stays positive. Otherwise it is replaced by
   /// (det + sqrt(det^2 + e^2)) / 2, which is positive everywhere (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and
   /// Sokolov, Foldover-Free Maps in 50 Lines of Code, 2021). Infinite: only s1^2 + s2^2 counts, whatever the measure,
   /// so that degenerate triangles keep their vertices together.
@@ -59,14 +59,14 @@ struct MapJacobian {
 class DistortionElements {
  public:
   DistortionElements(const std::vector<std::array<int, 3>>& triangles, const std::vector<TriangleShape>& shapes,
-                     const std::vector<double>& triangle_weights, std::size_t n_virtual);
+                     const std::vector<TriangleWeight>& triangle_weights, std::size_t n_virtual);
   std::size_t size() const { return triangles_.size(); }
   DistortionElement operator[](std::size_t t) const;
 
  private:
   const std::vector<std::array<int, 3>>& triangles_;
   const std::vector<TriangleShape>& shapes_;
-  const std::vector<double>& triangle_weights_;
+  const std::vector<TriangleWeight>& triangle_weights_;
   std::size_t n_virtual_;
   double area_ = 0;
 };
@@ -74,7 +74,8 @@ class DistortionElements {
 /// All of them.
 std::vector<DistortionElement> distortion_elements(const std::vector<std::array<int, 3>>& triangles,
                                                    const std::vector<TriangleShape>& shapes,
-                                                   const std::vector<double>& triangle_weights, std::size_t n_virtual);
+                                                   const std::vector<TriangleWeight>& triangle_weights,
+                                                   std::size_t n_virtual);
 
 MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z);
 

@@ -46,9 +46,10 @@ RelaxationStatus relaxation_status(DescentStatus status) {
 }  // namespace
 
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
-                               const std::vector<TriangleShape>& shapes, const std::vector<double>& triangle_weights,
-                               std::size_t n_virtual, ComplexVector z, FactorizationBackend backend,
-                               const IsometryOptions& options, const Progress& progress) {
+                               const std::vector<TriangleShape>& shapes,
+                               const std::vector<TriangleWeight>& triangle_weights, std::size_t n_virtual,
+                               ComplexVector z, FactorizationBackend backend, const IsometryOptions& options,
+                               const Progress& progress) {
   report(progress, 0, "relax");
   std::vector<DistortionElement> elements = distortion_elements(triangles, shapes, triangle_weights, n_virtual);
   IsometricMap result;

@@ -15,12 +15,12 @@ namespace spectral_conformal {
 struct IsometryOptions {
   /// Stop when a step with a fresh factor takes away less than this fraction of the energy above that of an isometry.
   double tolerance = 1e-2;
-  /// Bounds the time: each factorisation, with its steps, takes a few times as long as one of the conformal energy.
+  /// Bounds the time: each factorization, with its steps, takes a few times as long as one of the conformal energy.
   int max_factorizations = 20;
 };
 
 /// Energies are the mean of s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2, s being the singular values of the triangles' Jacobians,
-/// weighted by triangle weight times area, at the uniform scale that minimises it: 4 for an isometry. Virtual
+/// weighted by triangle weight times area, at the uniform scale that minimizes it: 4 for an isometry. Virtual
 /// triangles, clamped shapes and triangles whose image has next to no area are left out.
 struct IsometricMap {
   ComplexVector z;           ///< (V,) u + i v, at the scale of minimum energy; the input where nothing could be done
@@ -33,19 +33,20 @@ struct IsometricMap {
   int flipped = 0;
 };
 
-/// Moves a map towards an isometry: minimises the symmetric Dirichlet energy (Smith and Schaefer, Bijective
+/// Moves a map towards an isometry: minimizes the symmetric Dirichlet energy (Smith and Schaefer, Bijective
 /// Parameterization with Free Boundaries, 2015). The descent direction comes from a Dirichlet form that is reweighted
 /// like the one of Rabinovich, Poranne, Panozzo and Sorkine-Hornung (Scalable Locally Injective Mappings, 2017), but
 /// with one weight per triangle, so that one complex unknown per vertex is enough; L-BFGS steps (Liu and Nocedal 1989)
-/// reuse its factor. No step flips a triangle that has image area; the determinants of those without are regularised.
+/// reuse its factor. No step flips a triangle that has image area; the determinants of those without are regularized.
 ///
 /// z (V,) finite, mostly counter-clockwise; triangles connected; shapes and triangle_weights (1, or 1/2 where both
 /// splits of a quad are present) per triangle. The last `n_virtual` triangles are virtual (see hole_filling.h): with a
 /// hundredth of their weight they keep the holes from turning inside out without taking part in the shape of the map.
 /// Throws Cancelled, and what Factorization throws.
 IsometricMap relax_to_isometry(const std::vector<std::array<int, 3>>& triangles,
-                               const std::vector<TriangleShape>& shapes, const std::vector<double>& triangle_weights,
-                               std::size_t n_virtual, ComplexVector z, FactorizationBackend backend,
-                               const IsometryOptions& options = {}, const Progress& progress = {});
+                               const std::vector<TriangleShape>& shapes,
+                               const std::vector<TriangleWeight>& triangle_weights, std::size_t n_virtual,
+                               ComplexVector z, FactorizationBackend backend, const IsometryOptions& options = {},
+                               const Progress& progress = {});
 
 }  // namespace spectral_conformal

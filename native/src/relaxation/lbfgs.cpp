@@ -6,12 +6,7 @@
 #include "concurrency/listening.h"
 
 namespace spectral_conformal {
-namespace {
-
-/// Of an entry, a scalar product and a sum.
-constexpr double pair_nanoseconds = 4;
-
-}  // namespace
+namespace {}  // namespace
 
 double real_dot(const ComplexVector& a, const ComplexVector& b) {
   double sum = 0;
@@ -34,14 +29,14 @@ ComplexVector Lbfgs::descent(const Inverse& inverse, const ComplexVector& gradie
   for (std::size_t k = pairs_.size(); k-- > 0;) {
     projections[k] = real_dot(pairs_[k].step, remaining) / pairs_[k].curvature;
     remaining -= projections[k] * pairs_[k].gradient_change;
-    still_working(pair_nanoseconds * static_cast<double>(remaining.size()));
+    still_working(4 * static_cast<double>(remaining.size()));
   }
   ComplexVector direction;
   inverse(remaining, direction);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const double projection = real_dot(pairs_[k].gradient_change, direction) / pairs_[k].curvature;
     direction += (projections[k] - projection) * pairs_[k].step;
-    still_working(pair_nanoseconds * static_cast<double>(direction.size()));
+    still_working(4 * static_cast<double>(direction.size()));
   }
   direction = -direction;
   return direction;

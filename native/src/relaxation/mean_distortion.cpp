@@ -43,19 +43,6 @@ struct Distorted {
   }
 };
 
-/// The smallest t in (0, limit) where c0 + c1 t + c2 t^2 is 0, or the limit; c0 > 0. Roots are computed only where
-/// there is one.
-double first_zero(double c0, double c1, double c2, double limit) {
-  const bool is_positive_at_end = c0 + limit * (c1 + limit * c2) > 0;
-  const bool has_minimum_before = c2 > 0 && c1 < 0 && -c1 < 2 * c2 * limit;
-  if (is_positive_at_end && (!has_minimum_before || c1 * c1 < 4 * c0 * c2)) return limit;
-  double first = limit;
-  for (const double root : quadratic_roots(c0, c1, c2)) {
-    if (root > 0) first = std::min(first, root);
-  }
-  return first;
-}
-
 }  // namespace
 
 template <class Work>
@@ -211,7 +198,7 @@ double MeanDistortion::max_step(const ComplexVector& z, const ComplexVector& dir
       if (!(area > 0)) continue;
       const Complex change1 = part.other[b] - part.other[a];
       const Complex change2 = part.other[c] - part.other[a];
-      step = first_zero(area, cross(d1, change2) + cross(change1, d2), cross(change1, change2), step);
+      step = first_root(area, cross(d1, change2) + cross(change1, d2), cross(change1, change2), step);
     }
     part.sum = step;
   });

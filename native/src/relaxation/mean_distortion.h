@@ -40,7 +40,7 @@ class MeanDistortion {
     double weight;               ///< 0 where it does not count
     TriangleShape shape;         ///< over four times its area: its parts of a map are then f_z and f_zbar
   };
-  /// Neighbouring triangles with their own vertices, so that threads neither share what they write nor wait.
+  /// Neighboring triangles with their own vertices, so that threads neither share what they write nor wait.
   struct Part {
     std::vector<int> vertices;
     LargeVector<Triangle> triangles;

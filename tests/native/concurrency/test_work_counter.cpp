@@ -52,7 +52,7 @@ TEST_SUITE("work_counter") {
     CHECK(outer.counts().solve_doubles == 5);
   }
 
-  TEST_CASE("analyses, factorisations and solves are counted with both libraries") {
+  TEST_CASE("analyzes, factorizations and solves are counted with both libraries") {
     for (const auto backend : backends()) {
       const WorkCounts counts = counts_of(backend, Complex(1), 2, 3);
       CHECK(counts.analyses == 1);

@@ -114,7 +114,7 @@ TEST_CASE("E_C equals the LSCM energy triangle by triangle, with the weights of 
   double mean_area = 0;
   for (const auto& triangle : patch.chart.triangles) {
     const Gradients gradients(patch.positions, triangle, z);
-    const ConformalEnergy single(patch.positions, {triangle}, {1.0}, Weights::uniform);
+    const ConformalEnergy single(patch.positions, {triangle}, std::vector<TriangleWeight>(1), Weights::uniform);
     CHECK(0.5 * single.value(z) == doctest::Approx(gradients.lscm()).epsilon(1e-12));
     CHECK(0.5 * z.dot(dense(single.matrix()) * z).real() == doctest::Approx(gradients.lscm()).epsilon(1e-12));
     weighted += gradients.lscm() / gradients.area;
@@ -176,7 +176,9 @@ TEST_CASE("a quad contributes the mean of its two splits") {
   const Mesh quad({{0, 0, 0}, {2, 0, 0.5}, {2.2, 1.4, 0}, {0.1, 1, 0.3}}, {{0, 1, 2, 3}});
   const Patch patch(quad);
   const auto split = [&](std::vector<std::array<int, 3>> triangles) {
-    return dense(ConformalEnergy(patch.positions, std::move(triangles), {1.0, 1.0}, Weights::uniform).matrix());
+    return dense(
+        ConformalEnergy(patch.positions, std::move(triangles), std::vector<TriangleWeight>(2), Weights::uniform)
+            .matrix());
   };
   const Eigen::MatrixXcd mean = 0.5 * (split({{0, 1, 2}, {0, 2, 3}}) + split({{0, 1, 3}, {1, 2, 3}}));
   CHECK((dense(patch.energy(Weights::uniform).matrix()) - mean).norm() < 1e-14);
@@ -292,7 +294,8 @@ TEST_CASE("a triangle with a vertex twice adds no entry beside the diagonal, and
   // Found by libFuzzer: such a column held its diagonal entry twice.
   Positions positions(4, 3);
   positions << 0, 0, 0, 2, 0, 0, 1, 1, 0, 0, 1, 1;
-  const ConformalEnergy energy(positions, {{0, 1, 2}, {0, 2, 3}, {1, 2, 2}, {3, 0, 3}}, {1, 1, 1, 1}, Weights::uniform);
+  const ConformalEnergy energy(positions, {{0, 1, 2}, {0, 2, 3}, {1, 2, 2}, {3, 0, 3}}, std::vector<TriangleWeight>(4),
+                               Weights::uniform);
   const HermitianMatrix& matrix = energy.matrix();
   for (int column = 0; column < 4; ++column) {
     int last = -1;

@@ -93,7 +93,7 @@ TEST_CASE("a convex quad has both splits at half weight") {
     const PolygonTriangulation result = triangulate(tilted(quad, first));
     CHECK(result.simple);
     CHECK(triangles_of(result, first, 4) == TriangleSet{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}});
-    CHECK(result.triangle_weights == std::vector<double>(4, 0.5));
+    CHECK(result.triangle_weights == std::vector<TriangleWeight>(4, split_of_quad));
   }
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("a concave quad has the one split that stays inside, whatever corner c
     const PolygonTriangulation result = triangulate(tilted(arrow, first));
     CHECK(result.simple);
     CHECK(triangles_of(result, first, 4) == TriangleSet{{0, 1, 3}, {1, 2, 3}});
-    CHECK(result.triangle_weights == std::vector<double>{1, 1});
+    CHECK(result.triangle_weights == std::vector<TriangleWeight>(2));
   }
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("a quad with a straight corner is split at that corner") {
 TEST_CASE("a triangle is itself") {
   const PolygonTriangulation result = triangulate(tilted({{0, 0}, {1, 0}, {0, 1}}));
   CHECK(result.triangles == std::vector<std::array<int, 3>>{{0, 1, 2}});
-  CHECK(result.triangle_weights == std::vector<double>{1});
+  CHECK(result.triangle_weights == std::vector<TriangleWeight>(1));
 }
 
 TEST_CASE("collinear corners in a larger polygon are no obstacle") {

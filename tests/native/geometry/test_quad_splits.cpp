@@ -10,7 +10,7 @@ namespace spectral_conformal::test {
 namespace {
 
 const std::vector<std::array<int, 3>> quad_triangles(quad_splits.begin(), quad_splits.end());
-const std::vector<double> quad_weights(4, quad_split_weight);
+const std::vector<TriangleWeight> quad_weights(4, split_of_quad);
 
 std::vector<int> split_of(const std::array<Complex, 4>& corners) {
   return mapped_triangulation(quad_triangles, quad_weights, Eigen::Map<const ComplexVector>(corners.data(), 4));
@@ -51,7 +51,7 @@ TEST_CASE("triangulated surfaces list the four triangles of a quad in this order
   const std::array<int, 4> corner{0, 1, 3, 2};  // the face's corners, in order
   REQUIRE(quad.chart.triangles.size() == 4);
   for (std::size_t t = 0; t < 4; ++t) {
-    CHECK(begins_quad(quad.chart.triangle_weights[t]));
+    CHECK(quad.chart.triangle_weights[t].in_both_splits());
     for (int k = 0; k < 3; ++k) CHECK(quad.chart.triangles[t][k] == corner[quad_splits[t][k]]);
   }
 }
@@ -99,7 +99,7 @@ TEST_CASE(
     }
     return triangles;
   };
-  const std::vector<double> two(8, quad_split_weight);
+  const std::vector<TriangleWeight> two(8, split_of_quad);
   CHECK(drawable_triangulation(quad_triangles, quad_weights) == std::vector<int>{0, 1});
   CHECK(drawable_triangulation(quad_triangles, {}) == std::vector<int>{0, 1, 2, 3});
   CHECK(drawable_triangulation(quads({{0, 1, 2, 3}, {0, 3, 4, 5}}), two) == std::vector<int>{0, 1, 4, 5});

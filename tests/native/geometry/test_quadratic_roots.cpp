@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geometry/quadratic_roots.h"
 
@@ -33,6 +34,18 @@ TEST_CASE("what has one root or none has infinite ones instead") {
   CHECK(only == 2);
   CHECK(std::isinf(none));
   CHECK(std::isinf(sorted_roots(3, 0, 0)[0]));
+}
+
+TEST_CASE("the first root within a limit, or the limit") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(first_root(2, -3, 1, infinity) == doctest::Approx(1));
+  CHECK(first_root(2, -3, 1, 5) == doctest::Approx(1));
+  CHECK(first_root(2, -3, 1, 0.5) == 0.5);
+  CHECK(first_root(2, 3, 1, infinity) == infinity);
+  CHECK(first_root(2, 1, -1, infinity) == doctest::Approx(2));
+  CHECK(first_root(1, -0.5, 0, infinity) == doctest::Approx(2));
+  CHECK(first_root(1, 0, 0, infinity) == infinity);
+  CHECK(first_root(1, -1, 1, 10) == 10);
 }
 
 TEST_SUITE_END();

@@ -223,7 +223,7 @@ TEST_CASE("rounding decides nothing: not of a square, a regular outline, a saddl
 }
 
 TEST_CASE("where no coordinate tells directions apart the shape does: higher than wide, the broader end down") {
-  // Even functions of the map about its centre have no linear part.
+  // Even functions of the map about its center have no linear part.
   const Position even = [](double x, double y) {
     return Eigen::Vector3d(std::cos(pi * x), std::cos(pi * y), 0.1 * std::cos(pi * (x + y)));
   };

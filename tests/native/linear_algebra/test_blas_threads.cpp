@@ -87,7 +87,7 @@ TEST_CASE("holders in two threads do not take each other's number for the proces
   reader.join();
 }
 
-TEST_CASE("factorisations and solves leave the process's number alone, and do not depend on it") {
+TEST_CASE("factorizations and solves leave the process's number alone, and do not depend on it") {
   const HermitianMatrix matrix = shifted_energy(25);
   HermitianMatrix indefinite = matrix;
   indefinite.coeffRef(7, 7) = -1;

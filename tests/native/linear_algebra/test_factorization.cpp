@@ -71,7 +71,7 @@ TEST_CASE("solves on selected vertices are parts of the whole solve") {
   }
 }
 
-TEST_CASE("a matrix that is not positive definite is refused, and the same object factorises the next one") {
+TEST_CASE("a matrix that is not positive definite is refused, and the same object factorizes the next one") {
   const HermitianMatrix good = shifted_energy(9);
   for (const double shift : {-1e3, -2.0}) {
     HermitianMatrix indefinite = good;

@@ -59,7 +59,7 @@ HermitianMatrix with_imaginary_part_everywhere(const HermitianMatrix& matrix) {
 
 TEST_SUITE_BEGIN("supernodal_factor");
 
-TEST_CASE("real, complex and mixed blocks solve as a dense factorisation does") {
+TEST_CASE("real, complex and mixed blocks solve as a dense factorization does") {
   constexpr int size = 18;
   const HermitianMatrix mixed = mixed_energy(size);
   const int n = static_cast<int>(mixed.cols());
@@ -116,7 +116,7 @@ TEST_CASE("a solve along a path agrees there with the whole") {
   for (const int column : columns) CHECK(std::abs(along[column] - whole[column]) < 1e-13 * whole.norm());
 }
 
-TEST_CASE("an indefinite matrix is refused by any number of threads, and the next one factorised") {
+TEST_CASE("an indefinite matrix is refused by any number of threads, and the next one factorized") {
   constexpr int size = 30;
   const HermitianMatrix good = mixed_energy(size);
   const int n = static_cast<int>(good.cols());

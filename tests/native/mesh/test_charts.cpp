@@ -246,7 +246,7 @@ TEST_CASE("a polygon that meets itself in a vertex keeps its fans apart") {
   CHECK(decomposition.split_vertices == 1);
 }
 
-TEST_CASE("reversed polygons are triangulated like their neighbours") {
+TEST_CASE("reversed polygons are triangulated like their neighbors") {
   Mesh mesh({{0, 0, 0},
              {3, 0, 0},
              {3, 1, 0},

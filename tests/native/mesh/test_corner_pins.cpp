@@ -58,7 +58,7 @@ TEST_CASE("equal pins split nothing and come back exactly") {
 }
 
 TEST_CASE("two different pins split their vertex, and other corners go to the nearest") {
-  PinnedMesh pinned(quad_grid(2, 2));  // the centre is vertex 4
+  PinnedMesh pinned(quad_grid(2, 2));  // the center is vertex 4
   pinned.pin(pinned.corner(0, 4), 0, 0);
   pinned.pin(pinned.corner(3, 4), 2, 2);
   const int near_second = pinned.corner(1, 4);

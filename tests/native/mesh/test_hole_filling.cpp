@@ -42,7 +42,7 @@ double area(const HoleFilling& filling, const Positions& positions) {
 
 TEST_SUITE_BEGIN("hole_filling");
 
-TEST_CASE("a star-shaped hole is closed by a fan around its barycentre") {
+TEST_CASE("a star-shaped hole is closed by a fan around its barycenter") {
   Positions positions;
   std::vector<Eigen::Vector2d> hexagon;
   for (int i = 0; i < 6; ++i) hexagon.push_back(Eigen::Rotation2Dd(i * 1.0471975511965976) * Eigen::Vector2d(2, 0));

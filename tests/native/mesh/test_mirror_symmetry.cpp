@@ -88,7 +88,7 @@ TEST_CASE("unselected faces are no images") {
   CHECK(matched_faces(find_mirror_symmetry(view)) == 4);
   const bool left[4] = {true, true, false, false};
   view.selected_faces = left;
-  // The centre is that of the selection.
+  // The center is that of the selection.
   CHECK(find_mirror_symmetry(view).face == std::vector<int>{1, 0, -1, -1});
 }
 

@@ -36,8 +36,8 @@ TEST_CASE("whatever changes the map changes the description") {
         p.chart.triangles = std::move(triangles);
       },
       [](Described& p) {
-        std::vector<double> weights = p.chart.triangle_weights;
-        weights[0] = 0.5;
+        std::vector<TriangleWeight> weights = p.chart.triangle_weights;
+        weights[0] = split_of_quad;
         p.chart.triangle_weights = std::move(weights);
       },
       [](Described& p) { p.chart.faces.back() += 1; },

@@ -94,7 +94,8 @@ TEST_CASE("a boundary without length has no fallback by length") {
 TEST_CASE("without any map the rejection stays, and without leave nothing is tried") {
   const Patch patch(bumpy_grid(4, 4));
   NormalizedPatch empty = normalized_patch(patch.chart, patch.positions, false);
-  empty.triangle_weights = std::vector<double>(empty.triangles.size(), 0.0);
+  empty.triangles = {};
+  empty.triangle_weights = {};
   Replaced by(problem_of(empty), 0);
   REQUIRE(by.map.rejection);
   CHECK(by.map.result.attempts > by.refused.result.attempts);

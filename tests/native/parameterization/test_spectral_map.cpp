@@ -41,9 +41,14 @@ TEST_CASE("outcomes are typed: a map that winds is kept whole, without an energy
   CHECK(wound.rejection == Rejection::winding);
   CHECK((wound.turning_number == 2 && wound.z.size() == 0 && wound.whole.size() > 0));
   NormalizedPatch empty = *problem.patch;
-  empty.triangle_weights = std::vector<double>(empty.triangles.size(), 0.0);
-  SpectralProblem none = problem_of(empty);
-  CHECK(spectral_map(none, {}, {}, first_attempt, {}, timings).rejection != Rejection::none);
+  empty.triangles = {};
+  empty.triangle_weights = {};
+  for (const auto method : {Method::spectral, Method::fiedler, Method::area}) {
+    SpectralProblem none = problem_of(empty);
+    options = {};
+    options.method = method;
+    CHECK(spectral_map(none, options, {}, first_attempt, {}, timings).rejection != Rejection::none);
+  }
 }
 
 TEST_SUITE_END();

@@ -64,7 +64,7 @@ TEST_CASE("a flat mesh has none, nor has its mirror image, nor one whose faces a
   }
 }
 
-TEST_CASE("a vertex pulled over its neighbours flips faces, and they cover others") {
+TEST_CASE("a vertex pulled over its neighbors flips faces, and they cover others") {
   for (const bool mirrored : {false, true}) {
     MappedMesh mapped(quad_grid(4, 3));
     mapped.move(6, Complex(2.6, 1.2));  // from (1, 1), past (2, 1)
@@ -99,7 +99,7 @@ TEST_CASE("concave quads and n-gons are not flipped, those that cross themselves
   CHECK(marked(mapped.defects().overlapping) == Faces{0, 1});
 }
 
-TEST_CASE("islands end where the maps of neighbours differ") {
+TEST_CASE("islands end where the maps of neighbors differ") {
   // Two halves, the right one moved onto the left one, mirrored or not.
   MappedMesh mapped(quad_grid(4, 1));
   for (const int face : {2, 3}) {

@@ -41,7 +41,7 @@ double common_area(std::array<Complex, 3> a, std::array<Complex, 3> b) {
 
 TEST_SUITE_BEGIN("overlap");
 
-TEST_CASE("a flat mesh does not overlap, nor does one turned by any angle: neighbours only touch") {
+TEST_CASE("a flat mesh does not overlap, nor does one turned by any angle: neighbors only touch") {
   const Patch patch(flat_grid(12, 9));
   for (const double angle : {0.0, 0.3, 1.0, 2.2}) {
     const ComplexVector z = std::polar(3.0, angle) * flat_map(patch.positions);
@@ -73,7 +73,7 @@ TEST_CASE("agrees with the common area of every pair of scattered triangles") {
   REQUIRE((expected_count > 10 && expected_count < 50));
 }
 
-TEST_CASE("one inside another, two that coincide, and a folded neighbour overlap") {
+TEST_CASE("one inside another, two that coincide, and a folded neighbor overlap") {
   const Triangles two{{0, 1, 2}, {3, 4, 5}};
   ComplexVector z(6);
   z << 0.0, 4.0, Complex(0, 4), Complex(1, 1), Complex(1.5, 1), Complex(1, 1.5);
@@ -150,7 +150,7 @@ TEST_CASE("overlapping faces are found, the two splits of a quad not taken for a
   }
 }
 
-TEST_CASE("a quad that folds over covers itself only, unless it reaches its neighbour") {
+TEST_CASE("a quad that folds over covers itself only, unless it reaches its neighbor") {
   const Patch patch(quad_grid(2, 1));
   ComplexVector z = flat_map(patch.positions);
   z[0] = Complex(0.4, 0.8);  // the first quad crosses itself

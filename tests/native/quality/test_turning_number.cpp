@@ -12,7 +12,7 @@ namespace {
 using Triangles = std::vector<std::array<int, 3>>;
 
 int turning(const BoundaryLoop& loop, const Triangles& triangles, const std::vector<Complex>& z) {
-  const std::vector<double> triangle_weights(triangles.size(), 1.0);
+  const std::vector<TriangleWeight> triangle_weights(triangles.size());
   return turning_number(loop, triangles, triangle_weights, Eigen::Map<const ComplexVector>(z.data(), z.size()));
 }
 
@@ -22,7 +22,7 @@ BoundaryLoop counted(int n) {
   return loop;
 }
 
-/// n points on a circle run through `times` times, and a last vertex in the centre, joined to all.
+/// n points on a circle run through `times` times, and a last vertex in the center, joined to all.
 int turning_of_circle(int n, int times) {
   Triangles triangles;
   std::vector<Complex> z;
@@ -70,10 +70,11 @@ TEST_CASE("an ear that is folded over does not change the number of turns") {
   CHECK(turning(loop, triangles, {0.0, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.3}}) == 1);
 }
 
-TEST_CASE("both splits of a quad at triangle weight 1/2 count like one") {
+TEST_CASE("both splits of a quad count like one") {
   const std::vector<Complex> z{0.0, {1, 0}, {1, 1}, {0, 1}};
   const Triangles both{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}};
-  CHECK(turning_number({0, 1, 2, 3}, both, {0.5, 0.5, 0.5, 0.5}, Eigen::Map<const ComplexVector>(z.data(), 4)) == 1);
+  CHECK(turning_number({0, 1, 2, 3}, both, std::vector<TriangleWeight>(4, split_of_quad),
+                       Eigen::Map<const ComplexVector>(z.data(), 4)) == 1);
 }
 
 TEST_CASE("edges without length are passed over, at the start too") {

@@ -68,7 +68,7 @@ TEST_CASE("a flipped triangle is pulled in and then keeps its area") {
   for (const auto measure : {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal}) {
     auto elements = patch.elements();
     ComplexVector z = flat_map(patch.positions);
-    z[24] += Complex(1.6, 0.4);  // an inner vertex, beyond its neighbours
+    z[24] += Complex(1.6, 0.4);  // an inner vertex, beyond its neighbors
     REQUIRE(count_flipped(elements, z) > 0);
     descend(elements, {}, z, FactorizationBackend::automatic, {measure, 1e-3, 40}, {});
     CHECK(count_flipped(elements, z) == 0);

@@ -129,7 +129,7 @@ TEST_CASE("the energy is that of real matrices at the best scale; it falls, with
   }
 }
 
-TEST_CASE("each factorisation more lowers the energy") {
+TEST_CASE("each factorization more lowers the energy") {
   const Patch patch(bumpy_grid(14, 11));
   const ComplexVector start = conformal_map(patch);
   double previous = std::numeric_limits<double>::infinity();
@@ -284,7 +284,7 @@ TEST_CASE("virtual triangles keep holes open and hardly change the map") {
   const HoleFilling filling = fill_holes(patch.chart.boundary_loops, outer, patch.positions);
   REQUIRE(filling.centres.rows() == 0);
   std::vector<std::array<int, 3>> triangles = patch.chart.triangles;
-  std::vector<double> triangle_weights = patch.chart.triangle_weights;
+  std::vector<TriangleWeight> triangle_weights = patch.chart.triangle_weights;
   triangles.insert(triangles.end(), filling.triangles.begin(), filling.triangles.end());
   triangle_weights.insert(triangle_weights.end(), filling.triangle_weights.begin(), filling.triangle_weights.end());
   const ConformalEnergy filled(patch.positions, triangles, triangle_weights, Weights::uniform,

@@ -59,7 +59,7 @@ TEST_CASE("steps without positive curvature are not taken, so that directions de
   CHECK(difference(lbfgs.descent(identity, gradient), -gradient) < 1e-15);
 }
 
-TEST_CASE("a quadratic function is minimised in a few of its dimensions' steps") {
+TEST_CASE("a quadratic function is minimized in a few of its dimensions' steps") {
   Eigen::VectorXd hessian(5);
   hessian << 1, 4, 9, 16, 25;
   ComplexVector z = random_map(5);

@@ -42,7 +42,7 @@ std::multiset<std::array<int, 2>> topology(const PieceSeams& seams) {
   return result;
 }
 
-/// The border of the faces whose centre is above a height along an axis.
+/// The border of the faces whose center is above a height along an axis.
 SeamEdges border_above(const PieceSeams& seams, int axis, double height) {
   const Piece& piece = seams.piece();
   const auto is_above = [&](int face) {

@@ -17,7 +17,7 @@ std::vector<std::array<int, 3>> strip(int n) {
 TEST_SUITE_BEGIN("field_extrema");
 
 TEST_CASE("prominence and volume of two basins") {
-  // Steps of two, because every vertex of the strip also neighbours the one after the next.
+  // Steps of two, because every vertex of the strip also neighbors the one after the next.
   const std::vector<double> field{0, 0, -5, -5, -1, -1, -3, -3, 0, 0};
   const std::vector<double> area{1, 1, 1, 1, 1, 1, 2, 1, 1, 1};
   const auto minima = prominent_minima(field, area, strip(10), 0, 0.5);
