@@ -71,7 +71,7 @@ def test_held_at_two_vertices_a_strip_comes_out_as_it_is(n):
     check_exact(sc.parameterize(flat, triangles, method="lscm"), flat)
     # Pinned by the user, at another size.
     ends = {0: (0, 0), 3 * n: (1, 0)}
-    check_exact(sc.parameterize(flat, triangles, pins=ends), flat)
+    check_exact(sc.parameterize(flat, triangles, method="lscm", pins=ends), flat)
 
 
 @pytest.mark.slow

@@ -62,10 +62,33 @@ def pinned_corners(vertices, triangles, pins):
     return (vertices, offsets, corners), {"pinned_corners": np.isin(corners, list(pins)), "corner_uv": uv}
 
 
-def test_hard_pins_are_held_by_lscm_whoever_asks():
-    # `pins` raised with "spectral", where `pinned_corners` were held.
+def test_two_hard_pins_turn_and_scale_the_map_and_bend_nothing():
     vertices, triangles = meshes.bumpy_disk(300)
     pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
+    mesh, corner_pins = pinned_corners(vertices, triangles, pins)
+    for options in ({}, {"method": "fiedler"}, {"polish": True}, {"fold_free": True}, {"hole_rigidity": 1.0}):
+        free = sc.parameterize(vertices, triangles, **options)
+        held = sc.parameterize(vertices, triangles, pins=pins, **options)
+        assert (held.method, held.eigenvalue_of, held.polish_steps) == (
+            free.method,
+            free.eigenvalue_of,
+            free.polish_steps,
+        )
+        assert meshes.similarity_deviation(held.uv, free.uv) < 1e-12
+        for vertex, position in pins.items():
+            assert tuple(held.uv[vertex]) == position
+        for result in (sc.unwrap(*mesh, pins=pins, **options), sc.unwrap(*mesh, **corner_pins, **options)):
+            (chart,) = result.charts
+            assert (chart.status, chart.method, chart.n_pins) == ("solved", held.method, 2)
+            assert np.abs(result.uv - held.uv[triangles.ravel()]).max() < 1e-12
+    pushed = sc.parameterize(vertices, triangles, pins=pins, extenders=[(3, 90, 1.0)])
+    assert meshes.similarity_deviation(pushed.uv, sc.parameterize(vertices, triangles, extenders=[(3, 90, 1.0)]).uv) < 1e-12
+
+
+def test_three_hard_pins_are_held_by_lscm_whoever_asks():
+    # `pins` raised with "spectral", where `pinned_corners` were held.
+    vertices, triangles = meshes.bumpy_disk(300)
+    pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
     expected = sc.parameterize(vertices, triangles, method="lscm", pins=pins)
     mesh, corner_pins = pinned_corners(vertices, triangles, pins)
     for solution in (
@@ -85,21 +108,21 @@ def test_hard_pins_are_held_by_lscm_whoever_asks():
 
 
 @pytest.mark.parametrize("method", ["fiedler", "area"])
-def test_methods_that_hold_no_pins_say_so_whoever_asks(method):
+def test_methods_that_hold_no_three_pins_say_so_whoever_asks(method):
     vertices, triangles = meshes.bumpy_disk(300)
-    pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
-    with pytest.raises(sc.InvalidMeshError, match="hold no pins; use 'spectral' or 'lscm'"):
+    pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
+    with pytest.raises(sc.InvalidMeshError, match="hold no three pins; use 'spectral' or 'lscm'"):
         sc.parameterize(vertices, triangles, method=method, pins=pins)
     mesh, corner_pins = pinned_corners(vertices, triangles, pins)
     for given in ({"pins": pins}, corner_pins):
         (chart,) = sc.unwrap(*mesh, method=method, **given).charts
         assert chart.status == "failed"
-        assert "hold no pins; use 'spectral' or 'lscm'" in chart.message
+        assert "hold no three pins; use 'spectral' or 'lscm'" in chart.message
 
 
-def test_hard_pins_and_soft_constraints_do_not_go_together():
+def test_hard_pins_that_bend_and_soft_constraints_do_not_go_together():
     vertices, triangles = meshes.bumpy_disk(300, 2)
-    pins = {5: (0.1, 0.7), 250: (2.0, 1.0)}
+    pins = {5: (0.1, 0.7), 250: (2.0, 1.0), 120: (1.0, 2.0)}
     for forces in ({"extenders": [(3, 90, 1.0)]}, {"hole_rigidity": 1.0}):
         with pytest.raises(sc.InvalidMeshError, match="pins that are soft"):
             sc.parameterize(vertices, triangles, pins=pins, **forces)
@@ -151,9 +174,9 @@ def solved_with_pins(pins, **options):
 
 
 def test_charts_with_several_pinned_corners_are_solved_by_lscm():
-    pins = {0: (0.25, 0.5), 100: (1.0, 0.75)}
+    pins = {0: (0.25, 0.5), 100: (1.0, 0.75), 60: (0.5, 1.0)}
     charts, uv, corners = solved_with_pins(pins)
-    assert [(chart.method, chart.n_pins) for chart in charts] == [("lscm", 2), ("spectral", 0)]
+    assert [(chart.method, chart.n_pins) for chart in charts] == [("lscm", 3), ("spectral", 0)]
     for corner, position in pins.items():
         assert tuple(uv[corner]) == position
     vertices, offsets, corners, seam, _ = cut_grid()

@@ -34,7 +34,7 @@ class Summary:
         mean_qc_change: mean QC of the charts of both kinds that had a map, before and after; None where there are none.
         failures: how many charts failed for each reason.
         repairs: how many charts were solved after each repair or fallback.
-        pinned: how many charts with two or more pins were solved by each method.
+        pinned: how many charts whose pins bend them were solved by each method.
         refused: why meshes were refused as a whole, one "name: reason" each.
         lacks_seams: whether charts failed for lack of seams.
     """
@@ -79,6 +79,8 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
 
     solved = are_solved(solutions)
     unfolded = solved & ((of("unfolded") > 0) | of("is_embedding").astype(bool)) & (of("flipped") == 0)
+    # Of two pins the other methods make a similarity, as of one.
+    bent_by_pins = (of("n_pins") > 2) | ((of("n_pins") == 2) & (of("method") == "lscm"))
     messages, steps = of("message"), _steps_of_messages(solutions)
     reasons = {step.reason for message in set(messages[~solved].tolist()) for step in steps[message]}
     return Summary(
@@ -94,7 +96,7 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         failures=_counted(messages[~solved].tolist(), steps),
         # Unfolding is reported by a sentence of its own.
         repairs=_counted(filter(None, messages[solved & ~unfolded].tolist()), steps),
-        pinned=Counter(of("method")[solved & (of("n_pins") > 1)].tolist()),
+        pinned=Counter(of("method")[solved & bent_by_pins].tolist()),
         refused=tuple(
             f"{name}: {translate(solution.error)}" for solution, name in zip(solutions, names) if solution.error
         ),

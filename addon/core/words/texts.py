@@ -579,7 +579,7 @@ def repairs(summary: Summary) -> str:
 
 
 def pinned(summary: Summary) -> str:
-    """Return how charts with two or more pins were solved; empty for none."""
+    """Return how charts that their pins bend were solved; empty for none."""
     if not summary.pinned:
         return ""
     ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})

@@ -90,7 +90,7 @@ struct SolveRecord {
   bool is_embedding = false;  ///< whether it had to replace the map by an embedding
   /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
   double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
-  Method method = Method::spectral;    ///< Method::lscm for two or more hard pins, whichever was asked for
+  Method method = Method::spectral;    ///< Method::lscm for three or more hard pins, whichever was asked for
   Weights weights = Weights::uniform;  ///< of the energy L
   BoundaryMeasure boundary = BoundaryMeasure::length;  ///< of the form B
   Fallback fallback = Fallback::none;
@@ -108,8 +108,9 @@ struct Parameterization : SolveRecord {
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
-/// The method that solves with this many pins: hard pins, from two on, are held by pinned LSCM where Method::spectral
-/// was asked for. Throws InvalidMesh for methods that hold none.
+/// The method that solves with this many pins. One hard pin moves the map, two turn and scale it; from three on they
+/// bend it, and are held by pinned LSCM where Method::spectral was asked for. Throws InvalidMesh for methods that hold
+/// none.
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins);
 
 /// The solver of one patch; keeps the factor of L + s M between solves.

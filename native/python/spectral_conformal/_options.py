@@ -36,7 +36,7 @@ class Options:
 
     Attributes:
         method: "spectral" (Eq. 5), "lscm" (pinned LSCM / DCP, section 2.2), "fiedler" (Eq. 4) or "area" (B = A, section
-            3.3). Two or more hard pins are held by "lscm" where "spectral" is asked for; "fiedler" and "area" hold
+            3.3). Three or more hard pins are held by "lscm" where "spectral" is asked for; "fiedler" and "area" hold
             none.
         weights: weight of each triangle's conformal energy: "uniform" (1) or "inverse_area" (1 / area, section 4.1).
         boundary: mass B of a vertex of the outer boundary loop: "length" (half of its two boundary edges) or "vertex"

@@ -33,9 +33,10 @@ def parameterize(
         vertices: (V, 3) positions, any unit. Vertices that no triangle uses are allowed.
         triangles: (F, 3) vertex indices. Faces wound against the majority are reoriented.
         options: how the map is made; its fields may be given one by one as keywords, which go first.
-        pins: vertex -> (u, v). Two or more are held exactly, by pinned LSCM, and the map is returned as solved, with
-            `method` "lscm"; with `soft_pins` they attract the spectral map instead. One: the map is solved free and
-            moved onto it. With "lscm" and none, the two farthest boundary vertices are held.
+        pins: vertex -> (u, v), held exactly. One moves the map, two turn and scale it: a similarity, which bends
+            nothing. Three or more bend it: they are held by pinned LSCM, and the map is returned as solved, with
+            `method` "lscm"; with `soft_pins` they attract the spectral map instead. "lscm" holds two exactly as
+            well, and with none the two farthest boundary vertices.
         extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
             that push two vertices apart, or pull them together where the strength is negative. The strength, at most
             1e4 in size, is a fraction of the boundary's total mass.

@@ -44,7 +44,7 @@ class Parameterization:
     uv: npt.NDArray[np.float64]
     """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
     method: Method
-    """The one used: "lscm" where two or more hard pins are held."""
+    """The one used: "lscm" where three or more hard pins are held."""
     weights: Weights
     """Of the energy L that was really solved: not those asked for where `fallback` is "other_weights"."""
     boundary: Boundary

@@ -118,10 +118,11 @@ bool SolveOptions::has_extenders() const {
 bool SolveOptions::has_extenders_or_rigidity() const { return hole_rigidity.value_or(0) != 0 || has_extenders(); }
 
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
-  if (n_pins < 2 || options.method == Method::lscm || is_attracted(options)) return options.method;
+  // Of fewer pins a similarity is made, which no method has to know of.
+  if (n_pins < 3 || options.method == Method::lscm || is_attracted(options)) return options.method;
   if (options.method == Method::spectral) return Method::lscm;
   throw InvalidMesh(
-      "The methods 'fiedler' and 'area' hold no pins; use 'spectral' or 'lscm', or remove all pins but one.");
+      "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two.");
 }
 
 struct Solver::State {

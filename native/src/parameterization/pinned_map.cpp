@@ -108,6 +108,9 @@ PatchMap fitted_to_pins(const SolveTask& task, PatchMap map) {
     z[vertex] = position;
   } else if (!fit_to_pins(z, pins)) {
     throw same_position();
+  } else if (task.attractors.empty() && pins.size() < 3) {
+    // The similarity meets them but for rounding.
+    for (const auto& [vertex, position] : pins) z[vertex] = position;
   }
   return map;
 }

@@ -15,8 +15,8 @@ SpectralMap pinned_map(const SpectralProblem& problem, const Pins& pins, const P
 /// Stage: the pinned map of Method::lscm.
 PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress);
 
-/// Stage: moves the map onto its pins, unless it is held by them. A single pin is met exactly; for soft pins the
-/// similarity is that of the least deviation. Throws InvalidMesh where all pins have the same position.
+/// Stage: moves the map onto its pins, unless it is held by them. One or two hard pins are met exactly; for soft pins
+/// the similarity is that of the least deviation. Throws InvalidMesh where all pins have the same position.
 PatchMap fitted_to_pins(const SolveTask& task, PatchMap map);
 
 }  // namespace spectral_conformal
