@@ -82,7 +82,10 @@ def test_two_hard_pins_turn_and_scale_the_map_and_bend_nothing():
             assert (chart.status, chart.method, chart.n_pins) == ("solved", held.method, 2)
             assert np.abs(result.uv - held.uv[triangles.ravel()]).max() < 1e-12
     pushed = sc.parameterize(vertices, triangles, pins=pins, extenders=[(3, 90, 1.0)])
-    assert meshes.similarity_deviation(pushed.uv, sc.parameterize(vertices, triangles, extenders=[(3, 90, 1.0)]).uv) < 1e-12
+    assert (
+        meshes.similarity_deviation(pushed.uv, sc.parameterize(vertices, triangles, extenders=[(3, 90, 1.0)]).uv)
+        < 1e-12
+    )
 
 
 def test_three_hard_pins_are_held_by_lscm_whoever_asks():

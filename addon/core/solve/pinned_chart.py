@@ -44,7 +44,7 @@ class PinnedChart:
     def map(self, start: np.ndarray, now: np.ndarray) -> np.ndarray | None:
         """Return the map, (N, 2) at `corners`, for the pin positions in `now` (C, 2); None if there is none.
 
-        Pins at their positions in `start`, (C, 2), give `start`. A single pin moves its chart.
+        Pins at their positions in `start`, (C, 2), give `start`. A single pin moves its chart, two turn and scale it.
 
         Raises:
             NativeModuleError: `spectral_conformal` cannot be imported.
@@ -57,12 +57,25 @@ class PinnedChart:
             return None
         if self.n_pins == 1:
             return start + (positions[0] - start[self.pinned][0])
-        found = self._combined(positions)
-        if found is None:
-            found = self._solved(now)
+        if self.n_pins == 2:
+            found = self._turned(start, positions)
+        else:
+            found = self._combined(positions)
+            if found is None:
+                found = self._solved(now)
         if found is not None:
             found[self.pinned] = positions
         return found
+
+    def _turned(self, start: np.ndarray, positions: np.ndarray) -> np.ndarray | None:
+        """Return `start` turned and scaled so that its two pins lie at `positions`; None where they lie together."""
+        points, before = _complex(start * self._isotropy), _complex(start[self.pinned] * self._isotropy)
+        after = _complex(positions * self._isotropy)
+        other = np.argmax(np.abs(before - before[0]))
+        if before[other] == before[0] or after[other] == after[0]:
+            return None
+        moved = after[0] + (points - before[0]) * ((after[other] - after[0]) / (before[other] - before[0]))
+        return np.stack([moved.real, moved.imag], axis=1) / self._isotropy
 
     def _combined(self, positions: np.ndarray) -> np.ndarray | None:
         """Return the map as a combination of known maps; None if the pin `positions` are no combination of theirs."""

@@ -91,7 +91,7 @@ def bumpy_grid(columns=8, rows=6, **options):
 
 def test_nothing_follows_unless_turned_on():
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     before = scenes.read_uv(grid)
     move(grid, 8, (0.1, 0.2))
     module("live.following").look()
@@ -117,7 +117,7 @@ def test_map_follows_a_moved_pin_as_the_pinned_solve_has_it():
 
 def test_pins_back_at_the_start_bring_the_map_back():
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     turn_on()
     before = scenes.read_uv(grid)
     move(grid, 8, (0.25, 0.5))
@@ -157,7 +157,7 @@ def test_other_islands_and_hidden_faces_stay():
 
 def test_island_moved_as_a_whole_is_left_alone():
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     scenes.set_uv_flags(grid, np.ones(len(scenes.read_uv(grid)), dtype=bool))
     turn_on()
     moved = scenes.read_uv(grid) * (0.5, 0.25)
@@ -173,7 +173,7 @@ def test_closed_island_is_left_alone_in_silence(capfd):
     scenes.set_uv_flags(cube, np.zeros(24, dtype=bool))
     bm = scenes.edit_mesh(cube)
     layer = bm.loops.layers.uv.active
-    for vertex in (0, 5):
+    for vertex in (0, 5, 6):
         for loop in bm.verts[vertex].link_loops:
             loop[layer].pin_uv = True
             loop[layer].uv = (0.1 * vertex, 0.5)
@@ -218,7 +218,7 @@ def test_map_follows_a_marked_seam_with_the_last_settings(monkeypatch, placement
 
 def test_changed_faces_are_not_taken_for_changed_seams():
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     turn_on()
     scenes.select_faces(grid, [20])
     bpy.ops.mesh.delete(type="FACE")
@@ -228,12 +228,12 @@ def test_changed_faces_are_not_taken_for_changed_seams():
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     # From here on the mesh is known.
     move(grid, 8, (0.1, 0.1))
-    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8]), atol=2e-5)
+    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8, 40]), atol=2e-5)
 
 
 def test_what_undo_changes_is_not_followed():
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     turn_on()
     live, handlers = module("live.following"), module("handlers")
     handlers._before_undo()
@@ -245,12 +245,12 @@ def test_what_undo_changes_is_not_followed():
     others = np.array([loop.vert.index != 8 for face in scenes.edit_mesh(grid).faces for loop in face.loops])
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
     move(grid, 8, (0.1, 0.0))
-    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8]), atol=2e-5)
+    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8, 40]), atol=2e-5)
 
 
 def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     turn_on()
     live = module("live.following")
     monkeypatch.setattr(module("live.pins"), "_SLOW", -1.0)
@@ -262,12 +262,12 @@ def test_slow_map_waits_for_the_pins_to_rest(monkeypatch):
     np.testing.assert_array_equal(scenes.read_uv(grid)[others], before[others])
     monkeypatch.setattr(live, "_REST", 0.0)
     assert live._rest() is None
-    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8]), atol=2e-5)
+    np.testing.assert_allclose(scenes.read_uv(grid), directly_pinned(grid, [0, 8, 40]), atol=2e-5)
 
 
 def test_error_is_told_once_and_not_raised(monkeypatch, capfd):
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     turn_on()
 
     def fail():
@@ -285,7 +285,7 @@ def test_disabling_the_add_on_removes_handlers_and_property():
 
     turn_on()
     grid = bumpy_grid()
-    edit_with_pins(grid, [0, 8])
+    edit_with_pins(grid, [0, 8, 40])
     addon_utils.disable("spectral_unwrap")
     events = ("depsgraph_update_post", "undo_pre", "undo_post", "redo_pre", "redo_post", "load_pre", "load_post")
     for event in events:
@@ -513,3 +513,16 @@ def test_a_doubled_face_does_not_split_its_island():
     turn_on()
     move(doubled, 8, (0.1, 0.2))
     np.testing.assert_allclose(scenes.read_uv(doubled), directly_pinned(doubled, [0, 8, 62]), atol=2e-5)
+
+
+def test_two_pins_turn_and_scale_their_island_as_it_is():
+    grid = bumpy_grid()
+    edit_with_pins(grid, [0, 8])
+    turn_on()
+    before = scenes.read_uv(grid)
+    move(grid, 8, (0.1, 0.2))
+    after = scenes.read_uv(grid)
+    points, moved = before @ [1, 1j], after @ [1, 1j]
+    factor, shift = np.polyfit(points, moved, 1)
+    np.testing.assert_allclose(factor * points + shift, moved, atol=1e-5)
+    assert abs(factor - 1) > 0.1
