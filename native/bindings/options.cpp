@@ -140,8 +140,6 @@ PatchOptions patch_options_of(const py::object& options) {
   result.backend = named(options, "factorization", backends);
   result.fill_holes = options.attr("fill_holes").cast<bool>();
   result.area_blend = options.attr("area_blend").cast<double>();
-  result.fold_free = options.attr("fold_free").cast<bool>();
-  result.polish = options.attr("polish").cast<bool>();
   return result;
 }
 
@@ -157,6 +155,8 @@ SolveOptions solve_options_of(const py::object& options) {
     result.hole_rigidity = rigidity.cast<double>();
   }
   result.fallbacks = options.attr("fallbacks").cast<bool>();
+  result.fold_free = options.attr("fold_free").cast<bool>();
+  result.polish = options.attr("polish").cast<bool>();
   return result;
 }
 

@@ -260,8 +260,9 @@ std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams&
     mesh.seam_edges = all.data();
     mesh.n_seam_edges = static_cast<int>(all.size());
     const std::vector<Chart> charts = build_charts(mesh).charts;
-    is_open = std::all_of(charts.begin(), charts.end(),
-                          [](const Chart& chart) { return !chart.boundary_loops.empty() && handle_curves(chart) == 0; });
+    is_open = std::all_of(charts.begin(), charts.end(), [](const Chart& chart) {
+      return !chart.boundary_loops.empty() && handle_curves(chart) == 0;
+    });
   }
   return cuts;
 }

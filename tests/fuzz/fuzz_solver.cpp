@@ -17,8 +17,8 @@ UnwrapOptions options_from(Bytes& bytes, const FuzzedMesh& mesh) {
   options.patch.backend = (bits & 4) != 0 ? FactorizationBackend::eigen : FactorizationBackend::automatic;
   options.patch.fill_holes = (bits & 8) != 0;
   if ((bits & 16) != 0) options.patch.area_blend = bytes.byte() / 255.0;
-  options.patch.fold_free = bytes.flag();
-  options.patch.polish = bytes.flag();
+  options.solve.fold_free = bytes.flag();
+  options.solve.polish = bytes.flag();
   constexpr Method methods[] = {Method::spectral, Method::spectral, Method::spectral, Method::spectral,
                                 Method::spectral, Method::lscm,     Method::fiedler,  Method::area};
   options.solve.method = methods[bits >> 5];

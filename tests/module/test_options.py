@@ -23,7 +23,7 @@ TAKE_OPTIONS = {
 }
 # What a kept factor, or kept charts, leave open.
 MAY_VARY = {
-    "Solver.solve": {"method", "soft_pins", "hole_rigidity", "fallbacks", "tolerance"},
+    "Solver.solve": {"method", "soft_pins", "hole_rigidity", "fallbacks", "tolerance", "fold_free", "polish"},
     "Unwrapper.solve": {"hole_rigidity", "tolerance"},
 }
 
@@ -154,6 +154,14 @@ def test_a_solve_varies_the_options_of_its_solver_for_itself_only():
     assert solver.solve().method == "lscm"
     assert solver.solve(method="fiedler").method == "fiedler"
     assert solver.solve().method == "lscm"
+    assert not solver.solve(method="spectral").polish_steps
+    polished = solver.solve(method="spectral", polish=True)
+    assert polished.polish_steps
+    assert np.array_equal(polished.uv, sc.parameterize(vertices, triangles, polish=True).uv)
+    rough = meshes.rough_grid(10, 2.0, 6, 0.2)
+    apart = sc.Solver(*rough).solve(fold_free=True)
+    assert apart.is_embedding
+    assert np.array_equal(apart.uv, sc.Solver(*rough, fold_free=True).solve().uv)
     rigid = sc.Unwrapper(vertices, *meshes.polygons(triangles), hole_rigidity=1.0)
     plain = sc.unwrap(vertices, *meshes.polygons(triangles))
     assert meshes.similarity_deviation(rigid.solve().uv, plain.uv) > 1e-4

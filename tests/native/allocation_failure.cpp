@@ -238,7 +238,7 @@ TEST_CASE("maps without folds, in place and by an embedding") {
   for (const auto backend : backends()) {
     UnwrapOptions options;
     options.patch.backend = backend;
-    options.patch.fold_free = true;
+    options.solve.fold_free = true;
     fail_in_turn([&] { unwrap(floater.view(), options, {}); });
     fail_in_turn([&] { unwrap(rough.view(), options, {}); });
   }

@@ -88,7 +88,7 @@ TEST_CASE("unwraps of one mesh in two threads") {
   UnwrapOptions options;
   options.patch.fill_holes = true;
   options.patch.area_blend = 0.3;
-  options.patch.fold_free = true;
+  options.solve.fold_free = true;
   const auto expected = unwrap(mesh.view(), options, {}).uv;
   const auto solve = [&] { CHECK(unwrap(mesh.view(), options, {}).uv == expected); };
   at_once({solve, solve});

@@ -45,12 +45,6 @@ struct PatchOptions {
   /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
   /// (isometric_relaxation.h), and its metric, blended with the identity, is that of all solves (section 4.3).
   double area_blend = 0;
-  /// Solves unfold flipped triangles and move parts apart that cover each other, or replace the map by an embedding, at
-  /// some cost in distortion; what stays flipped or covered is reported. See fold_free_map.h.
-  bool fold_free = false;
-  /// Solves of Method::spectral without pins, soft constraints or a metric go on from the eigenvector to a lower mean
-  /// QC (polish.h), where they find one.
-  bool polish = false;
 };
 
 /// What one solve of a Solver may vary.
@@ -64,9 +58,15 @@ struct SolveOptions {
   /// these.
   std::optional<double> hole_rigidity = 0.0;
   /// Whether Method::spectral may take another map where its own fails: unfolded, an embedding, or that of another
-  /// problem (fallbacks.h). When false, that failure is the answer; the embedding that PatchOptions::fold_free asks for
-  /// is made either way.
+  /// problem (fallbacks.h). When false, that failure is the answer; the embedding that `fold_free` asks for is made
+  /// either way.
   bool fallbacks = true;
+  /// Whether flipped triangles are unfolded and parts moved apart that cover each other, or the map is replaced by an
+  /// embedding, at some cost in distortion; what stays flipped or covered is reported. See fold_free_map.h.
+  bool fold_free = false;
+  /// Whether maps of Method::spectral without pins, soft constraints or a metric go on from the eigenvector to a lower
+  /// mean QC (polish.h), where they find one.
+  bool polish = false;
   /// Whether a problem whose map fails the checks is solved once more, with another start and a larger shift unless
   /// that was raised already.
   bool second_attempt = true;

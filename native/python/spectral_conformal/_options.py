@@ -209,6 +209,8 @@ class SolveChanges(ResolveChanges, total=False):
     method: Method
     soft_pins: float
     fallbacks: bool | None
+    fold_free: bool
+    polish: bool
 
 
 class OptionChanges(SolveChanges, total=False):
@@ -218,8 +220,6 @@ class OptionChanges(SolveChanges, total=False):
     boundary: Boundary
     fill_holes: bool
     area_blend: float
-    fold_free: bool
-    polish: bool
     factorization: Factorization
 
 

@@ -98,10 +98,12 @@ std::string describe_chart(const Chart& chart, const Positions& positions, const
   digest.add(faces, vertices, triangles.vector(), triangle_weights.vector(), triangle_face, boundary_loops,
              euler_characteristic, orientable, self_intersecting_polygons, reversed_faces, duplicates, positions,
              metric);
-  const auto& [weights, boundary, backend, fill_holes, area_blend, fold_free, polish] = patch;
-  digest.add(weights, boundary, backend, fill_holes, area_blend, fold_free, polish);
-  const auto& [method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, second_attempt] = solve;
-  digest.add(method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, second_attempt, pins);
+  const auto& [weights, boundary, backend, fill_holes, area_blend] = patch;
+  digest.add(weights, boundary, backend, fill_holes, area_blend);
+  const auto& [method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, fold_free, polish, second_attempt] =
+      solve;
+  digest.add(method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, fold_free, polish, second_attempt,
+             pins);
   return digest.bytes();
 }
 

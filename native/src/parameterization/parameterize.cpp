@@ -176,7 +176,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
   // The fractions of progress, here and in area_blend.cpp, are guesses of the time that phases take: a blend is many
   // factorizations, a factorization somewhat longer than the eigenproblem. They only have to rise.
-  const bool is_fold_free = state_->patch.options.fold_free;
+  const bool is_fold_free = options.fold_free;
   const Progress solving = part(progress, 0.0, is_fold_free ? 0.5 : 1.0);
   const double begun = state_->patch.options.area_blend > 0 ? 0.5 : 0.0;
 

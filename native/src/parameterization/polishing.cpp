@@ -56,7 +56,7 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
   const NormalizedPatch& patch = *prepared.problem.patch;
   // What was asked of the shape is not to be polished away.
   const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
-  if (map.rejection || !prepared.options.polish || !task.is_free() || is_shaped) return map;
+  if (map.rejection || !task.options.polish || !task.is_free() || is_shaped) return map;
   Parameterization& result = map.result;
   map.found.z = std::move(result.z);
   map.found = polished_map(prepared.problem, std::move(map.found), progress, result.timings);

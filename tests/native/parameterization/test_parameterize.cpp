@@ -221,9 +221,8 @@ TEST_CASE("the fields tell what was solved, and fallbacks can be forbidden") {
     }
     CHECK_THROWS_AS(solver(patch).solve(strict, {}), SolveFailure);
     // The map without flips was asked for, and its eigenvalue is that of the patch's own form.
-    PatchOptions options;
-    options.fold_free = true;
-    const Parameterization asked = Solver(patch.chart, patch.positions, options).solve(strict, {});
+    strict.fold_free = true;
+    const Parameterization asked = Solver(patch.chart, patch.positions, PatchOptions()).solve(strict, {});
     CHECK(count_flipped(patch, asked.z) == 0);
     CHECK(asked.eigenvalue_of == EigenvalueOf::map);
     CHECK(asked.boundary == BoundaryMeasure::length);
@@ -324,9 +323,9 @@ TEST_CASE("the area blend of a patch that needs a fallback is that of the fallba
   const Parameterization map = Solver(patch.chart, patch.positions, options).solve({}, {});
   CHECK(map.fallback == Fallback::clamped_triangles);
   CHECK(map.relaxation);
-  options.fold_free = true;
   SolveOptions strict;
   strict.fallbacks = false;
+  strict.fold_free = true;
   CHECK(Solver(patch.chart, patch.positions, options).solve(strict, {}).is_embedding);
 }
 

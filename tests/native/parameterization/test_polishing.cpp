@@ -23,9 +23,9 @@ TEST_CASE("a polished map has a lower mean QC and is placed; without a factor no
 
 TEST_CASE("the stage polishes where it was asked for, and not what has a metric of its own") {
   PreparedPatch patch = prepared(problem_of(Patch(bumpy_grid(12, 9))));
-  const SolveTask task{patch, {}, {}, {}, {}};
+  SolveTask task{patch, {}, {}, {}, {}};
   CHECK(polished(task, spectral(task, {}, {}), {}).result.polish_steps == 0);
-  patch.options.polish = true;
+  task.options.polish = true;
   const PatchMap map = polished(task, spectral(task, {}, {}), {});
   CHECK((map.result.polish_steps > 0 && map.result.eigenvalue_of == EigenvalueOf::map));
   patch.has_metric = true;

@@ -93,7 +93,7 @@ TEST_CASE("the stage embeds what has no map, unless pins hold it") {
   PatchMap map;
   map.rejection = rejected(Rejection::no_area);
   CHECK(unfolded(task, map, {}).rejection);
-  patch.options.fold_free = true;
+  task.options.fold_free = true;
   const PatchMap embedded = unfolded(task, map, {});
   CHECK((!embedded.rejection && embedded.result.is_embedding));
   CHECK(embedded.result.fallback == Fallback::tutte_embedding);

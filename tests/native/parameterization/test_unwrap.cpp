@@ -373,7 +373,7 @@ TEST_CASE("the cost of a fold-free map of quads is measured by one rule before a
     UnwrapOptions options;
     const UnwrappedChart folded = unwrapped(mesh, options).charts.front();
     REQUIRE(folded.flipped > 0);
-    options.patch.fold_free = true;
+    options.solve.fold_free = true;
     const UnwrappedChart fold_free = unwrapped(mesh, options).charts.front();
     REQUIRE(fold_free.unfolded > 0);
     CHECK(fold_free.flipped == 0);
