@@ -75,7 +75,7 @@ def test_with_pins_parts_stay_where_they_are_and_are_told():
     mesh = (vertices, *meshes.polygons(faces))
     plain = sc.unwrap(*mesh)
     first, last = 0, len(mesh[2]) - 1
-    pins = {int(mesh[2][corner]): plain.uv[corner] for corner in (first, last)}
+    pins = {int(mesh[2][corner]): plain.uv[corner] for corner in (first, (first + last) // 2, last)}
     (held,) = sc.unwrap(*mesh, pins=pins, fold_free=True).charts
     assert held.status == "solved"
     assert held.overlapping > 0.3 * len(held.faces)
