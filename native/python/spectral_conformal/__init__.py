@@ -9,21 +9,21 @@ After P. Mullen, Y. Tong, P. Alliez and M. Desbrun, "Spectral Conformal Paramete
     vmapping, faces, uvs = sc.unwrap(V, F, seam_edges="suggested").packed().split_vertices()
 
 `F` holds the vertices of each face: (F, 3), (F, 4) or a list of polygons; see `unwrap` for offsets, as in Blender.
-`parameterize` is strict: a patch whose map passes no numerical check raises SolveError. `unwrap` is lenient: it reports
-invalid patches and failed maps chart by chart, and says where it took another map than the one asked for.
+`parameterize` is strict: it raises SolveError if no map passes the numerical checks. `unwrap` is lenient: it reports
+invalid patches and failed maps chart by chart, and says where a fallback replaced the map that was asked for.
 
-`Options` says how maps are made; its fields are keywords of all functions that make maps, too. An argument of the wrong
-type, or a keyword that is no option, raises TypeError; any other argument that cannot be used raises ValueError, of
-which InvalidMeshError is one. Too little memory raises MemoryError. A progress function that returns False raises
-Cancelled; what it raises itself passes through. Arguments are copied at the call and never changed: what a progress
-function or another thread does to them afterwards has no effect.
+`Options` says how maps are made. Each of its fields is also a keyword of every function that makes maps. An argument of
+the wrong type or an unknown keyword raises TypeError; any other unusable argument raises ValueError, of which
+InvalidMeshError is a subclass. Too little memory raises MemoryError. A progress function that returns False raises
+Cancelled; its own exceptions pass through. Each call copies its arguments and never changes them, so later changes by a
+progress function or another thread have no effect.
 
-Threads: all functions may be called from several threads at once, and let Python's other threads run while they
-compute. Of the objects, see `Solver`. Each call shares its work among as many threads as the machine has cores, which
-concurrent calls divide; `limit_threads` lowers that. No result depends on the number of threads. Where the module works
-with CHOLMOD on OpenBLAS, each call into them sets that OpenBLAS's number of threads and puts the process's own number
-back when it ends; until then, other users of the same OpenBLAS in the process run with that number, too. NumPy's wheels
-bring an OpenBLAS of their own, which is not touched; `build_info()["blas"]` names the one that is.
+Threads: all functions may be called from several threads at once, and release the GIL while they compute. For objects,
+see `Solver`. Each call uses up to one thread per core; concurrent calls divide these. `limit_threads` lowers that. No
+result depends on the number of threads. If the module uses CHOLMOD on OpenBLAS, each call sets OpenBLAS's number of
+threads and restores the previous number when it ends; until then, other users of the same OpenBLAS in the process run
+with that number, too. NumPy's wheels bring their own OpenBLAS, which stays untouched; `build_info()["blas"]` names the
+one in use.
 """
 
 from . import _native, hosts

@@ -1,4 +1,4 @@
-"""What the native module was built with."""
+"""The libraries of the native module."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from . import _native
 
 
 def build_info() -> dict[str, str]:
-    """Return what the module solves with, here and now.
+    """Return the libraries that the module solves with in this process.
 
-    "factorization" is the library and its version; "blas" the file of the BLAS behind it and what that says of itself,
-    empty without one; "kernel" the processor whose kernels this BLAS runs, such as "SkylakeX" for AVX-512 or "Haswell"
-    for AVX2, empty where it is no OpenBLAS.
+    "factorization" is the library and its version; "blas" the file of its BLAS and that BLAS's description of itself,
+    empty without a BLAS; "kernel" the processor whose kernels the BLAS runs, such as "SkylakeX" for AVX-512 or
+    "Haswell" for AVX2, empty if it is not OpenBLAS.
     """
     return _native.build_info()

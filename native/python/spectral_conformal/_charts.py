@@ -1,4 +1,4 @@
-"""The charts of a mesh, before anything is solved."""
+"""The charts of a mesh, before any solve."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ def chart_of_face(
     seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
 ) -> npt.NDArray[np.int32]:
-    """Return the chart of every face, (faces,), as `unwrap` cuts a mesh without pins that differ at a vertex.
+    """Return the chart of every face, (faces,), as `unwrap` cuts a mesh if no vertex has several different pins.
 
-    Charts are numbered from 0; faces that are not selected, or have fewer than three different vertices, are in no
-    chart: -1. Takes a small part of the time of a solve.
+    Charts are numbered from 0. Faces that are not selected, or have fewer than three different vertices, are in no
+    chart and get -1. This takes a small fraction of the time of a solve.
 
     Args:
-        vertices: this and the others as in `unwrap`.
-        faces: see `unwrap`.
-        corner_vertices: see `unwrap`.
-        seam_edges: see `unwrap`.
-        selected_faces: see `unwrap`.
+        vertices: as in `unwrap`.
+        faces: as in `unwrap`.
+        corner_vertices: as in `unwrap`.
+        seam_edges: as in `unwrap`.
+        selected_faces: as in `unwrap`.
 
     Raises:
         ValueError: the arrays do not describe a mesh.

@@ -1,4 +1,4 @@
-"""Colors that stand for values."""
+"""Map values to colors."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 Color = tuple[float, float, float]
 
-# Displayed colors of good, middling and bad values: those of the add-on's overlay.
+# Displayed colors of good, middle and bad values, as in the add-on's overlay.
 GOOD_TO_BAD: tuple[Color, Color, Color] = ((0.16, 0.38, 0.85), (0.98, 0.86, 0.25), (0.86, 0.12, 0.10))
 
 

@@ -1,4 +1,4 @@
-"""Records of options on a command line: each field is an option, with its documentation."""
+"""Option records on the command line: each field becomes an option with its documentation."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ def add_fields(
 ) -> list[str]:
     """Add an option for every field of a record, with dashes for underscores; return the fields' names.
 
-    What is not given is not among the parsed arguments. Values of fields that are no flags and no choices are numbers,
-    or words that the record takes or refuses by name.
+    The parsed arguments contain only the options that were given. Values of fields that are neither flags nor choices
+    are numbers, or words that the record accepts or rejects.
 
     Args:
-        group: of an `argparse.ArgumentParser`, or one itself.
+        group: a group of an `argparse.ArgumentParser`, or the parser itself.
         record: with the defaults; its docstring documents the fields.
-        left_out: names of fields that are no options.
+        left_out: names of fields that do not become options.
         prefix: of the names in the parsed arguments.
     """
     documentation, names = documented(type(record)), []
@@ -50,7 +50,7 @@ def add_fields(
 
 
 def number_or_word(text: str) -> float | str:
-    """Return a number, whole where it is written so; or the text."""
+    """Return an int or a float if the text is one, otherwise the text."""
     for kind in (int, float):
         try:
             return kind(text)

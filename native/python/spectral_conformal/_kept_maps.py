@@ -1,4 +1,4 @@
-"""Maps that are kept from one unwrap to the next."""
+"""Maps kept from one call of `unwrap` to the next."""
 
 from __future__ import annotations
 
@@ -6,36 +6,36 @@ from . import _arguments, _native
 
 
 class KeptMaps:
-    """The maps of charts that calls of `unwrap` have found, for later calls to take instead of solving the same again.
+    """A cache of charts' maps: later calls of `unwrap` reuse a map instead of solving the same problem again.
 
-    A chart gets its map from here where everything that the map is made of is the same bit by bit: faces, positions,
-    seams round it, options, pins, extenders and metric. Results are hence the same with and without; only
-    `Chart.reused` and the seconds tell. Those used last are kept. While a call uses this object, calls that other
-    threads make meanwhile do without.
+    A map is reused if all its inputs are identical bit by bit: faces, positions, adjacent seams, options, pins,
+    extenders and metric. Results are therefore the same with and without the cache, except for `Chart.reused` and the
+    timings. The most recently used maps are kept. While one call uses this object, calls from other threads run without
+    it.
     """
 
     def __init__(self, max_megabytes: int = 256) -> None:
-        """Begin with none.
+        """Create an empty cache.
 
         Args:
-            max_megabytes: what is kept at most, in 10^6 bytes; about 16 bytes per vertex.
+            max_megabytes: its capacity in 10^6 bytes; a map takes about 16 bytes per vertex.
 
         Raises:
-            ValueError: `max_megabytes` is no whole number from 0 to 2147483647.
+            ValueError: `max_megabytes` is not a whole number from 0 to 2147483647.
         """
         self._native = _native.KeptMaps(1_000_000 * _arguments.checked_count(max_megabytes, "max_megabytes"))
 
     def __len__(self) -> int:
-        """Return how many maps there are, not counting those of a call that has not ended."""
+        """Return the number of maps, without those of a running call."""
         return self._native.size()
 
     def clear(self) -> None:
-        """Forget all maps; those of a call that has not ended are forgotten, too."""
+        """Forget all maps, including those of a running call."""
         self._native.clear()
 
 
 def native_of(kept: KeptMaps | None) -> _native.KeptMaps | None:
-    """Return what the native module knows a `KeptMaps` by."""
+    """Return the native object of a `KeptMaps`."""
     if kept is not None and not isinstance(kept, KeptMaps):
         raise TypeError(f"kept_maps must be a KeptMaps or None, not {type(kept).__name__}.")
     return None if kept is None else kept._native  # noqa: SLF001 - the facade's own

@@ -8,22 +8,22 @@ import numpy.typing as npt
 from ._measuring import next_corner
 from ._packing import pack_boxes
 
-# Margin for the packer, whose side may grow a little with the next sizes.
+# Reserve: the side that the packer finds may grow a little with the new sizes.
 _GROWTH = 1e-3
 _ROUNDS = 64
-# In largest boxes: beyond it nothing is left of the boxes.
+# In units of the largest box; with more space the boxes would vanish.
 _LARGEST_SPACE = 1e3
 
 
 def map_seams(
     face_offsets: npt.NDArray[np.int64], corner_vertices: npt.NDArray[np.int64], corner_uv: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.int64]:
-    """Return the edges, (S, 2), whose two faces have different UVs at either end.
+    """Return the edges, (S, 2), whose two faces have different UVs at an end.
 
     Args:
         face_offsets: as in `unwrap`.
         corner_vertices: as in `unwrap`.
-        corner_uv: (C, 2); NaN for corners without UVs, which agree with none.
+        corner_uv: (C, 2); NaN for corners without UVs, which match no other.
     """
     following = next_corner(face_offsets)
     ends = np.c_[np.arange(len(following)), following]
@@ -42,19 +42,19 @@ def packed(
     margin: tuple[float, float] = (0.004, 0.004),
     aspect: float = 1.0,
 ) -> npt.NDArray[np.float64]:
-    """Pack the charts' bounding boxes into the unit square, at a common scale and not turned.
+    """Pack the charts' bounding boxes into the unit square, at a common scale and without rotation.
 
     Args:
         uv: (C, 2), any unit.
         chart: (C,) chart of each corner, -1 for corners to leave unchanged.
-        margin: between boxes, and between them and the square's border, as a fraction of its width and of its height.
+        margin: between boxes, and between them and the square's border, as fractions of its width and height.
         aspect: width over height of the texture in the square.
 
     Returns:
-        a copy of `uv`.
+        a changed copy of `uv`.
 
     Raises:
-        ValueError: the margin leaves no room for so many charts.
+        ValueError: the margin leaves no room for this many charts.
     """
     result = np.array(uv, dtype=np.float64)
     corners, starts, counts = _by_chart(chart)
@@ -74,7 +74,7 @@ def packed(
 def _by_chart(
     chart: npt.NDArray[np.int64],
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Return the corners in charts, grouped by chart, and the start and the number of corners of each chart."""
+    """Return the corners that belong to charts, grouped by chart, and the start and number of each chart's corners."""
     corners = np.flatnonzero(chart >= 0)
     corners = corners[np.argsort(chart[corners], kind="stable")]
     starts = np.flatnonzero(np.diff(chart[corners], prepend=-1))
@@ -84,10 +84,10 @@ def _by_chart(
 def _into_square(
     size: npt.NDArray[np.float64], margin: npt.NDArray[np.float64]
 ) -> tuple[npt.NDArray[np.float64], float]:
-    """Return the lower corners (K, 2) of boxes of `size` (K, 2), and the side of the square that holds them.
+    """Return the lower left corners (K, 2) of boxes of `size` (K, 2), and the side of the square that holds them.
 
-    Margins are fractions of that side. Space and side depend on each other: the space grows until it is at least the
-    margin of the resulting side, which is then adjusted so that the margin is exact.
+    Margins are fractions of that side. Space and side depend on each other: the space grows until it reaches the margin
+    for the resulting side, which is then adjusted to make the margin exact.
     """
     space = np.zeros(2)
     for _ in range(_ROUNDS):
@@ -105,9 +105,9 @@ def _into_square(
 def onto_former(
     uv: npt.NDArray[np.float64], former: npt.NDArray[np.float64], chart: npt.NDArray[np.int64]
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_]]:
-    """Turn and move each chart onto its former map as closely as possible, at its former size.
+    """Rotate and move each chart onto its former map as closely as possible, at its former size.
 
-    Close in the sense of least squares; the size is the root mean square distance from the center.
+    The fit is a least-squares fit; the size is the root mean square distance from the center.
 
     Args:
         uv: (C, 2), any unit.
@@ -115,7 +115,7 @@ def onto_former(
         chart: (C,) chart of each corner, -1 for corners to leave unchanged.
 
     Returns:
-        a copy of `uv`, and which corners (C,) were placed: not those of charts without former UVs or extent.
+        a changed copy of `uv`, and which corners (C,) were placed; charts without former UVs or extent are not.
     """
     result = np.array(uv, dtype=np.float64)
     placed = np.zeros(len(uv), dtype=bool)

@@ -1,4 +1,4 @@
-"""What all measurements of meshes and maps share: averages over the surface, and the corner that follows."""
+"""What all measurements of meshes and maps share: averages over the surface, and the next corner of a face."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 
 def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
-    """Return the corner that follows every corner in its face, (C,)."""
+    """Return the next corner in the face of every corner, (C,)."""
     following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
     following[face_offsets[1:] - 1] = face_offsets[:-1]
     return following
@@ -25,9 +25,9 @@ def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) 
 def area_percentiles(
     values: npt.NDArray[np.floating], area: npt.NDArray[np.floating], percentages: Sequence[float]
 ) -> list[float]:
-    """Return the values that so many percent of the surface do not exceed, given the `area` of each of N values.
+    """Return the percentiles of N values over the surface, given the `area` of each.
 
-    Values that are not finite do not count. NaN where none has an area.
+    Values that are not finite do not count. All are NaN if no value has an area.
     """
     counted = (area > 0.0) & np.isfinite(values)
     if not counted.any():

@@ -7,12 +7,12 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 
-# Stretched further, a triangle is as thin as those that the solver clamps.
+# Beyond this ratio, a triangle is as thin as those that the solver clamps.
 RATIO_LIMIT = 1e4
 
 
 def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return the metric (F, 2, 2) of a map: J^T J. Solved with it, the map comes back up to a similarity.
+    """Return the metric (F, 2, 2) of a map: J^T J. A solve with it reproduces the map up to a similarity.
 
     Args:
         vertices: (V, 3) positions, finite.
@@ -20,7 +20,7 @@ def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.Ar
         uv: (V, 2) image of each vertex, finite. Triangles without area in 3D get the identity.
 
     Raises:
-        ValueError: an array is not of the kind described here, or a triangle's image has no area.
+        ValueError: an array is not as described here, or a triangle's image has no area.
     """
     vertices = _arguments.checked_vertices(vertices)
     triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
@@ -39,17 +39,17 @@ def metric_from_uv(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.Ar
 def metric_from_direction(
     vertices: npt.ArrayLike, triangles: npt.ArrayLike, directions: npt.ArrayLike, ratios: npt.ArrayLike
 ) -> npt.NDArray[np.float64]:
-    """Return the metric (F, 2, 2) under which each triangle is `ratio` times as long along a direction.
+    """Return the metric (F, 2, 2) under which each triangle is `ratio` times as long along a given direction.
 
     Args:
         vertices: (V, 3) positions, finite.
         triangles: (F, 3) vertex indices.
-        directions: (F, 3), or (3,) for all: directions in space, of any length, projected into the triangles' planes.
-            Where one is perpendicular to its triangle the metric is the identity.
+        directions: (F, 3), or (3,) for all: directions in 3D, of any length, projected onto the triangles' planes. For
+            a direction perpendicular to its triangle, the metric is the identity.
         ratios: (F,), or one for all: positive; above 1 the map gets longer along the direction than across it.
 
     Raises:
-        ValueError: an array is not of the kind described here.
+        ValueError: an array is not as described here.
     """
     vertices = _arguments.checked_vertices(vertices)
     triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
@@ -67,23 +67,23 @@ def metric_from_direction(
 def blend_metric(metric: npt.ArrayLike, amount: float) -> npt.NDArray[np.float64]:
     """Return the metric between the identity (amount 0) and `metric` scaled to determinant 1 (amount 1), (F, 2, 2).
 
-    It is the power G^amount, so that half of the way taken twice is the whole way.
+    It is the power G^amount, so blending by half twice gives the whole.
 
     Args:
         metric: (F, 2, 2) symmetric positive definite tensors.
         amount: 0 to 1.
 
     Raises:
-        ValueError: the metric or amount is not of the kind described here.
+        ValueError: the metric or amount is not as described here.
     """
     array = _arguments.checked_tensors(metric, 2)
     return _native.blend_metric(array, _arguments.checked_between(amount, 0.0, 1.0, "amount"))
 
 
 def in_own_unit(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return positions whose largest coordinate is near 1, by a power of two, so that squares are doubles too.
+    """Return the positions scaled by a power of two to a largest coordinate near 1, so that squares do not overflow.
 
-    The scale of a metric is without effect.
+    The scale of a metric has no effect.
     """
     largest = np.abs(positions[triangles]).max(initial=0.0)
     exponent = np.clip(np.frexp(largest)[1], -1000, 1000)

@@ -1,4 +1,4 @@
-"""The options of a map: one immutable record, whose fields are keywords of every function that makes maps."""
+"""The options of a map: one immutable record; its fields are keywords of every function that makes maps."""
 
 from __future__ import annotations
 
@@ -29,50 +29,48 @@ _CHOICES = {
 
 @dataclass(frozen=True)
 class Options:
-    """How a map is made. Every field is a keyword of `parameterize`, `unwrap`, `Solver` and `Unwrapper`, too.
+    """How to make a map. Every field is also a keyword of `parameterize`, `unwrap`, `Solver` and `Unwrapper`.
 
-    Immutable and comparable; `dataclasses.replace` makes a changed copy. A value of the wrong kind, out of its range or
-    at odds with another raises ValueError, one of the wrong type TypeError.
+    Immutable and comparable; `dataclasses.replace` makes a changed copy. A value of the wrong type raises TypeError;
+    one out of range, or in conflict with another, raises ValueError.
 
     Attributes:
         method: "spectral" (Eq. 5), "lscm" (pinned LSCM / DCP, section 2.2), "fiedler" (Eq. 4) or "area" (B = A, section
-            3.3). Three or more hard pins are held by "lscm" where "spectral" is asked for; "fiedler" and "area" hold
-            none.
-        weights: weight of each triangle's conformal energy: "uniform" (1) or "inverse_area" (1 / area, section 4.1).
+            3.3). With three or more hard pins, "spectral" switches to "lscm"; "fiedler" and "area" hold no pins.
+        weights: of the triangles in the conformal energy: "uniform" (1) or "inverse_area" (1 / area, section 4.1).
         boundary: mass B of a vertex of the outer boundary loop: "length" (half of its two boundary edges) or "vertex"
             (1, as in the paper).
-        soft_pins: 0 to 1e4, for "spectral": strength of a soft constraint in B that pulls the pinned vertices towards a
-            similar image of their positions, as a fraction of the boundary's total mass. The map then comes with the
-            similarity that fits it to the pins. At 1 it is hardly felt, at 1000 the pins are nearly met. 0: pins are
-            hard.
-        hole_rigidity: 0 to 1e4, for "spectral": how strongly every boundary loop but the longest is kept from shrinking
-            to a point, as a soft constraint about its barycenter (section 4.2). At 1 a hole counts like the outer
-            boundary. Without extenders and soft pins it is lowered as far as a map without flipped triangles asks for.
-            "automatic": chosen for each patch by the mean QC, 0 where another constraint, a `metric` or an `area_blend`
-            acts. The result's `hole_rigidity` says what was taken.
-        fill_holes: bool, close every boundary loop but the longest by virtual triangles, which keep the holes' shape.
-            They count in the eigenvalue and in no measure of the map.
-        area_blend: 0 to 1. 0 keeps angles; towards 1 the map gives them up for areas: the patch is unfolded
-            conformally, relaxed towards an isometry, and solved again with the metric of that map, blended with the
-            identity (section 4.3). On top of `metric` where both are given.
-        fold_free: bool, end without a flipped triangle and with a turning number of 1 or -1, at some cost in
-            distortion. Flipped triangles are unfolded where they are; where that leaves some, or the map winds round
-            more than once or there is none, an embedding, one-to-one by theorem, is relaxed without flipping a
-            triangle. Without pins, parts that cover each other are moved apart, in the end in an embedding whose border
-            does not touch itself. `message` says what was done and what it cost, and where several pins leave no room.
-            Triangles without area in 3D cannot flip; of a quad's two splits the first is kept unfolded.
-        polish: bool, go on from the map of "spectral" to a lower mean QC by a few steps with the factor that is there
-            (no pins, soft constraints, `metric` or `area_blend`). The conformal energy counts a triangle by its area in
-            the map, mean QC by its area on the surface. No step flips a triangle; `polish_steps` says how many there
-            were, and with any, `eigenvalue` is the quotient of the map.
-        fallbacks: bool, whether "spectral" may take another map where its own fails the checks: the one of least mean
-            QC without flipped triangles among the failed map unfolded (or an embedding, where that leaves no room) and
-            the maps with thin triangles clamped, with the other boundary and with the other weights. The result's
-            `fallback` names which. False: such a failure is an error. None: True for `unwrap` and `Unwrapper`, which
-            report chart by chart, False for `parameterize` and `Solver`. The embedding of `fold_free` is asked for by
-            that option, and made either way.
+        soft_pins: 0 to 1e4, for "spectral": strength of a soft constraint in B that pulls the pinned vertices toward a
+            similar image of their positions, as a fraction of the boundary's total mass. The result is aligned with the
+            pins by a similarity. At 1 the effect is slight; at 1000 the map nearly meets the pins. 0: pins are hard.
+        hole_rigidity: 0 to 1e4, for "spectral": strength of a soft constraint about the barycenter of each boundary
+            loop but the longest (section 4.2), which keeps holes from shrinking to a point. At 1 a hole counts like the
+            outer boundary. Without extenders and soft pins, it is lowered until the map has no flipped triangles.
+            "automatic" chooses it for each patch by the mean QC, or 0 with another constraint, a `metric` or an
+            `area_blend`. The result's `hole_rigidity` is the value used.
+        fill_holes: bool, close every boundary loop but the longest with virtual triangles, which keep the holes' shape.
+            They contribute to the eigenvalue, but not to any measure of the map.
+        area_blend: 0 to 1. 0 preserves angles; toward 1 the map trades them for areas: the patch is unfolded
+            conformally, relaxed toward an isometry, and solved again with the metric of that map, blended with the
+            identity (section 4.3). Applied on top of `metric` if both are given.
+        fold_free: bool, end without flipped triangles and with a turning number of 1 or -1, at some cost in distortion.
+            Flipped triangles are unfolded locally. If some remain, the map winds round more than once, or there is no
+            map, an embedding (one-to-one by theorem) replaces it and is relaxed without flipping a triangle. Without
+            pins, parts that cover each other are moved apart, as a last resort in an embedding whose border does not
+            touch itself. `message` says what was done, what it cost, and where several pins leave no room. Triangles
+            without area in 3D cannot flip; of a quad's two splits, the first stays unfolded.
+        polish: bool, lower the mean QC of the "spectral" map by a few steps that reuse the factor (not with pins, soft
+            constraints, `metric` or `area_blend`). The conformal energy weights a triangle by its area in the map, mean
+            QC by its area on the surface. No step flips a triangle. `polish_steps` counts them; if there are any,
+            `eigenvalue` is the quotient of the map.
+        fallbacks: bool, whether "spectral" may return another map if its own fails the checks. The candidates are the
+            failed map unfolded (or an embedding, if that leaves no room) and the maps with thin triangles clamped, with
+            the other boundary and with the other weights; the one with the lowest mean QC and no flipped triangles
+            wins. The result's `fallback` names it. False: such a failure is an error. None: True for `unwrap` and
+            `Unwrapper`, which report chart by chart; False for `parameterize` and `Solver`. The embedding of
+            `fold_free` does not depend on this option.
         tolerance: 1e-14 to 1e-3, relative residual at which the eigenvalue iteration stops.
-        factorization: "auto" takes CHOLMOD where the module was built with it, otherwise Eigen; or "cholmod", "eigen".
+        factorization: "cholmod", "eigen", or "auto": CHOLMOD if the module was built with it, otherwise Eigen.
     """
 
     method: Method = "spectral"
@@ -89,11 +87,11 @@ class Options:
     factorization: Factorization = "auto"
 
     def __post_init__(self) -> None:
-        """Check every value, and make numbers of any kind float and bool.
+        """Check every value, and convert numbers to float and flags to bool.
 
         Raises:
             TypeError: a value is of the wrong type.
-            ValueError: a value is out of its range or at odds with another.
+            ValueError: a value is out of range or conflicts with another one.
         """
         _check_choices(self)
         for name in ("fill_holes", "fold_free", "polish"):
@@ -120,26 +118,26 @@ class Options:
 
 @dataclass(frozen=True)
 class SeamOptions:
-    """How much seams are to gain. Every field is a keyword of `suggest_seams` and `suggest_cuts`, too.
+    """When to stop cutting. Every field is also a keyword of `suggest_seams` and `suggest_cuts`.
 
     Attributes:
-        max_length: limit of the total length of the proposed seams, in the unit of the vertices; None for none. What
-            topology needs counts, but is proposed even beyond the limit.
-        scale_limit: at least 1: a component is good enough when 95 % of its area has a linear scale (root of UV area
-            over 3D area) within this factor of the median, and
-        qc_limit: at least 1: when its mean quasi-conformal distortion is not above this, and
-        energy_limit: at least 4: when its symmetric Dirichlet energy is not above this: the mean, weighted by area, of
-            s^2 + t^2 + 1 / s^2 + 1 / t^2, s and t being the singular values of the map of a face at the median scale.
-            4 means nothing is stretched. Large ones count as the square of their logarithm. None takes what goes with
-            the other limits, 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2): 4.32 at their defaults.
-        qc_gain: at least 0: where nothing but the mean quasi-conformal distortion is beyond its limit, or no cut lowers
-            the energy any more, a cut has to lower that mean of the whole mesh by so much for each length of the root
-            of the mesh's area, or it is not made; with a `qc_limit` of 1 this alone says how far cuts go, and at 0 the
-            limit alone does.
-        front: (3,) the direction from the mesh to its viewer, or None. Its length says how much seams keep out of the
-            viewer's sight: an edge whose faces look at the viewer counts as 1 + length times as long.
-        weights: of the maps, see `Options`.
-        boundary: of the maps, see `Options`.
+        max_length: limit on the total length of the proposed seams, in the unit of the vertices; None for no limit. The
+            cuts that topology needs count, but are proposed even beyond the limit.
+        scale_limit: at least 1. A component needs no more cuts once it meets this and the next two limits: 95 % of its
+            area has a linear scale (root of UV area over 3D area) within this factor of the median;
+        qc_limit: at least 1: its mean quasi-conformal distortion is at most this;
+        energy_limit: at least 4: its symmetric Dirichlet energy is at most this: the area-weighted mean of
+            s^2 + t^2 + 1 / s^2 + 1 / t^2, where s and t are the singular values of a face's map at the median scale.
+            4 means no stretching. Large values count as the square of their logarithm. None derives it from the other
+            limits: 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2), which is 4.32 at their defaults.
+        qc_gain: at least 0. If only the mean quasi-conformal distortion exceeds its limit, or no cut lowers the energy
+            any more, a cut must lower that mean, over the whole mesh, by at least this per seam length, in units of the
+            root of the mesh's area. With a `qc_limit` of 1 this alone decides how far cuts go; at 0 the limit alone
+            does.
+        front: (3,) direction from the mesh to its viewer, or None. The longer it is, the more seams avoid the viewer's
+            sight: an edge whose faces look at the viewer counts as 1 + length times as long.
+        weights: see `Options`.
+        boundary: see `Options`.
         factorization: see `Options`.
     """
 
@@ -154,11 +152,11 @@ class SeamOptions:
     factorization: Factorization = "auto"
 
     def __post_init__(self) -> None:
-        """Check every value, and make numbers of any kind float.
+        """Check every value, and convert numbers to float.
 
         Raises:
             TypeError: a value is of the wrong type.
-            ValueError: a value is out of its range.
+            ValueError: a value is out of range.
         """
         _check_choices(self)
         if self.max_length is not None:
@@ -172,7 +170,7 @@ class SeamOptions:
             _set(self, "front", _arguments.checked_direction(self.front, "front"))
 
     def with_energy_limit(self) -> SeamOptions:
-        """Return the same with the `energy_limit` that goes with the other limits, where it is None."""
+        """Return a copy whose `energy_limit` follows from the other limits if it is None."""
         if self.energy_limit is not None:
             return self
         shear = 2.0 * (self.qc_limit + 1.0 / self.qc_limit - 2.0)
@@ -192,8 +190,8 @@ def _set(options: Options | SeamOptions, name: str, value: object) -> None:
     object.__setattr__(options, name, value)  # frozen for everybody else
 
 
-# The same fields as keywords, for type checkers and editors: what a function that takes all, or some of them, may be
-# given. tests/module/test_options.py holds them to the fields.
+# The same fields as keywords, for type checkers and editors: all of them, or those that a function accepts.
+# tests/module/test_options.py checks that they match the fields.
 
 
 class ResolveChanges(TypedDict, total=False):
@@ -247,17 +245,18 @@ def changed(
     allowed: Any,  # noqa: ANN401 - a TypedDict is no type to type checkers
     function: Callable[..., Any],
 ) -> AnyOptions:
-    """Return `options`, or `default` where they are None, with changes.
+    """Return `options`, or `default` if they are None, with changes.
 
     Args:
-        options: as a caller of `function` gives them.
-        default: taken where there are none.
+        options: from the caller of `function`.
+        default: used if there are none.
         changes: fields by name.
-        allowed: the TypedDict of the fields that `function` takes.
-        function: named in the message about a field that it does not take.
+        allowed: the TypedDict of the fields that `function` accepts.
+        function: named in the message about an unknown field.
 
     Raises:
-        TypeError: they are no such options, or a name is none of `allowed`; the message names the closest one.
+        TypeError: `options` has another type than `default`, or a name is not in `allowed`; the message names the
+            closest one.
         ValueError: a value cannot be used.
     """
     base = default if options is None else options
@@ -274,12 +273,12 @@ def changed(
 
 
 def with_fallbacks(options: Options, default: bool) -> Options:
-    """Return options whose `fallbacks` are as asked for, or else the default."""
+    """Return the options, with the default for `fallbacks` if it is None."""
     return replace(options, fallbacks=default) if options.fallbacks is None else options
 
 
 def documented(options: type) -> dict[str, str]:
-    """Return what the docstring of a dataclass says of each field, name and indentation included."""
+    """Return the entry of each field in the docstring of a dataclass, with its name and indentation."""
     attributes = inspect.cleandoc(options.__doc__ or "").partition("\nAttributes:\n")[2]
     entries = re.split(r"^(?=    \w+: )", attributes, flags=re.MULTILINE)
     return {entry.split(":")[0].strip(): entry.rstrip() for entry in entries if entry.strip()}

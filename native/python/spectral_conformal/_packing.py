@@ -1,4 +1,4 @@
-"""Boxes into a square."""
+"""Pack boxes into a square."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from . import _arguments, _native
 
 
 def pack_boxes(sizes: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], float]:
-    """Arrange boxes, neither turned nor scaled, without overlaps in a square as small as is found.
+    """Arrange boxes without overlap, rotation or scaling in a square as small as the search finds.
 
-    Skyline packing of the boxes from high to low (Jylanki, "A Thousand Ways to Pack the Bin", 2010), in strips of
+    Skyline packing of the boxes from tall to short (Jylanki, "A Thousand Ways to Pack the Bin", 2010), in strips of
     several widths: 1,000 boxes of mixed sizes fill nine tenths of the square.
 
     Args:
@@ -21,7 +21,7 @@ def pack_boxes(sizes: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], float]:
         (K, 2) lower left corners, and the side of the square, whose lower left corner is the origin.
 
     Raises:
-        ValueError: `sizes` is not of this kind.
+        ValueError: `sizes` is not as described here.
     """
     array = _arguments.checked_floats(sizes, "sizes", 2)
     if not (np.isfinite(array).all() and (array >= 0.0).all()):

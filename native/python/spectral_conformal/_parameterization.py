@@ -1,4 +1,4 @@
-"""One disk-like patch of triangles to the plane."""
+"""Map one disk-like patch of triangles to the plane."""
 
 from __future__ import annotations
 
@@ -32,34 +32,34 @@ def parameterize(
     Args:
         vertices: (V, 3) positions, any unit. Vertices that no triangle uses are allowed.
         triangles: (F, 3) vertex indices. Faces wound against the majority are reoriented.
-        options: how the map is made; its fields may be given one by one as keywords, which go first.
-        pins: vertex -> (u, v), held exactly. One moves the map, two turn and scale it: a similarity, which bends
-            nothing. Three or more bend it: they are held by pinned LSCM, and the map is returned as solved, with
-            `method` "lscm"; with `soft_pins` they attract the spectral map instead. "lscm" holds two exactly as
-            well, and with none the two farthest boundary vertices.
+        options: how the map is made; single fields may be given as keywords, which take precedence.
+        pins: vertex -> (u, v), met exactly. One pin moves the map; two apply a similarity, which bends nothing. Three
+            or more bend the map: pinned LSCM replaces the spectral problem, its map is returned as solved, and `method`
+            is "lscm". With `soft_pins` they attract the spectral map instead. "lscm" meets two pins exactly as well,
+            and without pins holds the two farthest boundary vertices.
         extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
-            that push two vertices apart, or pull them together where the strength is negative. The strength, at most
-            1e4 in size, is a fraction of the boundary's total mass.
+            that push two vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in
+            size, is a fraction of the boundary's total mass.
         metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
-            axis runs from its first to its second corner, the second axis is a quarter turn counter-clockwise from it,
-            seen from where the corners run counter-clockwise. A tangent vector t gets the squared length t G t, and the
-            map is conformal for these lengths: quasi-conformal. The scale of a tensor is without effect. See
-            `metric_from_uv`, `metric_from_direction` and `blend_metric`.
-        progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread, also several
-            times a second while neither changes. Returning False cancels: `Cancelled` is raised. What it raises itself
-            passes through.
+            axis points from its first to its second corner; the second axis is a quarter turn counter-clockwise from
+            it, seen from the side where the corners run counter-clockwise. A tangent vector t gets the squared length
+            t G t, and the map is conformal for these lengths, hence quasi-conformal. The scale of a tensor has no
+            effect. See `metric_from_uv`, `metric_from_direction` and `blend_metric`.
+        progress: called with the fraction done (0 to 1) and the name of the phase, in the calling thread, and several
+            times a second even if neither changes. Returning False cancels: `Cancelled` is raised. Its own exceptions
+            pass through.
 
     Returns:
-        The map. Without pins it is positively oriented, the mean of its vertices is at the origin, and its area equals
-        the area in 3D.
+        The map. Without pins it is positively oriented, has the mean of its vertices at the origin and the area that
+        the patch has in 3D.
 
     Raises:
-        InvalidMeshError: (a ValueError) the mesh is not one disk-like patch, or its pins cannot be held; the message
-            names the condition and what to do.
-        ValueError: an array has the wrong shape, or a value is out of its range.
-        TypeError: an argument is of the wrong type, or a keyword is no option; the message names the closest one.
-        SolveError: no attempt passed the numerical checks, or the map winds round more than once: under extenders and
-            hole rigidity, weaken them.
+        InvalidMeshError: (a ValueError) the mesh is not one disk-like patch, or its pins cannot be met; the message
+            names the violated condition and what to do.
+        ValueError: an array has the wrong shape, or a value is out of range.
+        TypeError: an argument has the wrong type, or a keyword is not an option; the message names the closest one.
+        SolveError: no attempt passed the numerical checks, or the map winds round more than once. Weaken extenders and
+            hole rigidity, if there are any.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory.
     """
@@ -69,11 +69,11 @@ def parameterize(
 
 
 class Solver:
-    """One patch, factored once, solved as often as wanted.
+    """One patch, factorized once and solved any number of times.
 
-    A solver has work space of its own. Different solvers may run in different threads at once, and give what they give
-    alone. Several threads may share one: they take turns, each waiting without the GIL until the solve before it has
-    ended. Its progress function must not call it again.
+    Each solver has its own work space. Different solvers may run in different threads at once, with the same results as
+    alone. Threads that share a solver take turns: each waits, without the GIL, for the previous solve to end. A
+    progress function must not call the solver that called it.
     """
 
     def __init__(
@@ -86,9 +86,9 @@ class Solver:
         progress: Progress | None = None,
         **changes: Unpack[OptionChanges],
     ) -> None:
-        """Assemble and factor the conformal energy of one patch.
+        """Assemble and factorize the conformal energy of one patch.
 
-        Arguments and errors are those of `parameterize`. Options that a solve may vary are what it starts from.
+        Arguments and errors are those of `parameterize`. `solve` may override some options.
         """
         used = with_fallbacks(changed(options, Options(), changes, OptionChanges, Solver.__init__), False)
         self._assemble(vertices, triangles, metric, used, progress)
@@ -102,12 +102,12 @@ class Solver:
         progress: Progress | None = None,
         **changes: Unpack[SolveChanges],
     ) -> Parameterization:
-        """Solve with the kept factor ("lscm" makes one of its own, "fiedler" replaces it). See `parameterize`.
+        """Solve with the kept factor ("lscm" makes its own, "fiedler" replaces it). See `parameterize`.
 
         The options are those of the solver, with the changes given here. The map is that of a fresh solver, to the last
-        bit, whatever this one solved before. Except for drafts: extenders and hole rigidity change the form B only, so
-        that with a tolerance above 1e-7 a solve with them starts from the earlier maps. A small change of strength then
-        costs a few solves, and the map agrees with a fresh one to the tolerance.
+        bit, whatever was solved before. The exception is for drafts: extenders and hole rigidity change the form B
+        only, so with a tolerance above 1e-7 a solve with them starts from the earlier maps. A small change of strength
+        then costs a few solves, and the map agrees with a fresh one to the tolerance.
         """
         used = with_fallbacks(changed(self._options, self._options, changes, SolveChanges, Solver.solve), False)
         return self._solved(used, pins, extenders, progress)
@@ -121,7 +121,7 @@ class Solver:
         options: Options,
         progress: Progress | None,
     ) -> Solver:
-        """Return a solver that is not factored yet: the first solve does that, within its own progress."""
+        """Return a solver without its factor: the first solve computes that, within its own progress."""
         solver = cls.__new__(cls)
         solver._assemble(vertices, triangles, metric, options, progress)
         return solver

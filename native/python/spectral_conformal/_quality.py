@@ -1,4 +1,4 @@
-"""What a map is like: its distortion and its defects."""
+"""Measure a map: its distortion and its defects."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def distortion(vertices: npt.ArrayLike, triangles: npt.ArrayLike, uv: npt.ArrayL
         uv: (V, 2) image of each vertex, finite.
 
     Raises:
-        ValueError: an array is not of the kind described here.
+        ValueError: an array is not as described here.
     """
     vertices = _arguments.checked_vertices(vertices)
     triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
@@ -43,20 +43,19 @@ def map_defects(
 ) -> MapDefects:
     """Find the islands of the UV map of a polygon mesh, and its flipped and overlapping faces.
 
-    Islands are the parts of the selected faces that are connected over edges of exactly two faces whose corners' UVs
-    are equal. An island that is mirrored as a whole has no flipped faces, nor has one whose faces are wound
-    inconsistently. Polygons are triangulated in the map: a concave one is not flipped, one that crosses itself is, and
-    one of five corners or more that touches itself may be. UVs are taken to be single precision: contacts and folds
-    less deep than 2.5e-7 of the coordinates do not count, so that collapsed faces are neither flipped nor overlapping.
-    Of several faces on the same vertices with the same UVs the first is looked at only; faces with fewer than three
-    different corners are not looked at.
+    Islands are the parts of the selected faces that are connected across edges with exactly two faces and equal UVs on
+    both sides. An island has no flipped faces if it is mirrored as a whole, or if its faces are wound inconsistently.
+    Polygons are triangulated in the map: a concave one is not flipped, a self-intersecting one is, and one with five or
+    more corners that touches itself may be. UVs are treated as single precision: contacts and folds shallower than
+    2.5e-7 of the coordinates do not count, so collapsed faces are neither flipped nor overlapping. Of several faces
+    with the same vertices and UVs, only the first is examined; faces with fewer than three different corners are not.
 
     Args:
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
         corner_uv: (C, 2) the map, finite at the corners of selected faces.
-        selected_faces: (faces,) bool, all faces when left out; others are not looked at.
-        between_islands: whether faces that cover a face of another island overlap too.
+        selected_faces: (faces,) bool; by default all faces. Other faces are ignored.
+        between_islands: whether faces that cover a face of another island count as overlapping, too.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or a UV is not finite; the message names its corner.
@@ -76,17 +75,17 @@ def face_distortion(
     *,
     selected_faces: npt.ArrayLike | None = None,
 ) -> FaceDistortion:
-    """Measure the UV map of a polygon mesh face by face, fast enough to follow edits; islands are not looked at.
+    """Measure the UV map of a polygon mesh face by face, fast enough to follow edits; islands play no role.
 
     Args:
         vertices: as in `unwrap`, but may have values that are not finite.
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
-        corner_uv: (C, 2) the map; may have values that are not finite. Single precision is read as it is.
-        selected_faces: (faces,) bool, all faces when left out; others are not looked at.
+        corner_uv: (C, 2) the map; may have values that are not finite. Single precision is read without conversion.
+        selected_faces: (faces,) bool; by default all faces. Other faces are ignored.
 
     Raises:
-        ValueError: the arrays do not describe a mesh, or are not of the kinds described.
+        ValueError: the arrays do not describe a mesh, or are not as described here.
     """
     vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
         vertices, faces, corner_vertices, None, selected_faces
@@ -102,19 +101,19 @@ def face_triangles(
     *,
     selected_faces: npt.ArrayLike | None = None,
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
-    """Triangulate the faces of a polygon mesh as Blender draws them, so that what is drawn over them lies on them.
+    """Triangulate the faces of a polygon mesh as Blender draws them, so that an overlay lies on the drawn faces.
 
     Args:
         vertices: as in `unwrap`, but may have values that are not finite.
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
-        selected_faces: (faces,) bool, all faces when left out; others have no triangles.
+        selected_faces: (faces,) bool; by default all faces. Other faces get no triangles.
 
     Returns:
         (T, 3) corners of the triangles, in the order of the faces, and (T,) the face of each.
 
     Raises:
-        ValueError: the arrays do not describe a mesh, or are not of the kinds described.
+        ValueError: the arrays do not describe a mesh, or are not as described here.
     """
     vertices, offsets, corners, _, selected = _arguments.checked_polygon_mesh(
         vertices, faces, corner_vertices, None, selected_faces

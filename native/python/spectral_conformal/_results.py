@@ -1,4 +1,4 @@
-"""The results: maps and what is said of them."""
+"""The results: maps and reports on them."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from ._messages import Step, describe, steps_of
 from ._options import Boundary, Method, Weights
 
 Fallback = Optional[Literal["unfolded", "clamped_triangles", "other_boundary", "other_weights", "tutte_embedding"]]
-"""What stands in for a map that failed the checks; None for the map that was asked for. "unfolded": that map, its
-boundary winding round once after flipped triangles were unfolded. "clamped_triangles": thin triangles were given a
-minimal height in the energy. "other_boundary", "other_weights": the form B with the other `boundary`, the energy L with
-the other `weights`. "tutte_embedding": a relaxed Tutte embedding, here or because `fold_free` asks for it."""
+"""What replaced a map that failed the checks; None for the map that was asked for. "unfolded": that map with flipped
+triangles unfolded, so that its boundary winds round once. "clamped_triangles": thin triangles were given a minimal
+height in the energy. "other_boundary", "other_weights": the form B with the other `boundary`, the energy L with the
+other `weights`. "tutte_embedding": a relaxed Tutte embedding, as a fallback or requested by `fold_free`."""
 EigenvalueOf = Literal["eigenvector", "map"]
-"""What an eigenvalue belongs to: the "eigenvector" of the problem that was solved, or a "map" that is none (pinned,
-unfolded, replaced), of which it is the quotient z*Lz / z*Bz of Eq. 5."""
+"""What an eigenvalue belongs to: the "eigenvector" of the solved problem, or another "map" (pinned, unfolded,
+replaced), whose quotient z*Lz / z*Bz of Eq. 5 it is."""
 Relaxation = Optional[
     Literal["converged", "factorization_limit", "stalled", "indefinite_form", "no_image_area", "rejected"]
 ]
-"""How the relaxation towards an isometry that `area_blend` asks for ended; None without it. "converged"; at the
-"factorization_limit", more would change the map further; "stalled": flips or rounding leave no step; "indefinite_form":
-the form of the descent is not positive definite in double precision. Nothing was blended where the conformal map has
-"no_image_area", or the relaxed map was "rejected" because it had more flipped triangles or overflowed."""
+"""How the relaxation toward an isometry for `area_blend` ended; None without it. "converged"; "factorization_limit":
+more factorizations would change the map further; "stalled": flips or rounding leave no step; "indefinite_form": the
+form of the descent is not positive definite in double precision. Nothing was blended if the conformal map has
+"no_image_area", or if the relaxed map was "rejected" because it had more flipped triangles or overflowed."""
 
 
-# What the codes in the rows of `Charts` stand for, and the rows' fields.
+# The meaning of the codes in the rows of `Charts`, and the rows' fields.
 _NAMES: dict[str, tuple[str | None, ...]] = _native.CHART_NAMES
 _FIELDS: tuple[str, ...] = _native.CHART_FIELDS
 _RECORDS_AT_ONCE = 1000
@@ -44,20 +44,20 @@ class Parameterization:
     uv: npt.NDArray[np.float64]
     """(V, 2), in the units of the vertices; (0, 0) for vertices that no triangle uses."""
     method: Method
-    """The one used: "lscm" where three or more hard pins are held."""
+    """The method used: "lscm" with three or more hard pins."""
     weights: Weights
-    """Of the energy L that was really solved: not those asked for where `fallback` is "other_weights"."""
+    """Of the energy L that was solved; with the `fallback` "other_weights" not those that were asked for."""
     boundary: Boundary
-    """Of the form B that was really solved: not the one asked for where `fallback` is "other_boundary"."""
+    """Of the form B that was solved; with the `fallback` "other_boundary" not the one that was asked for."""
     fallback: Fallback
-    """What was changed about the problem because its own solve failed the checks; None where nothing was."""
+    """How the problem or its map was changed because the map failed the checks; None if it passed."""
     clamped_triangles: int
     """Thin triangles that the fallback "clamped_triangles" gave a minimal height in the energy."""
     eigenvalue: float
     """lambda of L z = lambda B z (Eq. 5) for the given vertices, soft constraints included in B, for the method,
     weights and boundary above. For "area" B = A."""
     eigenvalue_of: EigenvalueOf
-    """Whether `eigenvalue` is that of an "eigenvector", or the quotient z*Lz / z*Bz of a "map" that is none."""
+    """Whether `eigenvalue` belongs to an "eigenvector", or is the quotient z*Lz / z*Bz of another "map"."""
     residual: float
     """|L z - lambda B z| / (largest diagonal entry of L x |z|). For "lscm" |L z| over the free vertices / (largest
     diagonal entry x extent of the map); for "area" and with soft constraints (soft pins, extenders, hole rigidity) the
@@ -67,38 +67,37 @@ class Parameterization:
     attempts: int
     """Eigenproblems, or pinned systems, solved until one passed the checks, fallbacks included."""
     turning_number: int
-    """Of the longest boundary loop: 1 for a map that does not wind round itself, -1 if that loop is a hole of it."""
+    """Of the longest boundary loop: 1 if the map does not wind round itself, -1 if that loop is a hole of the map."""
     relaxation: Relaxation
-    """How the relaxation that `area_blend` asks for ended; None without it."""
+    """How the relaxation for `area_blend` ended; None without it."""
     scale_deviation_before: float
-    """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise not a number."""
+    """With `area_blend`: `Distortion.log2_scale_deviation` of the conformal map. Otherwise NaN."""
     scale_deviation: float
-    """With `area_blend`: the same of this map. Otherwise not a number."""
+    """With `area_blend`: the same for this map. Otherwise NaN."""
     hole_rigidity: float
-    """Of the form B that was really solved: less than what was asked for where that was too much, and what was chosen
-    where it was "automatic"."""
+    """Of the form B that was solved: as requested, lowered if that was too high, or as "automatic" chose it."""
     polish_steps: int
-    """Steps of `polish` from the eigenvector to this map; 0: it is the eigenvector."""
+    """Steps of `polish` from the eigenvector to this map; 0 if the map is the eigenvector."""
     unfolded: int
-    """Flipped triangles that `fold_free` has unfolded."""
+    """Number of flipped triangles that `fold_free` unfolded."""
     is_embedding: bool
-    """Whether `fold_free` had to replace the map by an embedding."""
+    """Whether `fold_free` had to replace the map with an embedding."""
     mean_qc_before: float
-    """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
+    """Mean QC of the map that `fold_free` unfolded or replaced; NaN if there was none."""
     steps: tuple[Step, ...]
-    """Fallbacks that were needed, faces that were repaired, and what else there is to say of the map, in this order."""
+    """Fallbacks, repaired faces and other remarks on the map, in this order."""
     timings: dict[str, float]
     """Seconds per phase, by name."""
 
     @property
     def message(self) -> str:
-        """The steps for people: see `describe`; empty when there was none."""
+        """The steps in words, see `describe`; empty if there are none."""
         return describe(self.steps)
 
 
 @dataclass(frozen=True)
 class Distortion:
-    """Distortion of a map from 3D to the plane, per triangle and summed up."""
+    """Distortion of a map from 3D to the plane, per triangle and in summary."""
 
     qc: npt.NDArray[np.float64]
     """(F,) quasi-conformal distortion: larger over smaller singular value of the Jacobian, infinite for a collapsed
@@ -115,25 +114,26 @@ class Distortion:
     log2_scale_deviation: float
     """Standard deviation of log2_scale, weighted by the area in 3D."""
     flipped: npt.NDArray[np.bool_]
-    """(F,) image wound against the majority (by area) of its connected patch, after orienting the patch."""
+    """(F,) whether the image is wound against the majority (by area) of its connected patch, after orienting the
+    patch."""
     turning_number: int
     """Of the outer boundary loop of the largest patch; 0 for a closed one."""
     overlapping: npt.NDArray[np.bool_]
-    """(F,) whether the image covers part of another triangle's."""
+    """(F,) whether the image covers part of another triangle's image."""
 
 
 @dataclass(frozen=True)
 class FaceDistortion:
-    """What a UV map does to every face of a polygon mesh, by itself.
+    """Distortion of a UV map for each face of a polygon mesh.
 
-    A face that is not selected, or has no area in 3D, has `qc` 1, `log2_scale` 0 and no areas; one whose image has no
-    area an infinite `qc` and a `log2_scale` of minus infinity; one with a position or a UV that is not finite a `qc`
-    and a `log2_scale` that are not numbers, and no areas.
+    A face that is not selected, or has no area in 3D, has `qc` 1, `log2_scale` 0 and zero areas. If its image has no
+    area, `qc` is infinite and `log2_scale` minus infinity. If a position or UV is not finite, `qc` and `log2_scale` are
+    NaN, and the areas zero.
     """
 
     qc: npt.NDArray[np.float64]
     """(faces,) quasi-conformal distortion (section 5): larger over smaller singular value, averaged over the face's
-    triangles, weighted by their area in 3D."""
+    triangles by their area in 3D."""
     log2_scale: npt.NDArray[np.float64]
     """(faces,) log2 of the root of (area in the map / area in 3D)."""
     area: npt.NDArray[np.float64]
@@ -144,37 +144,37 @@ class FaceDistortion:
 
 @dataclass(frozen=True)
 class MapDefects:
-    """The islands of a UV map, and its faces that lie the wrong way round or on others."""
+    """The islands of a UV map, and its flipped and overlapping faces."""
 
     island_of_face: npt.NDArray[np.int32]
-    """(faces,) the island of every face, numbered in the order of their first face; -1 for faces that are not selected
-    or have fewer than three different corners."""
+    """(faces,) the island of every face; islands are numbered in the order of their first face. -1 for faces that are
+    not selected or have fewer than three different corners."""
     flipped: npt.NDArray[np.bool_]
-    """(faces,) a triangle of the face is wound against the majority (by UV area) of its island, after orienting the
-    island's faces consistently; False for faces that are not selected."""
+    """(faces,) whether a triangle of the face is wound against the majority (by UV area) of its island, after orienting
+    the island's faces consistently; False for faces that are not selected."""
     overlapping: npt.NDArray[np.bool_]
-    """(faces,) covers part of another face; False for faces that are not selected."""
+    """(faces,) whether the face covers part of another one; False for faces that are not selected."""
 
 
 @dataclass(frozen=True)
 class Chart:
-    """What became of one chart of `unwrap`. Of a failed one, what was really solved is what was to be solved."""
+    """The result for one chart of `unwrap`. For a failed chart, the problem fields are those that were asked for."""
 
     faces: npt.NDArray[np.int32]
     """Faces of the mesh, ascending."""
     status: Literal["solved", "failed"]
     message: str
-    """For people: why it failed and what to do, or what was repaired to solve it; empty for a clean chart."""
+    """For people: why the chart failed and what to do, or what was repaired to solve it; empty for a clean chart."""
     steps: tuple[Step, ...]
-    """What `message` says, see `Parameterization`; empty where the chart's faces or pins break a condition."""
+    """The content of `message`, see `Parameterization`; empty if the chart's faces or pins violate a condition."""
     method: Method
-    """This and the next four: what was really solved, see `Parameterization`."""
+    """This and the next four: the problem that was solved, see `Parameterization`."""
     weights: Weights
     boundary: Boundary
     fallback: Fallback
     clamped_triangles: int
     eigenvalue: float
-    """Not a number for a failed chart, like residual, mean_qc and max_qc."""
+    """NaN for a failed chart, like residual, mean_qc and max_qc."""
     eigenvalue_of: EigenvalueOf
     """This and the next four: see `Parameterization`."""
     residual: float
@@ -182,13 +182,14 @@ class Chart:
     attempts: int
     turning_number: int
     mean_qc: float
-    """As in `Distortion`, over the chart's triangles; of a quad the split whose smaller area is larger."""
+    """As in `Distortion`, over the chart's triangles; a quad is split so that its smaller triangle is as large as
+    possible."""
     max_qc: float
-    """The largest of a face, as in `FaceDistortion`."""
+    """The largest value of a face, as in `FaceDistortion`."""
     flipped: int
     """Faces with a flipped triangle."""
     overlapping: int
-    """Faces that cover part of another face of the chart. Of several faces on the same vertices one counts."""
+    """Faces that cover part of another face of the chart. Several faces with the same vertices count once."""
     relaxation: Relaxation
     """See `Parameterization`."""
     scale_deviation_before: float
@@ -197,31 +198,31 @@ class Chart:
     hole_rigidity: float
     """See `Parameterization`."""
     polish_steps: int
-    """Steps of `polish` from the eigenvector to this map; 0: it is the eigenvector."""
+    """Steps of `polish` from the eigenvector to this map; 0 if the map is the eigenvector."""
     unfolded: int
-    """Flipped triangles that `fold_free` has unfolded."""
+    """Number of flipped triangles that `fold_free` unfolded."""
     is_embedding: bool
-    """Whether `fold_free` had to replace the map by an embedding."""
+    """Whether `fold_free` had to replace the map with an embedding."""
     mean_qc_before: float
-    """Mean QC of the map that `fold_free` unfolded or replaced; not a number where there was none."""
+    """Mean QC of the map that `fold_free` unfolded or replaced; NaN if there was none."""
     n_pins: int
     """Pinned vertices of the chart."""
     n_vertices: int
-    """Vertices of the chart; a mesh vertex on a seam counts once for every copy."""
+    """Vertices of the chart; a mesh vertex on a seam counts once per copy."""
     area: float
     """In 3D."""
     reused: bool
-    """Whether the map was taken from the `kept_maps` of `unwrap`, not solved for."""
+    """Whether the map comes from the `kept_maps` of `unwrap` instead of a solve."""
 
 
 class Charts(Sequence[Chart]):
-    """The charts of a result, in order: a sequence whose records are made when they are asked for.
+    """The charts of a result, in order: a sequence that makes its records on access.
 
-    A record takes some thousand bytes, a million of them as many as the solves: what is kept are arrays.
+    It stores arrays, because a record takes some thousand bytes: a million of them would need as much as the solves.
     """
 
     def __init__(self, rows: npt.NDArray[np.void], faces: npt.NDArray[np.int32], remarks: Mapping[int, tuple]) -> None:
-        """Take what the native module has of them: see chart_records.h."""
+        """Take the native module's arrays: see chart_records.h."""
         self._rows = rows
         self._faces = faces
         self._first_faces = np.cumsum(rows["n_faces"], dtype=np.int64) - rows["n_faces"]
@@ -229,7 +230,7 @@ class Charts(Sequence[Chart]):
         self._numbers = range(len(rows))
 
     def __len__(self) -> int:
-        """Return how many charts there are, those that failed among them."""
+        """Return the number of charts, including failed ones."""
         return len(self._rows)
 
     @overload
@@ -237,7 +238,7 @@ class Charts(Sequence[Chart]):
     @overload
     def __getitem__(self, index: slice) -> Charts: ...
     def __getitem__(self, index: SupportsIndex | slice) -> Chart | Charts:
-        """Return a chart, or some of them as a sequence that shares the memory of this one."""
+        """Return a chart, or a slice that shares the memory of this sequence."""
         if not isinstance(index, slice):
             place = range(len(self))[index]
             return next(self._from(place, place + 1))
@@ -250,12 +251,12 @@ class Charts(Sequence[Chart]):
         return part
 
     def __iter__(self) -> Iterator[Chart]:
-        """Go through the charts; a loop that keeps none of them needs memory for a few."""
+        """Iterate over the charts; a loop that keeps none of them needs memory for a few."""
         for start in range(0, len(self), _RECORDS_AT_ONCE):
             yield from self._from(start, start + _RECORDS_AT_ONCE)
 
     def __repr__(self) -> str:
-        """Return a line about all of them."""
+        """Return a summary in one line."""
         solved = int(np.count_nonzero(self._rows["status"]))
         return f"<{len(self)} charts, {solved} of them solved>"
 
@@ -265,7 +266,7 @@ class Charts(Sequence[Chart]):
         return self._rows["n_faces"].copy()
 
     def column(self, name: str) -> np.ndarray:
-        """Return what all charts have in one field, but for `faces`, as an array (number of charts,)."""
+        """Return one field of all charts as an array (number of charts,); any field but `faces`."""
         if name == "message":
             return np.array([self._remark(number)[0] for number in self._numbers], object)
         if name == "steps":
@@ -278,7 +279,7 @@ class Charts(Sequence[Chart]):
         return self._rows[name].copy()
 
     def _remark(self, number: int) -> tuple[str, tuple[Step, ...]]:
-        """Return the message of a chart, by its number among all, and its steps."""
+        """Return the message and the steps of a chart, given its number among all."""
         problem, tuples = self._remarks.get(number, ("", ()))
         steps = steps_of(tuples)
         return problem or describe(steps), steps
@@ -291,7 +292,7 @@ class Charts(Sequence[Chart]):
             fields["message"], fields["steps"] = self._remark(number)
             for name, names in _NAMES.items():
                 fields[name] = names[fields[name]]
-            # Without the constructor, which sets the fields of a frozen record one by one: ten times as slow.
+            # The constructor of a frozen record sets the fields one by one, which takes ten times as long.
             chart = object.__new__(Chart)
             chart.__dict__.update(fields)
             yield chart
@@ -309,41 +310,41 @@ class Unwrap:
     """(faces,) index into charts, -1 for faces that are not selected."""
     charts: Charts
     unused_extenders: npt.NDArray[np.bool_]
-    """(number of extenders,) those without effect: no solved chart has both vertices, or its pins hold it."""
+    """(number of extenders,) those without effect: no solved chart has both vertices, or pins hold the chart."""
     timings: dict[str, float]
-    """Seconds per phase, by name, summed up over the charts, of which several may be solved at once."""
+    """Seconds per phase, by name, summed over the charts; several charts may be solved at once."""
     face_offsets: npt.NDArray[np.int32]
-    """(faces + 1,) where the corners of each face begin."""
+    """(faces + 1,) the index of each face's first corner."""
     corner_vertices: npt.NDArray[np.int32]
     """(C,) the vertex of each corner."""
 
     def packed(self, margin: float = 0.004) -> Unwrap:
-        """Return the same with all charts side by side in the unit square, at one scale.
+        """Return a copy with all charts side by side in the unit square, at one scale.
 
         Args:
             margin: between charts, and between them and the border, as a fraction of the square's side.
 
         Raises:
-            ValueError: the margin leaves no room for so many charts.
+            ValueError: the margin leaves no room for this many charts.
         """
         chart = np.repeat(self.chart_of_face.astype(np.int64), np.diff(self.face_offsets))
         chart[~self.solved_corners] = -1
         return replace(self, uv=packed(self.uv, chart, (margin, margin)))
 
     def split_vertices(self) -> SplitMesh:
-        """Return the mesh with one vertex for each place of the map, as renderers, xatlas and igl have it."""
+        """Return the mesh with one vertex per pair of vertex and UV, as renderers, xatlas and igl have it."""
         return split_vertices(self.face_offsets, self.corner_vertices, self.uv)
 
 
 class SplitMesh(NamedTuple):
-    """A mesh whose vertices have one place each in the map: those on seams are there several times."""
+    """A mesh whose vertices have one UV each: vertices on seams have several copies."""
 
     vmapping: npt.NDArray[np.int32]
-    """(N,) the vertex of the mesh that each is a copy of, ascending."""
+    """(N,) the original vertex of each copy, ascending."""
     faces: npt.NDArray[np.int32] | list[npt.NDArray[np.int32]]
-    """The faces by these vertices, in order: (F, n) where all have n corners, otherwise a list of polygons."""
+    """The faces in terms of the copies, in order: (F, n) if all have n corners, otherwise a list of polygons."""
     uvs: npt.NDArray[np.float64]
-    """(N, 2) the place of each in the map."""
+    """(N, 2) the UV of each copy."""
 
 
 def split_vertices(
@@ -351,7 +352,7 @@ def split_vertices(
     corner_vertices: npt.NDArray[np.integer],
     corner_uv: npt.NDArray[np.float64],
 ) -> SplitMesh:
-    """Give each vertex as many copies as its corners have different UVs: (F + 1,), (C,) and (C, 2)."""
+    """Give each vertex one copy per distinct UV of its corners; the arguments are (F + 1,), (C,) and (C, 2)."""
     u, v = corner_uv.T
     order = np.lexsort((v, u, corner_vertices))
     rows = np.column_stack([corner_vertices, u, v])[order]

@@ -1,4 +1,4 @@
-"""Seams that lower the distortion."""
+"""Propose seams that lower the distortion."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 class Cuts(list):
-    """Cuts, each (n, 2) int32 vertex pairs: a list, and what there is to say of it."""
+    """A list of cuts, each (n, 2) int32 vertex pairs, with a message."""
 
     message: str = ""
-    """For people: parts that there is too little memory for, which got no seams; empty where there are none."""
+    """For people: the parts without seams because memory ran out; empty if there are none."""
 
 
 def suggest_seams(
@@ -34,46 +34,46 @@ def suggest_seams(
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> npt.NDArray[np.int32]:
-    """Propose seams that lower the distortion of `unwrap` most, beside those that the mesh has.
+    """Propose seams that lower the distortion of `unwrap` most, in addition to those of the mesh.
 
-    Topology comes first: handles are cut open and closed surfaces slit, whatever that takes, because they could not be
-    unwrapped otherwise. Then the most distorted regions are joined to the seams one after the other, and each cut is
-    solved before it is proposed, so that unwrapping with it shows lower distortion. A component gets no more of these
-    once `scale_limit`, `qc_limit` and `energy_limit` are met or nothing helps. Charts that cover themselves in the map,
-    or have flipped faces, are then parted until none does, unless `max_length` forbids that, and seams that the maps
-    can do without are taken back. Where a plane x, y or z = constant mirrors a component's faces onto the mesh's, its
-    seams come in mirrored pairs or lie on the plane if the edges allow that.
+    Topology comes first: handles are cut open and closed surfaces slit, at any length, because they could not be
+    unwrapped otherwise. Then the most distorted regions are joined to the seams one after the other. Each cut is solved
+    before it is proposed, so unwrapping with it shows lower distortion. A component gets no more of these once it meets
+    `scale_limit`, `qc_limit` and `energy_limit`, or nothing helps. Then charts that cover themselves in the map or have
+    flipped faces are divided until none does, unless `max_length` forbids that, and seams that the maps do not need are
+    removed. If a plane x, y or z = constant mirrors a component's faces onto the mesh's, its seams come in mirrored
+    pairs or lie on the plane, if the edges allow that.
 
-    Hard surfaces, without a `max_length`, are unfolded instead: parts that are flat, or rolled like a pipe, are cut
-    from each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and
-    nothing is stretched. Of the two the seams are proposed that cost less: distortion by `energy_limit`, length by how
-    sharp the edges are, and islands (docs/paper.md has the formula).
+    Without a `max_length`, hard surfaces are also unfolded: parts that are flat, or rolled like a pipe, are cut from
+    each other along sharp edges and hinged together where that fits, so that no seam crosses a flat face and nothing
+    is stretched. The cheaper of the two sets of seams is proposed. The cost counts distortion by `energy_limit`, length
+    by how sharp the edges are, and islands (docs/paper.md has the formula).
 
-    How vertices and faces are numbered makes no difference.
+    The result does not depend on the numbering of vertices and faces.
 
     Args:
         vertices: (V, 3) positions, any unit.
         faces: as in `unwrap`.
         corner_vertices: as in `unwrap`.
-        options: when to stop, and how maps are made; its fields may be given one by one as keywords, which go first.
+        options: when to stop, and how maps are made; single fields may be given as keywords, which take precedence.
         seam_edges: (S, 2) seams that stay; the proposed ones complete them.
-        selected_faces: (faces,) bool, all faces when left out; only edges between two of them are proposed.
-        vertex_preference: (V,) from -1 to 1: above 0 prefers seams at these vertices, below 0 avoids them, 0 leaves the
-            choice to the distortion. Where the mean of an edge's ends is p, it counts as 8^-p times as long.
+        selected_faces: (faces,) bool; by default all faces. Only edges between two selected faces are proposed.
+        vertex_preference: (V,) from -1 to 1: above 0 attracts seams to the vertex, below 0 repels them, 0 leaves the
+            choice to the distortion. An edge whose ends have the mean p counts as 8^-p times as long.
         progress: as in `parameterize`.
 
     Returns:
-        (S, 2) int32 vertex pairs, the smaller vertex first, cut after cut in the order in which they were found, first
-        what topology needs, then what lowers the distortion most.
+        (S, 2) int32 vertex pairs, the smaller vertex first, cut by cut in the order of their discovery: first the cuts
+        that topology needs, then those that lower the distortion most.
 
     Raises:
         ValueError: the arrays do not describe a mesh, or an option is out of range.
-        TypeError: an argument is of the wrong type, or a keyword is no option; the message names the closest one.
+        TypeError: an argument has the wrong type, or a keyword is not an option; the message names the closest one.
         Cancelled: `progress` returned False.
         MemoryError: there is too little memory for the mesh, or for any part of it.
 
     Warns:
-        RuntimeWarning: there is too little memory for a part of the mesh, which got no seams, while others did.
+        RuntimeWarning: memory ran out for some parts of the mesh, which got no seams.
     """
     cuts = suggest_cuts(
         vertices,
@@ -102,10 +102,10 @@ def suggest_cuts(
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> Cuts:
-    """Return the seams of `suggest_seams` cut by cut, each (n, 2): the first few are those that help most.
+    """Return the seams of `suggest_seams` cut by cut, each (n, 2); the first ones help most.
 
-    A cut and its mirror image are one. Arguments and errors are those of `suggest_seams`; what that warns of is the
-    list's `message`.
+    A cut and its mirror image count as one. Arguments and errors are those of `suggest_seams`; its warning is the
+    list's `message` here.
     """
     used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
     polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)

@@ -1,4 +1,4 @@
-"""How many threads the module's calls share."""
+"""Limit the number of threads."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from . import _arguments, _native
 
 
 def limit_threads(threads: int) -> int:
-    """Let calls made by this thread share at most so many threads from now on; no result depends on it.
+    """Limit the threads of later calls from this thread; no result depends on the limit.
 
-    Other threads keep their limits. A thread that the program starts later begins without one.
+    Other threads keep their limits. A thread started later begins without one.
 
     Args:
-        threads: 1 or more, the calling thread among them; 0 for as many as the machine has cores, as at first. More
-            than there are cores are not used. With 1, or where other calls have all threads, what takes long in
-            CHOLMOD is not heard by a progress function: that takes a thread of its own, while the calling one waits.
+        threads: 1 or more, including the calling thread; 0 for one per core, the initial setting. A call never uses
+            more threads than there are cores. With 1, or while other calls use all threads, a progress function gets no
+            calls during long CHOLMOD phases: reporting them takes a second thread.
 
     Returns:
-        The limit before, to be put back.
+        The previous limit, for restoring it.
 
     Raises:
-        ValueError: `threads` is no whole number from 0 to 2147483647.
+        ValueError: `threads` is not a whole number from 0 to 2147483647.
     """
     return _native.limit_threads(_arguments.checked_count(threads, "threads"))

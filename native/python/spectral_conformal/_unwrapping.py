@@ -1,4 +1,4 @@
-"""A polygon mesh to the plane, chart by chart."""
+"""Map a polygon mesh to the plane, chart by chart."""
 
 from __future__ import annotations
 
@@ -37,43 +37,43 @@ def unwrap(
     kept_maps: KeptMaps | None = None,
     **changes: Unpack[OptionChanges],
 ) -> Unwrap:
-    """Cut a polygon mesh into charts and map each to the plane. A chart that cannot be solved does not stop the others.
+    """Cut a polygon mesh into charts and map each to the plane. A chart that fails does not stop the others.
 
-    Charts are cut at seams, at the border of the selection, at edges with three or more faces and at bow-tie vertices.
-    Each is solved as by `parameterize`, by the same rules.
+    Cuts run along seams, the border of the selection and edges with three or more faces, and through bow-tie vertices.
+    Each chart is solved as by `parameterize`.
 
     Args:
         vertices: (V, 3) positions, any unit.
-        faces: (F, n) vertices of each face, a list of polygons as lists of vertices, or, with `corner_vertices`,
-            (F + 1,) offsets: the corners of face f are faces[f] to faces[f + 1], as in Blender. F counts faces and C
-            their corners, face after face.
-        corner_vertices: (C,) vertex of each corner, for `faces` that are offsets.
-        options: how the maps are made; its fields may be given one by one as keywords, which go first.
-        seam_edges: (S, 2) vertex pairs in any order; pairs that are no edge are without effect. "suggested" takes those
-            that `suggest_seams` proposes with its defaults.
-        selected_faces: (faces,) bool, all faces when left out.
-        pins: mesh vertex -> (u, v), held by all copies of the vertex, as in `parameterize`; pins outside the selection
-            have no effect.
-        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin. A mesh vertex with different pins is split there:
-            each of its corners goes to the nearest. The pin of a chart's vertex is the mean over its pinned corners,
-            and goes before `pins`.
-        corner_uv: (C, 2) the map so far, finite where pinned; needed with `pinned_corners`.
-        extenders: as in `parameterize`, of mesh vertices. An extender acts in every chart that has copies of both
-            vertices; where a seam gives a vertex several copies in one chart, it acts on their barycenter. One whose
-            vertices lie in no common chart has no effect, like all in a chart held by hard pins, where the hole
-            rigidity has none either: `Unwrap.unused_extenders` says which.
-        metric: (faces, 3, 3) symmetric tensor of space for each face: a tangent vector t gets the squared length t G t
-            and the map is conformal for these lengths; positive definite on the face's plane. For a mesh of triangles
-            also (faces, 2, 2) as in `parameterize`.
+        faces: (F, n) vertices of each face; a list of polygons, each a list of vertices; or, with `corner_vertices`,
+            (F + 1,) offsets as in Blender: face f has the corners from faces[f] up to faces[f + 1]. F is the number of
+            faces, C the number of their corners, face after face.
+        corner_vertices: (C,) vertex of each corner, if `faces` are offsets.
+        options: how the maps are made; single fields may be given as keywords, which take precedence.
+        seam_edges: (S, 2) vertex pairs in any order; pairs that are not edges have no effect. "suggested" uses the
+            seams that `suggest_seams` proposes with its defaults.
+        selected_faces: (faces,) bool; by default all faces.
+        pins: mesh vertex -> (u, v), for all copies of the vertex, as in `parameterize`; pins outside the selection have
+            no effect.
+        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin. A mesh vertex with different pins is split, and
+            each of its corners takes the nearest. The pin of a chart's vertex is the mean over its pinned corners, and
+            overrides `pins`.
+        corner_uv: (C, 2) the current map, finite where pinned; needed with `pinned_corners`.
+        extenders: as in `parameterize`, between mesh vertices. An extender acts in every chart that has copies of both
+            vertices; if a seam gives a vertex several copies in one chart, it acts on their barycenter. An extender has
+            no effect if no chart has both vertices, or if hard pins hold the chart, where the hole rigidity has no
+            effect either. `Unwrap.unused_extenders` says which.
+        metric: (faces, 3, 3) symmetric tensor in 3D for each face, positive definite in the face's plane: a tangent
+            vector t gets the squared length t G t, and the map is conformal for these lengths. For triangle meshes also
+            (faces, 2, 2), as in `parameterize`.
         progress: as in `parameterize`.
-        kept_maps: maps to take where charts are the same as in earlier calls, and to keep those of this call in.
+        kept_maps: supplies the maps of charts that earlier calls solved, and keeps those of this call.
 
     Raises:
-        ValueError: the arrays do not describe a mesh, or an option is out of its range.
-        TypeError: an argument is of the wrong type, or a keyword is no option; the message names the closest one.
+        ValueError: the arrays do not describe a mesh, or an option is out of range.
+        TypeError: an argument has the wrong type, or a keyword is not an option; the message names the closest one.
         Cancelled: `progress` returned False.
-        MemoryError: there is too little memory for the mesh, or for any of its charts; a chart that is too large while
-            others are not fails alone.
+        MemoryError: there is too little memory for the mesh, or for any of its charts. If it suffices for some charts,
+            only the others fail.
     """
     used = with_fallbacks(changed(options, Options(), changes, OptionChanges, unwrap), True)
     if isinstance(seam_edges, str):
@@ -112,7 +112,7 @@ def unwrap(
 
 
 def _part(progress: Progress | None, begin: float, end: float) -> Progress | None:
-    """Return a progress function of a part of the work, from `begin` to `end`."""
+    """Return a progress function for the part of the work from `begin` to `end`."""
     if progress is None:
         return None
     _arguments.checked_progress(progress)
@@ -120,10 +120,10 @@ def _part(progress: Progress | None, begin: float, end: float) -> Progress | Non
 
 
 class Unwrapper:
-    """`unwrap` for several solves of one mesh that differ in extenders, hole rigidity and tolerance only.
+    """`unwrap` for several solves of one mesh that differ only in extenders, hole rigidity and tolerance.
 
-    Keeps the charts and their factors; what was solved before counts as little as in a `Solver`, and threads may use it
-    as they may that.
+    It keeps the charts and their factors. Earlier solves affect the result no more than in a `Solver`, and the same
+    rules for threads apply.
     """
 
     def __init__(
@@ -143,7 +143,7 @@ class Unwrapper:
     ) -> None:
         """Cut the mesh into charts.
 
-        Arguments and errors are those of `unwrap`. Options that a solve may vary are what it starts from.
+        Arguments and errors are those of `unwrap`. `solve` may override some options.
         """
         self._options = with_fallbacks(changed(options, Options(), changes, OptionChanges, Unwrapper.__init__), True)
         arguments, self._mesh = _checked_mesh(
@@ -191,7 +191,7 @@ def _checked_mesh(
     corner_uv: npt.ArrayLike | None,
     metric: npt.ArrayLike | None,
 ) -> tuple[Any, tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Check what `unwrap` and `Unwrapper` share; return it for the native module, and the mesh."""
+    """Check the arguments of `unwrap` and `Unwrapper`; return them for the native module, and the mesh."""
     polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
     vertices, offsets, corners = polygons[:3]
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))

@@ -1,7 +1,7 @@
-"""For programs that hold a mesh, show it and unwrap it again and again, such as the Blender add-on.
+"""For programs that display a mesh and unwrap it repeatedly, such as the Blender add-on.
 
-Charts before anything is solved, maps kept from one `unwrap` to the next, the triangles by which Blender draws faces,
-and boxes packed into a square.
+Charts before any solve, a cache of maps between calls of `unwrap`, the triangles that Blender draws for faces, and a
+packer of boxes.
 """
 
 from ._charts import chart_of_face

@@ -1,6 +1,6 @@
-"""Files of meshes: read once for their geometry, and UVs written into what is there.
+"""Mesh files: read their geometry, and write UVs into the existing content.
 
-Own code, since no library that we know keeps what it does not read, or says which line is broken.
+This is our own code because no library that we know preserves what it does not read, or names the broken line.
 """
 
 from __future__ import annotations
@@ -36,15 +36,14 @@ READABLE = tuple(_READERS)
 
 
 def read(path: Path, uv_map: str = "") -> Asset:
-    """Read a mesh; the suffix says which format it is in.
+    """Read a mesh; the suffix determines the format.
 
     Args:
         path: the file.
-        uv_map: which of its UV maps is read, and written; of a format that has one alone, that. See `GltfAsset` and
-            `UsdAsset`.
+        uv_map: the UV map to read and write; ignored by formats with a single map. See `GltfAsset` and `UsdAsset`.
 
     Raises:
-        AssetError: the suffix is none of READABLE, or the content is broken.
+        AssetError: the suffix is not in READABLE, or the content is broken.
         OSError: the file cannot be opened.
     """
     reader = _READERS.get(path.suffix.lower())
@@ -54,31 +53,31 @@ def read(path: Path, uv_map: str = "") -> Asset:
 
 
 def written_as(path: Path) -> str:
-    """Return the suffix, with the dot, that a file gets when UVs are written: its own, if its format holds them."""
+    """Return the suffix, with the dot, for writing a file with UVs: its own if the format holds UVs."""
     suffix = path.suffix.lower()
     return PlainAsset.suffix if suffix in _WITHOUT_UV else suffix
 
 
 def write(path: Path, asset: Asset, maps: Sequence[UvMap]) -> list[str]:
-    """Write an asset with other UV maps, every file of it whole or not at all; return what is to be said of it.
+    """Write an asset with new UV maps, each of its files completely or not at all; return the warnings.
 
-    In its own format all that it had is as it was; an OBJ file of another format has the meshes alone. Textures and
-    materials that it names by paths from its folder are copied where it is written into another one.
+    In its own format all other content stays unchanged; an OBJ file made from another format contains only the meshes.
+    If the asset goes to another folder, the textures and materials that it references by relative paths are copied.
 
     Args:
-        path: where to, with the asset's suffix or .obj.
-        asset: as it was read.
-        maps: of each of its meshes.
+        path: the destination, with the asset's suffix or .obj.
+        asset: as read.
+        maps: one for each of its meshes.
 
     Raises:
-        OSError: it cannot be written, or is not read back as it was written; what lay there is as it was.
+        OSError: it cannot be written, or does not read back as written; existing files stay unchanged.
     """
     if path.suffix.lower() != asset.suffix:
         asset = PlainAsset(asset.meshes)
     written = {}
     try:
         for named, content in asset.files(path, maps).items():
-            # What a link names is written, and the link stays.
+            # Write the target of a link and keep the link.
             target = Path(os.path.realpath(named))
             temporary = temporary_beside(target)
             written[temporary] = target

@@ -1,4 +1,4 @@
-"""What the ways to write UVs into bytes have in common."""
+"""Helpers for writing UVs into existing bytes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Integers = npt.NDArray[np.int64]
 
 
 def edited(data: bytes, starts: Integers, ends: Integers, texts: Sequence[bytes]) -> bytes:
-    """Return data with others in place of some of its parts; parts are apart, those in one place in the order given."""
+    """Return data with some parts replaced; parts are disjoint, and those at one position keep the given order."""
     order = np.argsort(starts, kind="stable")
     kept = zip(np.append(0, ends[order]).tolist(), np.append(starts[order], len(data)).tolist())
     pieces = [data[start:end] for start, end in kept]
@@ -21,7 +21,7 @@ def edited(data: bytes, starts: Integers, ends: Integers, texts: Sequence[bytes]
 
 
 def in_order_of_use(keys: npt.NDArray) -> tuple[Integers, Integers]:
-    """Return where each different row of keys stands first, ascending, and of each row which of these it is."""
+    """Return the first index of each distinct row, ascending, and for each row its number among these."""
     _, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.empty(len(order), dtype=np.int64)
@@ -30,20 +30,20 @@ def in_order_of_use(keys: npt.NDArray) -> tuple[Integers, Integers]:
 
 
 def numbered(vertices: Integers, uv: npt.NDArray[np.float64]) -> tuple[Integers, npt.NDArray[np.float64], Integers]:
-    """Return the different pairs of vertex and UV in the order in which they are used first, and each corner's.
+    """Return the distinct pairs of vertex and UV in the order of their first use, and the pair of each corner.
 
     Returns:
-        vertices (n,), UVs (n, 2), and of each corner (C,) which.
+        vertices (n,), UVs (n, 2), and the index of each corner's pair (C,).
     """
     first, number = in_order_of_use(np.c_[vertices, uv])
     return vertices[first], uv[first], number
 
 
 def places_of_copies(vertices: Integers, n_vertices: int) -> tuple[npt.NDArray[np.bool_], Integers]:
-    """Give vertices that are there several times copies behind all others; the first of each keeps its place.
+    """Append copies of vertices that occur several times; the first occurrence keeps its index.
 
     Returns:
-        which of `vertices` (n,) are copies, and where each stands.
+        which of `vertices` (n,) are copies, and the index of each.
     """
     is_copy = np.ones(len(vertices), dtype=bool)
     is_copy[np.unique(vertices, return_index=True)[1]] = False

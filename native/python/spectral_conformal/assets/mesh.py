@@ -1,4 +1,4 @@
-"""A polygon mesh as it stands in a file."""
+"""A polygon mesh as stored in a file."""
 
 from __future__ import annotations
 
@@ -26,30 +26,30 @@ class AssetMesh:
     corner_vertices: npt.NDArray[np.int64]
     """(C,)"""
     corner_uv: npt.NDArray[np.float64] | None = None
-    """(C, 2), not a number where a corner has none; None where the file has no UV map."""
+    """(C, 2), NaN for corners without a UV; None if the file has no UV map."""
     name: str = ""
-    """Of the mesh within its file; empty where that has one alone."""
+    """Of the mesh within its file; empty if the file has a single mesh."""
     placement: npt.NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
     """(4, 4) of its first instance: from `vertices`, as columns with a 1 below, to the scene."""
     seam_edges: npt.NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
     """(S, 2) vertices of the edges that the file marks as seams."""
     pinned_corners: npt.NDArray[np.bool_] | None = None
-    """(C,) those whose UV the file says to keep; None for none."""
+    """(C,) corners whose UV the file pins; None for none."""
 
     parts: tuple[str, ...] = ()
-    """Names of the objects that a file without meshes of their own tells apart; empty where it names none."""
+    """Names of the objects in a file that stores all of them as one mesh; empty if it names none."""
     part_of_face: npt.NDArray[np.int64] | None = None
-    """(faces,) index into `parts`, -1 for faces in none; None without these."""
+    """(faces,) index into `parts`, -1 for faces in none; None without parts."""
 
     def names_of(self, faces: npt.NDArray[np.integer]) -> list[str]:
-        """Return the objects that faces are of, by the names that the file has for them; empty where it has none."""
+        """Return the names of the objects that faces belong to; empty if the file has none."""
         if self.part_of_face is None:
             return [self.name] if self.name else []
         return [self.parts[part] for part in np.unique(self.part_of_face[faces]).tolist() if part >= 0]
 
     @property
     def scale(self) -> float:
-        """Lengths in the scene to those of `vertices`, the geometric mean over the axes; 1 where that is no length."""
+        """Ratio of lengths in the scene to those of `vertices`, the geometric mean over the axes; 1 if degenerate."""
         scale = float(abs(np.linalg.det(self.placement[:3, :3]))) ** (1 / 3)
         return scale if np.isfinite(scale) and scale > 0.0 else 1.0
 
@@ -78,38 +78,38 @@ class UvMap:
     uv: npt.NDArray[np.float64]
     """(C, 2)"""
     mapped: npt.NDArray[np.bool_]
-    """(faces,) those that have a map."""
+    """(faces,) faces with a map."""
 
 
 class Asset(Protocol):
-    """A file as it was read."""
+    """A file as read."""
 
     path: Path | None
-    """Of the file; None where nothing of it but the meshes is kept."""
+    """Of the file; None if only its meshes are kept."""
     suffix: str
-    """Of the files that are made of it, with the dot: its own, if its format holds UVs."""
+    """Of the files written from it, with the dot: its own if the format holds UVs."""
     uv_map: str
-    """Name of the map that is read and written, as `assets.read` takes it; empty where the format has one alone."""
+    """Name of the map to read and write, as `assets.read` takes it; empty if the format has a single map."""
     meshes: Sequence[AssetMesh]
     warnings: Sequence[str]
-    """What else had to be changed, and what could not be kept; of the last files."""
+    """Other changes and losses in the files written last."""
 
     def references(self) -> Iterable[str]:
-        """Return the files that it names by paths from its folder, and that `files` does not return."""
+        """Return the files that it references by relative paths, without those that `files` returns."""
         ...
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return, by path, the content of the files that this asset is with other UV maps.
+        """Return the contents of this asset's files with new UV maps, by path.
 
         Args:
-            out: where the file that names the others, the last one, is to lie.
-            maps: of each mesh.
+            out: path of the main file, which references the others and comes last.
+            maps: one for each mesh.
         """
         ...
 
 
 class OneMeshAsset:
-    """A file of one mesh, and nothing beside it."""
+    """A single file with one mesh."""
 
     path: Path
     mesh: AssetMesh
@@ -122,21 +122,21 @@ class OneMeshAsset:
         return (self.mesh,)
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return the file with another UV map, by its path."""
+        """Return the file with a new UV map, by its path."""
         (uv_map,) = maps
         return {out: self.with_uv(uv_map.uv, uv_map.mapped)}
 
     def references(self) -> Iterable[str]:
-        """Return the files that it names by paths from its folder."""
+        """Return the files that it references by relative paths."""
         raise NotImplementedError
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the content of the file with another UV map; arguments as in `UvMap`."""
+        """Return the content of the file with a new UV map; arguments as in `UvMap`."""
         raise NotImplementedError
 
 
 def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
-    """Return a mesh that there is something to unwrap of.
+    """Return the mesh if it can be unwrapped.
 
     Raises:
         AssetError: it has no faces, or a position that is not finite.
@@ -150,7 +150,7 @@ def checked(path: Path, mesh: AssetMesh) -> AssetMesh:
 
 
 def offsets_of(sizes: npt.ArrayLike) -> npt.NDArray[np.int64]:
-    """Return where each face begins among the corners, and the number of corners, from how many each has."""
+    """Return the first corner of each face, and the number of corners, from the faces' numbers of corners."""
     return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))]).astype(np.int64)
 
 
@@ -158,7 +158,7 @@ def numbers(where: str, words: list[str], count: int) -> list[float]:
     """Return the first `count` words as numbers.
 
     Raises:
-        AssetError: there are fewer, or one is no number.
+        AssetError: there are fewer, or one is not a number.
     """
     try:
         found = [float(word) for word in words[:count]]

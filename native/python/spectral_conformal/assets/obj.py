@@ -1,4 +1,4 @@
-"""OBJ files as the lines that they are: geometry is read, UVs are written, every other byte stays.
+"""OBJ files as lines: read the geometry, write UVs, and keep every other byte.
 
 The format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer's manual.
 """
@@ -28,12 +28,12 @@ _BLANK[list(b" \t\r\n\v\f")] = True
 _SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
 _OTHER, _POSITION, _UV, _FACE, _REFERRER, _OBJECT = range(6)
 _KINDS = {b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER, b"o": _OBJECT}
-# The numbers of a corner, 0 its vertex and 1 its UV, by its slashes: 1, 1/2, 1//3, 1/2/3.
+# Separated by slashes, a corner's number 0 is its vertex, number 1 its UV: 1, 1/2, 1//3, 1/2/3.
 _FORMS = {(0, False): (0,), (1, False): (0, 1), (2, True): (0, 2), (2, False): (0, 1, 2)}
 
 
 class ObjAsset(OneMeshAsset):
-    """An OBJ file; the bytes of its statements, and what they say of polygons."""
+    """An OBJ file: the bytes of its statements, and its polygons."""
 
     suffix = ".obj"
 
@@ -65,7 +65,7 @@ class ObjAsset(OneMeshAsset):
         self.mesh = checked(path, AssetMesh(positions, offsets_of(sizes), corners, found, **self._objects()))
 
     def _objects(self) -> dict[str, Any]:
-        """Return the objects of the mesh, as `AssetMesh` has parts; nothing of a file with one or none."""
+        """Return the objects of the mesh as the parts of an `AssetMesh`; none for a file with fewer than two."""
         lines = self._lines_of(_OBJECT)
         if len(lines) < 2:
             return {}
@@ -75,10 +75,10 @@ class ObjAsset(OneMeshAsset):
         return {"parts": parts, "part_of_face": np.searchsorted(lines, self._faces, side="right") - 1}
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the file with another UV map.
+        """Return the file with a new UV map.
 
         Args:
-            uv: (C, 2), written to the last digit.
+            uv: (C, 2), written with all digits.
             mapped: (faces,) faces without a map get no UVs.
         """
         corner_mapped = np.repeat(mapped, np.diff(self.mesh.face_offsets))
@@ -88,7 +88,7 @@ class ObjAsset(OneMeshAsset):
         referring, referred = self._uses_of_uv()
         before = 0
         if len(referring):
-            # What refers to UVs and is no face keeps them.
+            # Other statements that refer to UVs keep theirs.
             before = int(np.searchsorted(lines_of_uv, first_face))
             referred = np.where(referred < before, referred, referred + len(different))
             lines_of_uv = lines_of_uv[:0]
@@ -108,7 +108,7 @@ class ObjAsset(OneMeshAsset):
         return edited(self._data, starts, ends, texts)
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return the file with another UV map; materials above its folder are named from where it will lie."""
+        """Return the file with a new UV map; paths to materials above its folder are adapted to the new folder."""
         self._beside = []
         named = functools.partial(self._named, out=out)
         return {path: _LIBRARY.sub(named, content) for path, content in super().files(out, maps).items()}
@@ -122,14 +122,14 @@ class ObjAsset(OneMeshAsset):
         return found[0]
 
     def references(self) -> Iterator[str]:
-        """Yield the files of materials, and the textures that these name."""
+        """Yield the material files, and the textures that these name."""
         for name in self._beside:
             yield name
             folder = PurePosixPath(name).parent
             yield from (str(folder / texture) for texture in references.textures_of(self.path.parent / name))
 
     def _uv_parts(self, words: Integers) -> tuple[Integers, Integers, npt.NDArray[np.bool_]]:
-        """Return where UVs in corners such as 1/2/3 begin, slash included, where they end, and if they are last."""
+        """Return where UVs in corners such as 1/2/3 begin (with the slash) and end, and whether they come last."""
         starts, ends = self._word_starts[words], self._word_ends[words]
         slashes = np.flatnonzero(np.frombuffer(self._data, np.uint8) == ord("/"))
         slashes = np.append(slashes, [len(self._data), len(self._data)])
@@ -139,7 +139,7 @@ class ObjAsset(OneMeshAsset):
         return first, np.where(is_last, ends, second), is_last
 
     def _uses_of_uv(self) -> tuple[Integers, Integers]:
-        """Return the words outside of faces that name a UV, and which each names."""
+        """Return the words outside of faces that refer to a UV, and the UV of each."""
         words, named = [], []
         for line in self._lines_of(_REFERRER).tolist():
             before = int(np.searchsorted(self._lines_of(_UV), line))
@@ -153,13 +153,13 @@ class ObjAsset(OneMeshAsset):
     # Statements and their words
 
     def _find_statements(self) -> None:
-        """Find where each statement begins and ends, and of which kind it is."""
+        """Find the begin, end and kind of each statement."""
         text = bytearray(self._data)
         if text.startswith(_BYTE_ORDER_MARK):
             text[: len(_BYTE_ORDER_MARK)] = b" " * len(_BYTE_ORDER_MARK)
         if self._newline == b"\r":
             text = text.replace(b"\r", b"\n")
-        # Blanks in place of what joins two lines: every byte stays where it is.
+        # Spaces replace the bytes that join two lines, so all offsets stay valid.
         for found in _CONTINUATION.finditer(self._data):
             if b"#" not in text[text.rfind(b"\n", 0, found.start()) + 1 : found.start()]:
                 text[found.start() : found.end()] = b" " * len(found[0])
@@ -179,7 +179,7 @@ class ObjAsset(OneMeshAsset):
             for k, byte in enumerate(word):
                 is_word &= padded[first + k] == byte
             self._kinds[is_word] = kind
-        # After numbers there may be a comment; names may hold a "#".
+        # A comment may follow numbers; names may contain a "#".
         for place in np.flatnonzero(array == ord("#")).tolist():
             line = int(np.searchsorted(self._ends, place))
             if self._kinds[line] != _OTHER:
@@ -187,7 +187,7 @@ class ObjAsset(OneMeshAsset):
         self._text = bytes(text)
 
     def _find_words(self) -> None:
-        """Find where each word begins and ends, and which is the first of each statement."""
+        """Find the begin and end of each word, and the first word of each statement."""
         blank = _BLANK[np.frombuffer(self._text, np.uint8)]
         after_blank = np.append(True, blank[:-1])
         self._word_starts = np.flatnonzero(~blank & after_blank)
@@ -198,7 +198,7 @@ class ObjAsset(OneMeshAsset):
         return np.flatnonzero(self._kinds == kind)
 
     def _joined(self, lines: Integers) -> bytes:
-        """Return the text of these statements alone."""
+        """Return the text of these statements only."""
         breaks = np.flatnonzero(np.diff(lines) != 1)
         firsts, lasts = lines[np.append(0, breaks + 1)], lines[np.append(breaks, -1)]
         pieces = zip(self._starts[firsts].tolist(), (self._ends[lasts] + 1).tolist())
@@ -211,7 +211,7 @@ class ObjAsset(OneMeshAsset):
     # Numbers
 
     def _table(self, kind: int, least: int) -> npt.NDArray[np.float64]:
-        """Return the numbers of all statements of a kind, of each as many as the shortest has."""
+        """Return the numbers of all statements of a kind; each is cut to the length of the shortest."""
         lines = self._lines_of(kind)
         if not len(lines):
             return np.zeros((0, least))
@@ -232,7 +232,7 @@ class ObjAsset(OneMeshAsset):
             raise self._broken(line, str(error).replace(": b'", ": '")) from None
 
     def _corners(self, lines: Integers, n_vertices: int) -> tuple[Integers, Integers]:
-        """Return the vertex and the UV of every corner, -1 for none; `lines` has the statement of each."""
+        """Return the vertex and the UV of every corner, -1 for none; `lines` gives the statement of each corner."""
         text = np.frombuffer(self._text, np.uint8)
         starts, ends = self._word_starts[self._corner_words], self._word_ends[self._corner_words]
         slashes = np.flatnonzero(text == ord("/"))
@@ -260,13 +260,13 @@ class ObjAsset(OneMeshAsset):
         return vertices, uv
 
     def _resolved(self, given: Integers, lines: Integers, kind: int, total: int) -> Integers:
-        """Return indices from 0 of those that count from 1, or back from the last one before; -1 for what is none."""
+        """Convert indices that count from 1, or back from the preceding entry, to indices from 0; -1 if invalid."""
         before = np.searchsorted(self._lines_of(kind), lines) if (given < 0).any() else 0
         result = np.where(given > 0, given - 1, before + given)
         return np.where((given == 0) | (result < 0) | (result >= total), -1, result)
 
     def _corner(self, line: int, word: bytes, n_vertices: int) -> tuple[int, int]:
-        """Return what one corner names, and raise for what does not exist."""
+        """Return the index in one corner, and raise if it does not exist."""
         vertex, *others = word.split(b"/")
         before = [int(np.searchsorted(self._lines_of(kind), line)) for kind in (_POSITION, _UV)]
         of_uv = self._index(line, others[0], before[1], len(self._uv), "UV") if others and others[0] else -1
@@ -285,7 +285,7 @@ class ObjAsset(OneMeshAsset):
 
 
 class PlainAsset:
-    """Meshes of a format that holds no UVs, or of which another is asked for: written as OBJ."""
+    """Meshes written as OBJ, because their format holds no UVs or the user asks for OBJ."""
 
     path = None
     suffix = ".obj"
@@ -293,7 +293,7 @@ class PlainAsset:
     warnings: Sequence[str] = ()
 
     def __init__(self, meshes: Sequence[AssetMesh]) -> None:
-        """Take the meshes, which become objects where they have names."""
+        """Take the meshes; those with names become objects."""
         self.meshes = meshes
 
     def references(self) -> Sequence[str]:
@@ -301,7 +301,7 @@ class PlainAsset:
         return ()
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return an OBJ file, by its path; positions in the scene and UVs to the last digit."""
+        """Return an OBJ file, by its path, with positions in the scene; all numbers have all digits."""
         n_vertices, n_uv, rows = 0, 0, []
         for mesh, uv_map in zip(self.meshes, maps):
             corner_mapped = np.repeat(uv_map.mapped, np.diff(mesh.face_offsets))
@@ -324,7 +324,7 @@ class PlainAsset:
 
 
 def _parsed(text: bytes, kind: type) -> npt.NDArray | None:
-    """Return the numbers in a text, None where something else is in it."""
+    """Return the numbers in a text, or None if it contains anything else."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
@@ -334,6 +334,6 @@ def _parsed(text: bytes, kind: type) -> npt.NDArray | None:
 
 
 def _ranges(starts: Integers, counts: Integers) -> Integers:
-    """Return start, start + 1, ... of each, one after the other."""
+    """Return the concatenated ranges start, start + 1, ... of each."""
     offsets = offsets_of(counts)
     return np.repeat(starts - offsets[:-1], counts) + np.arange(offsets[-1])

@@ -10,12 +10,12 @@ import numpy as np
 from .mesh import AssetError, AssetMesh, check_face, checked, numbers, offsets_of
 from .obj import PlainAsset
 
-# The counts may follow without a blank, as in all of ModelNet40.
+# The counts may follow without a space, as in all of ModelNet40.
 _FIRST_WORD = re.compile(r"((?:ST)?C?N?4?n?OFF)(.*)", re.IGNORECASE)
 
 
 def read_off(path: Path) -> PlainAsset:
-    """Read an OFF file; what else a row has, such as colours, is passed over.
+    """Read an OFF file; other values in a row, such as colors, are ignored.
 
     Raises:
         AssetError: the content is broken.
@@ -40,7 +40,7 @@ def read_off(path: Path) -> PlainAsset:
         raise AssetError(
             f"{path}: {n_vertices} vertices and {n_faces} faces are announced, {len(lines) - 1} lines follow."
         )
-    # Texture coordinates, colours and normals stand after the position.
+    # Texture coordinates, colors and normals follow the position.
     positions = [numbers(f"{path}:{number}", words, 3) for number, words in lines[1 : 1 + n_vertices]]
     sizes, corners = [], []
     for number, words in lines[1 + n_vertices : 1 + n_vertices + n_faces]:

@@ -1,4 +1,4 @@
-"""PLY files as the rows that they are: geometry is read, UVs are written, every other byte stays.
+"""PLY files as rows: read the geometry, write UVs, and keep every other byte.
 
 The format: Greg Turk, "The PLY Polygon File Format", 1994.
 """
@@ -38,10 +38,10 @@ _NAMES = {
     "f8": "double",
 }
 _ORDERS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
-# Of header lines; what another one means for the rows is not known.
+# Of header lines; the effect of any other on the rows is unknown.
 _WITHOUT_MEANING = ("ply", "comment", "obj_info", "end_header")
 _INDICES = ("vertex_indices", "vertex_index")
-# What programs call UVs: MeshLab's of the corners; those of vertices in Blender, MeshLab and others.
+# Names of UVs: per corner in MeshLab; per vertex in Blender, MeshLab and others.
 _FACE_UV = ("texcoord", "texcoords")
 _VERTEX_UV = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
 _WORD = re.compile(rb"\S+")
@@ -49,7 +49,7 @@ _WORD = re.compile(rb"\S+")
 
 @dataclass
 class _Property:
-    """What each row of an element has; where its values are in the file, a list with its length before them."""
+    """A property of each row of an element; a list stores its length before its values."""
 
     name: str
     type: str
@@ -71,12 +71,12 @@ class _Element:
     properties: dict[str, _Property]
 
     def first(self, names: Sequence[str]) -> _Property | None:
-        """Return the first of these properties that there is."""
+        """Return the first of these properties that exists."""
         return next((self.properties[name] for name in names if name in self.properties), None)
 
 
 class PlyAsset(OneMeshAsset):
-    """A PLY file, text or binary; its map are the UVs of its faces' corners or, without these, of its vertices."""
+    """A PLY file, text or binary; its map consists of the UVs of face corners or, without these, of vertices."""
 
     suffix = ".ply"
 
@@ -192,7 +192,7 @@ class PlyAsset(OneMeshAsset):
             return numbers(f"{self.path}:{line}", words, count)
 
     def _read_binary(self, element: _Element, at: int) -> int:
-        """Read the rows of an element in pieces of those whose lists are as long as the first's."""
+        """Read the rows of an element in runs whose lists are as long as those of the run's first row."""
         done = 0
         most = element.rows  # in the next piece: looking far ahead is for nothing where lengths change with every row
         while done < element.rows:
@@ -217,7 +217,7 @@ class PlyAsset(OneMeshAsset):
         return at
 
     def _layout(self, element: _Element, at: int, row: int) -> np.dtype:
-        """Return how a row that begins here lies in the file."""
+        """Return the layout of the row that begins here."""
         layout = []
         for each in element.properties.values():
             length = 1
@@ -241,7 +241,7 @@ class PlyAsset(OneMeshAsset):
         return piece
 
     def references(self) -> Iterator[str]:
-        """Yield the textures, which MeshLab names in comments."""
+        """Yield the textures that MeshLab names in comments."""
         for line in self._header:
             words = line.split(None, 2)
             if words[:2] == [b"comment", b"TextureFile"] and len(words) == 3:
@@ -250,14 +250,14 @@ class PlyAsset(OneMeshAsset):
     # Writing
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
-        """Return the file with another UV map.
+        """Return the file with a new UV map.
 
-        UVs of faces' corners, where the file has them, are replaced. Otherwise they become UVs of vertices, which most
-        programs read; a vertex with several has copies, with all that its row has, after all others.
+        If the file has UVs of face corners, they are replaced. Otherwise the UVs are stored per vertex, which most
+        programs can read: a vertex with several UVs gets copies of its whole row at the end.
 
         Args:
             uv: (C, 2).
-            mapped: (faces,) of a face without a map, the list is empty, or a corner has any UV of its vertex.
+            mapped: (faces,) a face without a map gets an empty list, or any UV of its vertices at its corners.
         """
         if self._face_uv:
             return self._with_face_uv(uv, mapped)
@@ -313,7 +313,7 @@ class PlyAsset(OneMeshAsset):
         return changes.applied(self._data)
 
     def _replace_lists(self, column: _Property, rows: Sequence[npt.NDArray], changes: _Changes) -> None:
-        """Write other lists, of wider types where the present ones are too narrow."""
+        """Replace lists, with wider types if the current ones are too narrow."""
         count_type = _wide_enough(column.count_type, max(map(len, rows), default=0))
         kind = column.type
         if kind[0] != "f":
@@ -327,7 +327,7 @@ class PlyAsset(OneMeshAsset):
             changes.replace(start, end, count + (self._blank() + self._rendered(row, kind) if len(row) else b""))
 
     def _rendered(self, values: Iterable[float], kind: str) -> bytes:
-        """Return numbers as they stand in this file."""
+        """Return numbers in the encoding of this file."""
         numbers_of_kind = np.array(values).astype((self._order or "") + kind)
         return numbers_of_kind.tobytes() if self._order else " ".join(map(str, numbers_of_kind)).encode()
 
@@ -336,7 +336,7 @@ class PlyAsset(OneMeshAsset):
 
 
 class _Changes:
-    """Other bytes for some parts of the rows, and other lines for some of the header."""
+    """Replacements for parts of the rows and for lines of the header."""
 
     def __init__(self, header: Sequence[bytes]) -> None:
         self._start = sum(map(len, header))
@@ -351,7 +351,7 @@ class _Changes:
         self._texts.append(text)
 
     def set_line(self, number: int, text: str) -> None:
-        """Put a line in the place of one of the header's; several, if it has breaks."""
+        """Replace a line of the header; the new text may have several lines."""
         line_end = _line_end(self.header[number])
         self.header[number] = text.encode().replace(b"\n", line_end) + line_end
 
@@ -371,5 +371,5 @@ def _table(element: _Element, names: Iterable[str]) -> npt.NDArray[np.float64]:
 
 
 def _wide_enough(kind: str, largest: int) -> str:
-    """Return a type that holds this number: the given one, if it does."""
+    """Return a type that holds this number: the given one if possible."""
     return kind if largest <= np.iinfo(kind).max else "i4"

@@ -1,4 +1,4 @@
-"""Files that an asset names by paths from its own folder: they go along where it is written into another one."""
+"""Files that an asset references by relative paths: they are copied when the asset goes to another folder."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from pathlib import Path, PurePosixPath
 
 from .temporary import temporary_beside
 
-# Of "MTL material format", Wavefront's appendix to the manual of OBJ, and what later programs have added.
+# From "MTL material format", Wavefront's appendix to the manual of OBJ, and from later programs.
 _TEXTURE = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
 
 
 def elsewhere(name: str, source: Path, target: Path) -> str:
-    """Return by what path an asset that is written elsewhere names a file that does not go along.
+    """Return the path by which an asset references a file after it is written to another folder.
 
-    Of one that does, since it lies in or below the asset's folder, or is not there, this is the path that it has.
+    A file in or below the asset's folder is copied along and keeps its path, and so does a missing file.
 
     Args:
-        name: path from the folder of the source.
+        name: path relative to the folder of the source.
         source: the asset.
-        target: where it is written.
+        target: the file to write.
     """
     origin, goal = source.resolve().parent, target.resolve().parent
     found = Path(os.path.normpath(origin / name))
@@ -32,12 +32,12 @@ def elsewhere(name: str, source: Path, target: Path) -> str:
 
 
 def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
-    """Copy files to where an asset that is written elsewhere names them; return what could not be, in sentences.
+    """Copy referenced files along with an asset; return warnings about those that cannot be copied.
 
     Args:
         source: the asset.
-        target: where it is written.
-        names: paths from the folder of the source, which may not be there.
+        target: the file to write.
+        names: paths relative to the folder of the source; the files may be missing.
     """
     origin, goal = source.resolve().parent, target.resolve().parent
     if origin == goal:
@@ -62,11 +62,11 @@ def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
 
 
 def textures_of(library: Path) -> list[str]:
-    """Return what a file of materials names, by paths from its folder; empty for one that cannot be read."""
+    """Return the relative paths in a material file; empty if it cannot be read."""
     try:
         lines = _TEXTURE.findall(library.read_bytes())
     except OSError:
         return []
     rests = [os.fsdecode(line.strip()).replace("\\", "/") for line in lines]
-    # A name may have blanks; options may stand before it.
+    # A name may contain spaces; options may precede it.
     return [rest if (library.parent / rest).is_file() else rest.split()[-1] for rest in rests]

@@ -33,18 +33,18 @@ _COMPARISONS = {
 
 
 class RequirementError(ValueError):
-    """A requirement cannot be read; the message says why and what it may hold."""
+    """A requirement cannot be parsed; the message says why and what is allowed."""
 
 
 @dataclass(frozen=True)
 class MapReport:
-    """The map of an asset, all of its meshes together."""
+    """Measures of the map of an asset, over all of its meshes."""
 
     faces: int
     degenerate: int
-    """Faces without area in 3D, which count for flips and overlaps only."""
+    """Faces without area in 3D; they count only for flips and overlaps."""
     unmapped: int
-    """Faces with a corner without UV."""
+    """Faces with a corner that has no UV."""
     collapsed: int
     """Mapped faces without area in the map."""
     islands: int
@@ -53,16 +53,16 @@ class MapReport:
     overlaps: int
     """Faces that overlap another face, of any mesh and island, or coincide with a duplicate."""
     qc_mean: float
-    """Quasi-conformal distortion of faces that are neither degenerate nor collapsed, 1 where angles are kept; weighted
-    by area. NaN if there are none, like the next four."""
+    """Area-weighted mean quasi-conformal distortion of the faces that are neither degenerate nor collapsed; 1 if angles
+    are preserved. NaN if there are no such faces, like the next four."""
     qc_p99: float
-    """What 99 % of the area does not exceed."""
+    """99th percentile over the area."""
     qc_max: float
     density_spread: float
     """Standard deviation over mean of the texel density, the root of area in the map over area in the scene, weighted
     by the latter."""
     fill: float
-    """Area of the map over the area of all tiles of the texture that it lies in."""
+    """Area of the map over the area of all texture tiles that it touches."""
     split_flips: int = 0
     """Quads with a flipped triangle if they are split at the first corner, as Blender and most exporters do; the other
     diagonal may be right."""
@@ -93,7 +93,7 @@ class IslandReport:
 
 
 class Measurement:
-    """The map of an asset, face by face; its meshes are joined, in the scene's scale, with welded vertices.
+    """Measures of the map of an asset, face by face; its meshes are joined, welded and in the scene's scale.
 
     Attributes:
         vertices: (V, 3)
@@ -108,11 +108,11 @@ class Measurement:
         island_of_face: (F,) as in `MapDefects`, like the next two.
         flipped: (F,) bool.
         overlapping: (F,) bool, between islands, too.
-        counted: (F,) bool, those that are neither degenerate nor collapsed.
+        counted: (F,) bool, faces that are neither degenerate nor collapsed.
     """
 
     def __init__(self, meshes: Sequence[AssetMesh]) -> None:
-        """Measure the meshes; faces without UVs are counted only."""
+        """Measure the meshes; faces without UVs are only counted."""
         self.names = [mesh.name for mesh in meshes]
         sizes = np.concatenate([np.diff(mesh.face_offsets) for mesh in meshes])
         self.face_offsets = np.append(0, np.cumsum(sizes))
@@ -185,7 +185,7 @@ class Measurement:
             )
 
     def qc_range(self) -> tuple[float, float]:
-        """Return the values at the two ends of the colors: 1, and what most of the area does not exceed."""
+        """Return the values at the two ends of the color range: 1, and a high percentile over the area."""
         (end,) = area_percentiles(self.qc[self.counted], self.area[self.counted], (_SHOWN,))
         return 1.0, float(np.fmax(end, 1.0 + _LEAST_SHOWN))
 
@@ -217,7 +217,7 @@ class Measurement:
         return np.sqrt(self.image_area[faces] / self.area[faces])
 
     def _border_lengths(self) -> np.ndarray:
-        """Return the length of the border of every island: edges that no other face of it shares in the map.
+        """Return the border length of every island: edges that no other face of the island shares in the map.
 
         An inner edge occurs twice in its island, with the same vertices and UVs at both ends.
         """
@@ -241,12 +241,12 @@ class Measurement:
 
 
 def map_report(meshes: Sequence[AssetMesh]) -> MapReport:
-    """Measure the map of an asset; faces without UVs are counted only."""
+    """Measure the map of an asset; faces without UVs are only counted."""
     return Measurement(meshes).report()
 
 
 def _welded(mesh: AssetMesh) -> np.ndarray:
-    """Return a representative of coincident vertices: files have one for every normal, which ends no island."""
+    """Return a representative of coincident vertices: files have one per normal, but normals do not end islands."""
     return welding.coincident_vertices(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, welding.DISTANCES[0])
 
 
@@ -254,10 +254,10 @@ class Requirement:
     """A condition such as "flips == 0 and qc_p99 < 1.5"."""
 
     def __init__(self, text: str) -> None:
-        """Read it.
+        """Parse a condition: comparisons of a field of `MapReport` with a number, joined by `and`.
 
         Raises:
-            RequirementError: it is no comparison of a number of `MapReport` with a number, or several joined by `and`.
+            RequirementError: the text is not such a condition.
         """
         self._terms = []
         try:
@@ -283,7 +283,7 @@ class Requirement:
         return RequirementError(f"'{text}' is no comparison such as 'qc_p99 < 1.5', nor several joined by 'and'.")
 
     def failures(self, report: MapReport) -> list[str]:
-        """Return the terms that are not met, with the actual number; NaN meets none."""
+        """Return the violated terms, with the actual number; NaN violates every term."""
         values = asdict(report)
         return [
             f"{text}, but {name} is {values[name]:.6g}"

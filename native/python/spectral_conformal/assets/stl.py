@@ -1,4 +1,4 @@
-"""Meshes of STL files, whose triangles share no vertices: those in one place are made one."""
+"""Meshes of STL files, whose triangles share no vertices: vertices at the same position are merged."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def read_stl(path: Path) -> PlainAsset:
         OSError: the file cannot be opened.
     """
     data = path.read_bytes()
-    # Binary files, too, may begin with "solid": their length tells.
+    # Binary files may begin with "solid", too; the length decides.
     announced = int.from_bytes(data[_HEADER : _HEADER + 4], "little")
     is_binary = len(data) >= _HEADER + 4 + announced * _TRIANGLE.itemsize and b"\0" in data[: _HEADER + 4]
     if data.lstrip()[:5].lower() == b"solid" and not is_binary:
@@ -34,7 +34,7 @@ def read_stl(path: Path) -> PlainAsset:
         raise AssetError(f"{path}: {announced} triangles are announced, and the file ends before.")
     else:
         corners = np.frombuffer(data, _TRIANGLE, announced, _HEADER + 4)["corners"].reshape(-1, 3).astype(np.float64)
-    # -0.0 is in the place of 0.0.
+    # -0.0 is the same position as 0.0.
     first, corner_vertices = in_order_of_use(corners + 0.0)
     offsets = np.arange(0, len(corners) + 1, 3, dtype=np.int64)
     return PlainAsset([checked(path, AssetMesh(corners[first] + 0.0, offsets, corner_vertices))])

@@ -1,4 +1,4 @@
-"""Names under which files are written before they take their places."""
+"""Names of temporary files that are renamed after they are written."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from pathlib import Path
 
 
 def temporary_beside(target: Path) -> Path:
-    """Return the path under which this process writes a file; as short for names of any length.
+    """Return the temporary path under which this process writes a file; its length does not depend on the name's.
 
-    It has the file's suffix, by which programs know the format.
+    It keeps the file's suffix, by which programs recognize the format.
     """
     return target.with_name(f"{_beginning(target)}{os.getpid()}.partial{target.suffix}")
 
 
 def left_beside(target: Path) -> Iterator[Path]:
-    """Yield what processes that were killed may have left of writing a file."""
+    """Yield the temporary files that killed processes may have left."""
     return target.parent.glob(f"{_beginning(target)}*.partial*")
 
 

@@ -1,4 +1,4 @@
-"""From the meshes of an asset to its UV map: cut into islands, unwrapped, laid out."""
+"""From the meshes of an asset to its UV map: cut them into islands, unwrap these and lay them out."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ SEAMS = ("keep", "suggest", "sharp")
 
 @dataclass(frozen=True)
 class Cutting:
-    """Where meshes are cut.
+    """Where to cut meshes.
 
     Attributes:
-        seams: "keep": at the edges that the file marks as seams, or, where it marks none, at the borders of the islands
-            that its map has. "suggest": at marked edges, and where that lowers the distortion most. "sharp": at marked
-            edges, and at those between two faces that lie at `sharp_angle` or more.
-        keep_islands: also cut where the map of the file is cut, whatever `seams` says.
+        seams: "keep": at the edges that the file marks as seams or, if it marks none, at the island borders of its map.
+            "suggest": at marked edges, and where that lowers the distortion most. "sharp": at marked edges, and at
+            edges whose two faces enclose `sharp_angle` or more.
+        keep_islands: also cut at the island borders of the file's map, whatever `seams` says.
         sharp_angle: in degrees, between the normals of two faces.
-        weld_distance: vertices on open borders nearer to each other than this part of the bounding box's diagonal count
-            as one, 0 for none. With "keep" those of a file without a map count one by one, since nothing else is there
-            that says where its islands end.
+        weld_distance: vertices on open borders closer than this fraction of the bounding box's diagonal count as one; 0
+            for none. With "keep", the vertices of a file without a map stay separate, because nothing else says where
+            its islands end.
         options: of the search for seams.
     """
 
@@ -46,15 +46,15 @@ class Cutting:
 
 @dataclass(frozen=True)
 class CutMesh:
-    """A mesh and where it is cut."""
+    """A mesh and its cuts."""
 
     mesh: AssetMesh
     vertex_of: Integers
-    """(V,) the vertex that stands for each."""
+    """(V,) the vertex that represents each vertex."""
     seam_edges: Integers
     """(S, 2) edges of the welded mesh."""
     message: str = ""
-    """For people: parts that no seams were found for; empty where there are none."""
+    """For people: the parts for which no seams were found; empty if there are none."""
 
     @property
     def polygons(self) -> tuple[npt.NDArray[np.float64], Integers, Integers]:
@@ -63,7 +63,7 @@ class CutMesh:
 
     @property
     def seam_length(self) -> float:
-        """Length of the seams in the mesh's unit, of the edges at one place once."""
+        """Length of the seams in the mesh's unit; coincident edges count once."""
         pairs = np.unique(np.sort(self.seam_edges, axis=1), axis=0)
         ends = self.mesh.vertices[pairs]
         return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum())
@@ -71,10 +71,10 @@ class CutMesh:
 
 @dataclass(frozen=True)
 class Layout:
-    """How islands are laid out.
+    """How to lay out islands.
 
     Attributes:
-        pack: all together in the unit square; otherwise each goes where it was.
+        pack: pack all islands into the unit square; otherwise each goes to its former position.
         margin: in pixels, between islands, and between them and the border of the texture.
         width: of the texture, in pixels.
         height: of the texture, in pixels.
@@ -87,10 +87,10 @@ class Layout:
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
-    """Find where a mesh is cut.
+    """Find the cuts of a mesh.
 
     Raises:
-        ValueError: the search for seams refuses the mesh; the message says why.
+        ValueError: the search for seams rejects the mesh; the message says why.
     """
     keeps_map = cutting.keep_islands or (cutting.seams == "keep" and not len(mesh.seam_edges))
     vertex_of = np.arange(len(mesh.vertices))
@@ -113,7 +113,7 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
 
 
 def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
-    """Unwrap a mesh that is cut; what its file pins is held.
+    """Unwrap a cut mesh; pins from its file stay fixed.
 
     Raises:
         ValueError: the mesh cannot be unwrapped; the message says why.
@@ -127,13 +127,13 @@ def unwrapped(cut_mesh: CutMesh, options: Options) -> Unwrap:
 
 
 def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layout: Layout) -> list[UvMap]:
-    """Place the islands of all meshes of an asset, at one scale in the scene, in one texture.
+    """Lay out the islands of all meshes of an asset in one texture, at one scale relative to the scene.
 
-    Islands that could not be unwrapped, and meshes without a result, keep the UVs that they have in the file; islands
-    that two pins or more hold lie where these are.
+    Islands that could not be unwrapped, and meshes without a result, keep their UVs from the file. Islands with two or
+    more pins stay at their pins.
 
     Raises:
-        ValueError: the margin leaves no room for so many islands.
+        ValueError: the margin leaves no room for this many islands.
     """
     new, packed, found = [], [], []
     for mesh, result in zip(meshes, results):
@@ -157,20 +157,20 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
 
 
 def laid_out_anew(meshes: Sequence[AssetMesh], islands: Sequence[Integers], layout: Layout) -> list[UvMap]:
-    """Lay out the islands that meshes have; each at the scale that it has now.
+    """Lay out the existing islands of meshes, each at its current scale.
 
     Args:
         meshes: of an asset.
-        islands: of each mesh (faces,), -1 for faces in none.
-        layout: what to do.
+        islands: for each mesh (faces,), -1 for faces without an island.
+        layout: how to lay them out.
 
     Raises:
-        ValueError: the margin leaves no room for so many islands.
+        ValueError: the margin leaves no room for this many islands.
     """
     uv = _former(meshes)
     if layout.pack:
         chart = [np.where(mesh.has_uv(), island, -1)[mesh.face_of_corner()] for mesh, island in zip(meshes, islands)]
-        # The map is the texture's, whatever its aspect.
+        # The map belongs to the texture, whatever its aspect.
         uv = _layout.packed(uv, _numbered_together(chart), _margin(layout))
     return _maps(meshes, uv)
 
@@ -192,7 +192,7 @@ def _margin(layout: Layout) -> tuple[float, float]:
 
 
 def _of_corner(mesh: AssetMesh, result: Unwrap, counted: npt.NDArray[np.bool_]) -> Integers:
-    """Return the chart of every corner (C,), -1 for charts that do not count."""
+    """Return the chart of every corner (C,), -1 for charts that are not counted."""
     chart = np.where(np.append(counted, False)[result.chart_of_face], result.chart_of_face, -1)
     return chart[mesh.face_of_corner()]
 
@@ -206,7 +206,7 @@ def _numbered_together(charts: Sequence[Integers]) -> Integers:
 
 
 def _former(meshes: Sequence[AssetMesh]) -> npt.NDArray[np.float64]:
-    """Return the UVs that all corners have, (C, 2), not a number where they have none."""
+    """Return the current UVs of all corners, (C, 2), NaN for corners without one."""
     return np.concatenate(
         [np.full((len(m.corner_vertices), 2), np.nan) if m.corner_uv is None else m.corner_uv for m in meshes]
     )

@@ -1,7 +1,7 @@
-"""USD files: geometry is read, `primvars:st` is written into the file's own layer, or into a layer over it.
+"""USD files: read the geometry, and write `primvars:st` into the file's own layer or into a layer over it.
 
-By Pixar's library, pxr, which `pip install "spectral_conformal[batch]"` brings; it writes a layer again as it was, of
-text files but for their comments.
+This uses Pixar's library, pxr, which `pip install "spectral_conformal[batch]"` installs. It preserves the other content
+of a layer, except for comments in text files.
 """
 
 from __future__ import annotations
@@ -28,18 +28,18 @@ _BINARY = b"PXR-USDC"
 
 
 class UsdAsset:
-    """A USD file: its meshes, prototypes of instances once."""
+    """A USD file: its meshes; prototypes of instances count once."""
 
     def __init__(self, path: Path, uv_map: str = "", *, over: bool = False) -> None:
-        """Read the file, and what it is composed of.
+        """Read the file and the layers that it is composed of.
 
         Args:
             path: of a .usd, .usda, .usdc or .usdz file.
-            uv_map: name of the primvar that is read and written; "st" unless given.
-            over: write UVs into a layer over the file, which then stays as it is.
+            uv_map: name of the primvar to read and write; "st" by default.
+            over: write UVs into a layer over the file, which then stays unchanged.
 
         Raises:
-            AssetError: there is no pxr, the content is broken, or there is no mesh.
+            AssetError: pxr is missing, the content is broken, or there is no mesh.
         """
         try:
             from pxr import Tf, Usd
@@ -64,7 +64,7 @@ class UsdAsset:
         self._notes = list(self.warnings)
 
     def _prims(self) -> list[tuple[Usd.Prim, Sdf.Path]]:
-        """Return the prim of each mesh, and the place at which an opinion on it holds for all of its instances."""
+        """Return the prim of each mesh, and the path at which an opinion on it holds for all of its instances."""
         from pxr import Usd, UsdGeom
 
         result, seen = [], set()
@@ -82,7 +82,7 @@ class UsdAsset:
         return result
 
     def _own_place(self, prim: Usd.Prim) -> Sdf.Path | None:
-        """Return where the file itself describes a prim, which may be in a variant; None where others alone do."""
+        """Return the path at which the file itself describes a prim, maybe in a variant; None if only others do."""
         root = self._stage.GetRootLayer()
         places = [spec.path for spec in prim.GetPrimStack() if spec.layer == root]
         return places[0] if places else None
@@ -92,7 +92,7 @@ class UsdAsset:
             self.warnings.append(warning)
 
     def references(self) -> Iterator[str]:
-        """Yield layers and assets that the file is composed of, but for those that `files` has named anew.
+        """Yield the layers and assets that the file is composed of, without those that `files` renamed.
 
         A package and a layer over a file need none.
         """
@@ -107,7 +107,7 @@ class UsdAsset:
                 yield name
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return the file with other UVs, or the layer over it, by its path."""
+        """Return the file with new UVs, or the layer over it, by its path."""
         self.warnings = list(self._notes)
         with tempfile.TemporaryDirectory() as folder:
             target = Path(folder) / f"layer{self.suffix}"
@@ -124,7 +124,7 @@ class UsdAsset:
             return {out: target.read_bytes()}
 
     def _layer(self, maps: Sequence[UvMap]) -> Sdf.Layer:
-        """Return the file's own layer with other UVs."""
+        """Return the file's own layer with new UVs."""
         from pxr import Sdf
 
         root = self._stage.GetRootLayer()
@@ -133,7 +133,7 @@ class UsdAsset:
         return self._with_maps(layer, maps)
 
     def _name_from(self, layer: Sdf.Layer, out: Path) -> None:
-        """Let a layer that will lie elsewhere name by paths from there what lies above the file's folder."""
+        """Adapt a layer's relative paths to files above its folder, for writing it to another folder."""
         from pxr import UsdUtils
 
         def named(path: str) -> str:
@@ -145,7 +145,7 @@ class UsdAsset:
         UsdUtils.ModifyAssetPaths(layer, named)
 
     def _layer_over(self, out: Path, maps: Sequence[UvMap]) -> Sdf.Layer:
-        """Return a layer with UVs alone, over the file."""
+        """Return a layer over the file that contains only UVs."""
         from pxr import Sdf
 
         root = self._stage.GetRootLayer()
@@ -162,7 +162,7 @@ class UsdAsset:
         return layer
 
     def _write_package(self, target: Path, maps: Sequence[UvMap]) -> None:
-        """Write a package of the same files in their order; the first one is the layer of the meshes."""
+        """Write a package of the same files in the same order; the first one is the layer of the meshes."""
         from pxr import Sdf
 
         package = Sdf.ZipFileWriter.CreateNew(str(target))
@@ -178,7 +178,7 @@ class UsdAsset:
 
 
 def _export(layer: Sdf.Layer, path: Path, origin: bytes) -> None:
-    """Write a layer as text or as binary, as its origin is: the suffix .usd stands for both."""
+    """Write a layer as text or binary, like its source: the suffix .usd allows both."""
     is_binary = origin.startswith(_BINARY)
     layer.Export(str(path), args={"format": "usdc" if is_binary else "usda"} if path.suffix == ".usd" else {})
 
@@ -242,13 +242,13 @@ class _Mesh:
         return None
 
     def write(self, layer: Sdf.Layer, uv_map: UvMap) -> None:
-        """Write the map into a layer, in place of one that is there, with any times that it has."""
+        """Write the map into a layer; it replaces an existing map with all of its time samples."""
         from pxr import Sdf, UsdGeom, Vt
 
         uv = np.empty_like(uv_map.uv)
         uv[self._order] = uv_map.uv
         mapped = np.repeat(uv_map.mapped, np.diff(self._offsets))
-        # What has no map lies at the origin, as nothing of a map may be missing.
+        # Faces without a map lie at the origin, because a primvar must be complete.
         uv[~mapped] = 0.0
         _, different, index = numbered(self._indices, uv.astype(np.float32))
         prim = Sdf.CreatePrimInLayer(layer, self.place)

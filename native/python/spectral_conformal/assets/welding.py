@@ -1,7 +1,7 @@
-"""Meshes whose faces lie side by side but have vertices of their own, as if they shared them; and sharp edges of them.
+"""Weld adjacent faces that have separate vertices, and find sharp edges of the welded mesh.
 
-Files often hold a vertex once for every normal or UV that it has, or for every face. UVs belong to the corners of
-faces, so that what is solved on the welded mesh holds for the mesh as it is, which does not change.
+Files often store a vertex once per normal or UV, or once per face. UVs belong to the corners of faces, so a solution on
+the welded mesh also holds for the original mesh, which stays unchanged.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ from .mesh import AssetMesh
 
 Integers = npt.NDArray[np.int64]
 
-# Of the size of the mesh: below, rounding of single precision decides; above, it is no longer cleaning.
+# Relative to the size of the mesh: below, single-precision rounding decides; above, welding changes the shape.
 DISTANCES = (1e-6, 1e-2)
 
 
 def coincident_vertices(
     vertices: np.ndarray, face_offsets: np.ndarray, corner_vertices: np.ndarray, distance: float
 ) -> np.ndarray:
-    """Return the vertex that stands for every vertex, (V,) int64: the first of those at the same place, or itself.
+    """Return the representative of every vertex, (V,) int64: the first vertex at the same position, or itself.
 
-    Only vertices on open borders have others that stand for them: bodies that touch each other stay apart. So do the
-    vertices of one face.
+    Only vertices on open borders are merged, so bodies that touch each other stay separate. The vertices of one face
+    stay separate, too.
 
     Args:
         vertices: (V, 3), finite.
         face_offsets: (F + 1,).
         corner_vertices: (C,).
-        distance: of the diagonal of the bounding box, within `DISTANCES`. Vertices that are as near as that to each
-            other are at one place, none that are four times as far away, unless others lie between them.
+        distance: fraction of the bounding box's diagonal, within `DISTANCES`. Vertices at most this far apart are
+            merged; vertices four times as far apart are not, unless others lie between them.
     """
     vertex_of = np.arange(len(vertices), dtype=np.int64)
     border = _border_vertices(len(vertices), face_offsets, corner_vertices)
@@ -50,14 +50,14 @@ def coincident_vertices(
 
 
 def _border_vertices(n_vertices: int, face_offsets: np.ndarray, corner_vertices: np.ndarray) -> np.ndarray:
-    """Return the ends of the edges that have one face, ascending."""
+    """Return the ends of the edges with one face, ascending."""
     pairs = face_edges(face_offsets, corner_vertices)
     _, first, count = np.unique(_keys(pairs, n_vertices), return_index=True, return_counts=True)
     return np.unique(pairs[first[count == 1]])
 
 
 def face_edges(face_offsets: np.ndarray, corner_vertices: np.ndarray) -> np.ndarray:
-    """Return the edge from every corner to the next of its face, (C, 2), the lower vertex first."""
+    """Return the edge from every corner to the next one in its face, (C, 2), the lower vertex first."""
     return _lower_first(np.column_stack([corner_vertices, corner_vertices[next_corner(face_offsets)]]))
 
 
@@ -68,15 +68,15 @@ def _lower_first(pairs: np.ndarray) -> np.ndarray:
 
 
 def _keys(pairs: np.ndarray, n_vertices: int) -> np.ndarray:
-    """Return a number for every pair of vertices, (n,) int64, the lower one first."""
+    """Return a unique number for every pair of vertices with the lower one first, (n,) int64."""
     return pairs[:, 0].astype(np.int64) * n_vertices + pairs[:, 1]
 
 
 def _first_at_place(places: np.ndarray) -> np.ndarray:
-    """Return the first point of those that share a cell with each, (n,) intp; cells have a side of 1.
+    """Return for each point the first one that shares a cell with it, transitively, (n,) intp; cells have side 1.
 
-    All grids whose cells begin at a whole or a half in each direction count: two points not farther apart than a half
-    along any axis share a cell of one of them.
+    The cells of eight grids count, shifted by 0 or 1/2 along each axis: two points at most 1/2 apart along every axis
+    share a cell of one of them.
     """
     side = int(places.max()) + 2
     cells = []
@@ -95,7 +95,7 @@ def _first_at_place(places: np.ndarray) -> np.ndarray:
 
 
 def _part_corners_of_faces(vertex_of: np.ndarray, face_offsets: np.ndarray, corner_vertices: np.ndarray) -> None:
-    """Let those vertices stand for themselves that belong to a face with another one of the same place."""
+    """Make a vertex its own representative if another vertex of one of its faces has the same representative."""
     face = np.repeat(np.arange(len(face_offsets) - 1), np.diff(face_offsets))
     key = face * len(vertex_of) + vertex_of[corner_vertices]
     order = np.argsort(key, kind="stable")
@@ -106,11 +106,11 @@ def _part_corners_of_faces(vertex_of: np.ndarray, face_offsets: np.ndarray, corn
 
 
 def sharp_edges(mesh: AssetMesh, vertex_of: Integers, angle: float) -> Integers:
-    """Return the edges, (n, 2), between two faces of the welded mesh whose normals are turned by an angle or more.
+    """Return the edges, (n, 2), between two faces of the welded mesh whose normals differ by `angle` or more.
 
     Args:
-        mesh: the mesh as it is.
-        vertex_of: (V,) the vertex that stands for each.
+        mesh: the original mesh.
+        vertex_of: (V,) the representative of each vertex.
         angle: in radians.
     """
     pairs = face_edges(mesh.face_offsets, vertex_of[mesh.corner_vertices])
@@ -119,16 +119,16 @@ def sharp_edges(mesh: AssetMesh, vertex_of: Integers, angle: float) -> Integers:
     corners = corners[count[inverse[corners]] == 2].reshape(-1, 2)
     normals = _face_normals(mesh)[mesh.face_of_corner()]
     first, second = normals[corners[:, 0]], normals[corners[:, 1]]
-    # Of two unit vectors this is right for small angles, too; faces without area have none, and no angle.
+    # Accurate for small angles, too. Faces without area have no normal, hence no angle.
     turned = 2.0 * np.arctan2(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1))
     has_both = first.any(axis=1) & second.any(axis=1)
     return pairs[corners[has_both & (turned >= angle), 0]]
 
 
 def _face_normals(mesh: AssetMesh) -> npt.NDArray[np.float64]:
-    """Return the unit normals of the faces, (F, 3), by the areas of their projections; 0 where there is none."""
+    """Return the unit normals of the faces, (F, 3), from their projected areas; 0 for faces without area."""
     start = mesh.vertices[mesh.corner_vertices]
-    # From one of the face's own corners, so that a place far from the origin costs no digits.
+    # Relative to a corner of the face, so that a position far from the origin costs no digits.
     start -= start[mesh.face_offsets[:-1]][mesh.face_of_corner()]
     crossed = np.cross(start, start[next_corner(mesh.face_offsets)])
     normals = np.add.reduceat(crossed, mesh.face_offsets[:-1], axis=0) if len(crossed) else np.zeros((0, 3))
