@@ -4,7 +4,7 @@
 
 namespace spectral_conformal {
 
-/// A box with sides parallel to the axes.
+/// An axis-aligned box.
 struct PackedBox {
   double x = 0;  ///< of the lower left corner
   double y = 0;
@@ -12,11 +12,11 @@ struct PackedBox {
   double height = 0;
 };
 
-/// Moves boxes so that none overlaps another, into a square [0, side]^2 as small as some tries find. Boxes are neither
-/// turned nor scaled; widths and heights must be finite and not negative. Returns the side.
+/// Moves boxes without overlap into a square [0, side]^2, the smallest of several tries, and returns the side. Boxes
+/// are neither rotated nor scaled; widths and heights must be finite and nonnegative.
 ///
-/// Skyline packing, lowest place first (Jylanki, "A Thousand Ways to Pack the Bin", 2010, section 4), of the boxes from
-/// high to low, in strips of several widths. n log n for many boxes (skyline.h).
+/// Skyline packing, lowest position first (Jylanki, "A Thousand Ways to Pack the Bin", 2010, section 4), from the
+/// highest box to the lowest, in strips of several widths. O(n log n) (skyline.h).
 double pack_boxes(std::vector<PackedBox>& boxes);
 
 }  // namespace spectral_conformal

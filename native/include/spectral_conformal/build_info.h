@@ -4,11 +4,11 @@
 
 namespace spectral_conformal {
 
-/// What this build of the library solves with.
+/// The numerical libraries of this build.
 struct BuildInfo {
   std::string factorization;  ///< the library behind FactorizationBackend::automatic and its version
-  std::string blas;           ///< the BLAS that the factorisation calls, its file and what it says of itself, or ""
-  std::string kernel;         ///< the kernels that this BLAS runs on this processor, such as "SkylakeX", or ""
+  std::string blas;           ///< the BLAS behind the factorization: its file and its self-description, or ""
+  std::string kernel;         ///< the kernels that this BLAS selects on this processor, such as "SkylakeX", or ""
 };
 
 BuildInfo build_info();

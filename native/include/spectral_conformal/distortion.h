@@ -11,15 +11,15 @@ namespace spectral_conformal {
 struct TriangleShape;
 
 /// Distortion of a map of triangles from 3D to the plane. A linear map f = a p + b conj(p) of a triangle's plane has
-/// singular values |a| + |b| and ||a| - |b||. The numbers of the whole map are those of one triangulation: of a quad
-/// with both splits, the one of mapped_triangulation.
+/// singular values |a| + |b| and ||a| - |b||. The numbers of the whole map refer to one triangulation: a quad with both
+/// splits enters with that of mapped_triangulation.
 struct Distortion {
   Eigen::VectorXd qc;               ///< (F,) larger over smaller singular value; infinite where the image has no area
-  Eigen::VectorXd log2_scale;       ///< (F,) log2 of the root of (image area / area); -infinite without image area
+  Eigen::VectorXd log2_scale;       ///< (F,) log2 of sqrt(image area / area); -infinity without image area
   Eigen::VectorXd area;             ///< (F,) in 3D, units of the positions squared; 0 for degenerate triangles
   Eigen::VectorXd image_area;       ///< (F,) signed, units of the map squared; 0 for degenerate triangles
   std::vector<bool> flipped;        ///< (F,) the image is wound against the majority (by image area) of the triangles
-  std::vector<int> triangulation;   ///< ascending: the triangles that the following are taken over
+  std::vector<int> triangulation;   ///< ascending: the triangles over which the following are taken
   double mean_qc = 1;               ///< weighted by the area in 3D (section 5)
   double p95_qc = 1;                ///< 95th percentile over the triangles, linear interpolation
   double p99_qc = 1;                ///< 99th percentile
@@ -31,9 +31,9 @@ struct Distortion {
   int n_flipped() const;  ///< triangles
 };
 
-/// positions (V, 3), triangles (F) consistently wound, triangle_weights (F,) as in quad_splits, or empty for 1, z (V,)
-/// finite. Degenerate triangles, those which local_isometric_frame clamps, have no distortion: qc 1, log2_scale 0, no
-/// weight, not flipped.
+/// positions: (V, 3); triangles: (F), consistently wound; triangle_weights: (F,) as in quad_splits, or empty for 1; z:
+/// (V,), finite. Degenerate triangles, those that local_isometric_frame clamps, have no distortion: qc 1, log2_scale 0,
+/// weight 0, not flipped.
 Distortion measure_distortion(const Eigen::Ref<const Positions>& positions,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z);
@@ -43,15 +43,15 @@ Distortion measure_distortion(const std::vector<TriangleShape>& shapes,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& z);
 
-/// Their mean_qc alone, at a third of the cost. Of the first n_triangles; the map's signed area must not be negative.
+/// Only mean_qc, over the first n_triangles, at a third of the cost. The signed area of the map must not be negative.
 double mean_quasi_conformal_distortion(const std::vector<TriangleShape>& shapes,
                                        const std::vector<std::array<int, 3>>& triangles,
                                        const std::vector<TriangleWeight>& triangle_weights, std::size_t n_triangles,
                                        const ComplexVector& z);
 
-/// The same for a mesh of triangles as it comes: orients every chart first, so that a triangle that is wound the wrong
-/// way in 3D is not taken for flipped, and finds flips chart by chart. z (n_vertices,) finite.
-/// Throws InvalidMesh as build_charts does, and for a face that is no triangle.
+/// The same for any triangle mesh: orients every chart first, so that a triangle wound the wrong way in 3D does not
+/// count as flipped, and finds flips chart by chart. z: (n_vertices,), finite. Throws InvalidMesh as build_charts does,
+/// and for a face that is not a triangle.
 Distortion measure_mesh_distortion(const PolygonMesh& triangle_mesh, const ComplexVector& z);
 
 }  // namespace spectral_conformal

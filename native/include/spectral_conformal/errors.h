@@ -7,12 +7,12 @@
 
 namespace spectral_conformal {
 
-/// The input breaks a precondition; the message names the condition and what to do about it.
+/// The input violates a precondition; the message names the condition and what to do about it.
 class InvalidMesh : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
   explicit InvalidMesh(const Step& step) : std::invalid_argument("no map of the mesh can be made"), step_(step) {}
-  /// The condition that a chart breaks (chart_checks.h), of StepKind::rejected; empty where the message has it.
+  /// The condition that a chart violates (chart_checks.h), of StepKind::rejected; empty if only the message names it.
   const std::optional<Step>& step() const { return step_; }
 
  private:

@@ -11,11 +11,11 @@
 
 namespace spectral_conformal {
 
-/// The maps of charts that unwraps have found, for later ones to take instead of solving the same again: after a change
-/// of a seam or a pin only the charts that it reaches are solved, and after a change of the packing none.
+/// A cache of chart maps, which spares later unwraps the same solves: after a change of a seam or a pin only the
+/// affected charts are solved, and after a change of the packing none.
 ///
-/// A chart is looked up by a digest of all that its map is made of, so that results are the same with and without. Only
-/// find() may be called by two threads at once.
+/// The key is a digest of everything that determines a chart's map, so results are the same with and without the cache.
+/// Only find() may be called from several threads at once.
 class KeptMaps {
  public:
   struct Map {
@@ -23,16 +23,16 @@ class KeptMaps {
     ComplexVector z;
   };
 
-  /// Those used last are kept, as many as `max_bytes` hold with their descriptions.
+  /// Keeps the most recently used maps, as many as fit in `max_bytes` with their keys.
   explicit KeptMaps(std::size_t max_bytes) : max_bytes_(max_bytes) {}
-  // Entries are found through pointers to them.
+  // The lookup table points into the entries.
   KeptMaps(const KeptMaps&) = delete;
   KeptMaps& operator=(const KeptMaps&) = delete;
 
-  /// The map of a chart; null where there is none. Valid until the next call of keep().
+  /// The map of a chart, or null. Valid until the next call of keep().
   const Map* find(const std::string& description) const;
-  /// Keeps the map of a chart as the one used last, in constant time, and drops those that then are too many. A map
-  /// that takes more than `max_bytes` by itself is not kept.
+  /// Stores the map of a chart as the most recently used, in constant time, and drops the least recently used ones
+  /// beyond `max_bytes`. A map larger than `max_bytes` is not kept.
   void keep(std::string&& description, Map&& map);
   std::size_t size() const { return by_use_.size(); }
   std::size_t bytes() const { return bytes_; }
@@ -46,8 +46,8 @@ class KeptMaps {
 
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
-  std::list<Entry> by_use_;                                                   ///< the one used last at the end
-  std::unordered_map<std::string_view, std::list<Entry>::iterator> entries_;  ///< by descriptions there
+  std::list<Entry> by_use_;                                                   ///< most recently used at the end
+  std::unordered_map<std::string_view, std::list<Entry>::iterator> entries_;  ///< keyed by the descriptions there
 };
 
 }  // namespace spectral_conformal

@@ -4,7 +4,7 @@
 
 namespace spectral_conformal {
 
-// What a caller chooses of the energy, the form and the solver.
+// The caller's choice of energy, form and solver.
 
 enum class Method {
   spectral,  ///< smallest nonzero eigenvalue of L z = lambda B z (Eq. 5): the paper's method
@@ -19,20 +19,20 @@ enum class Weights {
 };
 
 enum class BoundaryMeasure {
-  length,  ///< half the length of the two adjacent boundary edges: independent of how finely the boundary is sampled
+  length,  ///< half the length of the two adjacent boundary edges: independent of the sampling of the boundary
   vertex   ///< 1 for each boundary vertex, as in the paper (Eq. 5)
 };
 
 /// A soft constraint of section 4.2 that pushes two vertices apart (strength > 0) or pulls them together (strength <
 /// 0).
 struct Extender {
-  std::vector<int> from;  ///< one vertex; or its copies along a seam, which count as their barycenter
+  std::vector<int> from;  ///< one vertex, or its copies along a seam, which act through their barycenter
   std::vector<int> to;
-  double strength = 0;  ///< fraction of 1^T M 1: the same number means the same at any resolution and scale
+  double strength = 0;  ///< fraction of 1^T M 1: independent of resolution and scale
 };
 
 enum class FactorizationBackend {
-  automatic,  ///< CHOLMOD where the module was built with it and the matrix is not tiny, otherwise Eigen
+  automatic,  ///< CHOLMOD if built with it and the matrix is not tiny, otherwise Eigen
   cholmod,    ///< SuiteSparse CHOLMOD, supernodal L L^H
   eigen       ///< Eigen's SimplicialLDLT
 };

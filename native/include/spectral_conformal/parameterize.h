@@ -20,61 +20,60 @@ class ConformalEnergy;
 struct Chart;
 struct PolygonMesh;
 
-/// What stands in for the map of a problem whose own attempts had failed (see SolveOptions::fallbacks).
+/// The substitute for the map of a problem whose own attempts failed (see SolveOptions::fallbacks).
 enum class Fallback {
   none,
-  unfolded,           ///< that map, its boundary winding round once after flipped triangles were unfolded
-  clamped_triangles,  ///< thin triangles were given a minimal height in the energy
+  unfolded,           ///< the failed map, which winds round once after its flipped triangles were unfolded
+  clamped_triangles,  ///< the energy with a minimal height for thin triangles
   other_boundary,     ///< the form B with the other BoundaryMeasure
   other_weights,      ///< the energy L with the other Weights
   tutte_embedding     ///< a relaxed Tutte embedding
 };
 
-/// What an eigenvalue belongs to.
+/// What an eigenvalue refers to.
 enum class EigenvalueOf {
   eigenvector,  ///< of the problem that was solved
-  map           ///< the quotient of Eq. 5 of a map that is no eigenvector: pinned, polished, unfolded or replaced
+  map           ///< quotient of Eq. 5 of a map that is no eigenvector: pinned, polished, unfolded or replaced
 };
 
-/// What is fixed when a Solver is made.
+/// Options that a Solver fixes at construction.
 struct PatchOptions {
   Weights weights = Weights::uniform;
   BoundaryMeasure boundary = BoundaryMeasure::length;
   FactorizationBackend backend = FactorizationBackend::automatic;
   bool fill_holes = false;  ///< see hole_filling.h
-  /// 0: keep angles. Up to 1, give them up for areas: the conformal map is relaxed towards an isometry
-  /// (isometric_relaxation.h), and its metric, blended with the identity, is that of all solves (section 4.3).
+  /// 0: preserve angles. Up to 1: trade angles for areas. The conformal map is relaxed toward an isometry
+  /// (isometric_relaxation.h), and all solves use its metric, blended with the identity (section 4.3).
   double area_blend = 0;
 };
 
-/// What one solve of a Solver may vary.
+/// Options of one solve of a Solver.
 struct SolveOptions {
   Method method = Method::spectral;
-  double tolerance = 1e-8;               ///< see EigenproblemOptions
-  double soft_pins = 0;                  ///< strength of pins as a soft force (see pin_attraction.h); 0: held exactly
+  double tolerance = 1e-8;  ///< see EigenproblemOptions
+  double soft_pins = 0;     ///< strength of pins as a soft force (see pin_attraction.h); 0: pins hold exactly
   std::vector<Extender> extenders = {};  ///< of chart vertices; for Method::spectral
-  /// For Method::spectral: beta of ExtendedForm::add_spread for every loop but the outer one. Lowered as far as the
-  /// patch asks for, where there are no extenders and no soft pins; none: chosen per patch (hole_rigidity.h), 0 with
-  /// these.
+  /// For Method::spectral: beta of ExtendedForm::add_spread for every loop but the outer one. Without extenders and
+  /// soft pins it is lowered as far as the patch requires. Empty: chosen per patch (hole_rigidity.h), or 0 with
+  /// extenders or soft pins.
   std::optional<double> hole_rigidity = 0.0;
-  /// Whether Method::spectral may take another map where its own fails: unfolded, an embedding, or that of another
-  /// problem (fallbacks.h). When false, that failure is the answer; the embedding that `fold_free` asks for is made
-  /// either way.
+  /// Whether Method::spectral may replace a failed map: by its unfolding, an embedding, or the map of another problem
+  /// (fallbacks.h). If false, the solve fails; the embedding that `fold_free` requests is made in either case.
   bool fallbacks = true;
-  /// Whether flipped triangles are unfolded and parts moved apart that cover each other, or the map is replaced by an
-  /// embedding, at some cost in distortion; what stays flipped or covered is reported. See fold_free_map.h.
+  /// Whether to unfold flipped triangles and separate overlapping parts, or replace the map by an embedding, at some
+  /// cost in distortion; remaining flips and overlaps are reported. See fold_free_map.h.
   bool fold_free = false;
-  /// Whether maps of Method::spectral without pins, soft constraints or a metric go on from the eigenvector to a lower
-  /// mean QC (polish.h), where they find one.
+  /// Whether maps of Method::spectral without pins, soft constraints or a metric continue from the eigenvector to a
+  /// lower mean QC (polish.h), if there is one.
   bool polish = false;
-  /// Whether a problem whose map fails the checks is solved once more, with another start and a larger shift unless
-  /// that was raised already.
+  /// Whether a problem whose map fails the checks is solved once more, from another start and with a larger shift
+  /// unless it was raised already.
   bool second_attempt = true;
   bool has_extenders() const;              ///< whether extenders change the form B
-  bool has_extenders_or_rigidity() const;  ///< whether these or a given hole rigidity do
+  bool has_extenders_or_rigidity() const;  ///< whether extenders or a given hole rigidity do
 };
 
-/// The numbers of a map, and what was really solved for it.
+/// The numbers of a map, and the problem that was actually solved for it.
 struct SolveRecord {
   double eigenvalue = 0;  ///< z^H L z / z^H B z in the units of the input: lambda of Eq. 5 for an eigenvector
   EigenvalueOf eigenvalue_of = EigenvalueOf::eigenvector;
@@ -82,25 +81,25 @@ struct SolveRecord {
   /// the last relative change.
   double residual = 0;
   int iterations = 0;         ///< solves with the factor
-  int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, fallbacks included
+  int attempts = 1;           ///< eigenproblems (or pinned systems) solved until one passed, including fallbacks
   int turning_number = 0;     ///< of the outer boundary loop
-  int polish_steps = 0;       ///< steps of PatchOptions::polish from the eigenvector to this map
+  int polish_steps = 0;       ///< steps of SolveOptions::polish from the eigenvector to this map
   double hole_rigidity = 0;   ///< of the form B, see SolveOptions::hole_rigidity
-  int unfolded = 0;           ///< flipped triangles that PatchOptions::fold_free has unfolded
-  bool is_embedding = false;  ///< whether it had to replace the map by an embedding
-  /// Mean QC of the map that was unfolded or replaced; not a number where there was none.
+  int unfolded = 0;           ///< flipped triangles that SolveOptions::fold_free unfolded
+  bool is_embedding = false;  ///< whether fold_free replaced the map by an embedding
+  /// Mean QC of the map that was unfolded or replaced; NaN if there was none.
   double mean_qc_before = std::numeric_limits<double>::quiet_NaN();
-  Method method = Method::spectral;    ///< Method::lscm for three or more hard pins, whichever was asked for
+  Method method = Method::spectral;    ///< Method::lscm for three or more hard pins, whatever was requested
   Weights weights = Weights::uniform;  ///< of the energy L
   BoundaryMeasure boundary = BoundaryMeasure::length;  ///< of the form B
   Fallback fallback = Fallback::none;
-  int clamped_triangles = 0;                   ///< those that Fallback::clamped_triangles gave a minimal height
-  std::optional<RelaxationStatus> relaxation;  ///< of PatchOptions::area_blend, where there was one
-  /// Standard deviation of log2 of the scale, weighted by area in 3D (Distortion::log2_scale_deviation): of the
-  /// conformal map, and of this one. Not a number without an area blend.
+  int clamped_triangles = 0;                   ///< triangles clamped by Fallback::clamped_triangles
+  std::optional<RelaxationStatus> relaxation;  ///< of PatchOptions::area_blend, if any
+  /// Standard deviation of log2 of the scale, weighted by area in 3D (Distortion::log2_scale_deviation), of the
+  /// conformal map and of this map. NaN without an area blend.
   double scale_deviation_before = std::numeric_limits<double>::quiet_NaN();
   double scale_deviation = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Step> steps;  ///< what was done besides, and what there is to say of the map
+  std::vector<Step> steps;  ///< what else was done, and remarks on the map
 };
 
 struct Parameterization : SolveRecord {
@@ -108,57 +107,55 @@ struct Parameterization : SolveRecord {
   std::vector<std::pair<std::string, double>> timings;  ///< seconds per phase, in order
 };
 
-/// The method that solves with this many pins. One hard pin moves the map, two turn and scale it; from three on they
-/// bend it, and are held by pinned LSCM where Method::spectral was asked for. Throws InvalidMesh for methods that hold
-/// none.
+/// The method that solves with this many pins. One hard pin translates the map, two also rotate and scale it; three or
+/// more deform it, and pinned LSCM replaces Method::spectral. Throws InvalidMesh for methods that cannot hold pins.
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins);
 
 /// The solver of one patch; keeps the factor of L + s M between solves.
 ///
-/// Thread-safety: different objects may be used in different threads at once. One object is for one thread at a time:
-/// every call, factorize() included, changes the factor's work space and the starts of later solves. A progress
+/// Thread safety: different objects may be used in different threads at once. One object serves one thread at a time:
+/// every call, including factorize(), changes the factor's work space and the starts of later solves. The progress
 /// function is called in the thread of the solve and must not call the same object.
 class Solver {
  public:
-  /// chart: one disk-like patch; positions (V, 3) of its vertices. With `fill_holes` every loop but the outer one is
-  /// closed by virtual triangles. metric: one per triangle of the chart, in the frame of its first side, or empty for
-  /// the metric of space. Throws InvalidMesh when why_not_parameterizable says so, or a metric is not positive
-  /// definite.
+  /// chart: one disk-like patch; positions: (V, 3), of its vertices. With `fill_holes`, virtual triangles close every
+  /// loop but the outer one. metric: one per triangle of the chart, in the frame of its first side, or empty for the
+  /// metric of 3D. Throws InvalidMesh if why_not_parameterizable gives a reason or a metric is not positive definite.
   Solver(const Chart& chart, const Eigen::Ref<const Positions>& positions, const PatchOptions& options,
          const std::vector<TriangleMetric>& metric = {});
-  /// A mesh that is one disk-like patch; pins, extenders and maps are then those of mesh vertices (0 in the map where
-  /// no face uses one). metric: one per face, or null. Throws InvalidMesh that says what the mesh is instead of one
-  /// patch, and for a pin or an extender of a vertex that no face uses.
+  /// mesh: one disk-like patch. Pins, extenders and maps are then indexed by mesh vertex (the map is 0 at vertices of
+  /// no face). metric: one per face, or null. Throws InvalidMesh if the mesh is not one patch, saying why, and for a
+  /// pin or an extender at a vertex of no face.
   Solver(const PolygonMesh& mesh, const PatchOptions& options, const SpaceMetric* metric = nullptr);
   ~Solver();
   Solver(Solver&& other) noexcept;
   Solver& operator=(Solver&& other) noexcept;
 
-  /// Blends the metric where that was asked for, and factors L + s M, raising s a hundredfold while rounding breaks the
-  /// factorization (bounded). Throws SolveFailure. Called by solve where needed.
+  /// Blends the metric if requested and factors L + s M, raising s a hundredfold (a bounded number of times) while
+  /// rounding breaks the factorization. Throws SolveFailure. Called by solve where needed.
   void factorize(const Progress& progress = {});
 
-  /// pins: of chart vertices. Without pins (for Method::lscm: two farthest boundary vertices) the map is placed (see
-  /// placement.h), with its area equal to the area in 3D. One pin: the same map moved onto it. Several hard pins: held
-  /// exactly by pinned LSCM, where the method is spectral or lscm. With `soft_pins` they attract the map of
-  /// Method::spectral, which then comes with the similarity that fits it to them.
+  /// pins: of chart vertices. Without pins the map is placed (see placement.h), with its area equal to the area in 3D;
+  /// Method::lscm then pins the two farthest boundary vertices. One pin: the same map, moved onto it. Several hard
+  /// pins: held exactly by pinned LSCM, for methods spectral and lscm. With `soft_pins` they attract the map of
+  /// Method::spectral, and a similarity then fits the map to them.
   ///
-  /// Every map is checked by one rule (map_check.h): finite, equations satisfied, positive area, and for the spectral
-  /// method a turning number of 1, or -1 where the longest loop in 3D is a hole of the map. An eigenvector that fails
-  /// is solved again with another start and, unless it was raised already, a larger shift, then, where
-  /// SolveOptions::fallbacks allows it (spectral only), gives way to the best of some other maps (fallbacks.h); the
-  /// fields of the result and its steps say which. Extenders and hole rigidity change the form
-  /// B of Method::spectral and leave the factor; a solve with them has no fallbacks, and fails where they are so strong
-  /// that the map winds round more than once. What was solved before changes nothing, except that with a tolerance
-  /// above 1e-7, less than single precision stores, a solve with them starts from the earlier maps. With `fold_free`
-  /// flipped triangles are unfolded, and a map that winds round more than once, or none, is replaced by an embedding;
-  /// steps say what was done, what that cost, and where it could not be done.
+  /// One rule checks every map (map_check.h): finite, equations satisfied, positive area, and for the spectral method a
+  /// turning number of 1, or -1 where the longest loop in 3D is a hole of the map. If an eigenvector fails, it is
+  /// solved again from another start and, unless it was raised already, with a larger shift. If that fails too and
+  /// SolveOptions::fallbacks allows it (spectral only), the best of some other maps replaces it (fallbacks.h); the
+  /// fields of the result and its steps say which. Extenders and hole rigidity change the form B of Method::spectral
+  /// and leave the factor; a solve with them has no fallbacks, and fails if they make the map wind round more than
+  /// once. Earlier solves do not affect the result, with one exception: at a tolerance above 1e-7, coarser than single
+  /// precision, a solve with extenders or hole rigidity starts from the earlier maps. With `fold_free`, flipped
+  /// triangles are unfolded, and an embedding replaces a map that winds round more than once, or a missing one; steps
+  /// say what was done, its cost, and where it failed.
   ///
-  /// Throws SolveFailure when nothing passes, InvalidMesh for pins or forces that the method does not take or that all
-  /// have one position, and Cancelled.
+  /// Throws SolveFailure if no map passes, InvalidMesh for pins or forces that the method does not support or that all
+  /// share one position, and Cancelled.
   Parameterization solve(const SolveOptions& options, const Pins& pins, const Progress& progress = {});
 
-  /// Of the chart in 3D, for measures of its maps.
+  /// The energy of the chart in 3D, for measuring its maps.
   const ConformalEnergy& energy() const;
   /// Input units per unit of the energy's positions.
   double scale() const;

@@ -5,8 +5,8 @@
 
 namespace spectral_conformal {
 
-/// A polygon mesh in the caller's arrays. Nothing is owned, and nothing may change while the mesh is in use: what was
-/// counted is filled in later.
+/// A polygon mesh in the caller's arrays. It owns nothing. The arrays must not change while the mesh is in use: some
+/// algorithms count in one pass and fill in the next.
 struct PolygonMesh {
   const double* positions = nullptr;  ///< (n_vertices, 3)
   int n_vertices = 0;
@@ -22,11 +22,11 @@ struct PolygonMesh {
   bool is_selected(int face) const { return selected_faces == nullptr || selected_faces[face]; }
 };
 
-/// The most vertices, faces, corners and seam edges, each, that an int can number together with what is made of them:
-/// a corner gives up to two triangles (one of them virtual), those six half-edges, and these six entries of a matrix.
+/// The largest number of vertices, faces, corners or seam edges for which an int can also number what derives from
+/// them: a corner yields up to two triangles (one virtual), hence six half-edges and six matrix entries.
 constexpr int size_limit = std::numeric_limits<int>::max() / 8;
 
-/// Throws InvalidMesh when the mesh is larger than size_limit, offsets decrease or an index is out of range.
+/// Throws InvalidMesh if the mesh exceeds size_limit, offsets decrease or an index is out of range.
 void validate(const PolygonMesh& mesh);
 
 }  // namespace spectral_conformal

@@ -14,44 +14,43 @@ namespace spectral_conformal {
 struct SeamSuggestionOptions {
   double max_length =
       std::numeric_limits<double>::infinity();  ///< of all new seams together, in units of the positions
-  double scale_limit = 2;  ///< a factor above 1: enough when 95 % of the area has a scale within it of the median
-  double qc_limit = 1.1;   ///< enough when the mean QC, weighted by area, is not above it; at least 1
-  /// Where nothing but the mean QC is beyond its limit, or no cut lowers the energy any more: what a cut has to lower
-  /// the mean QC of the whole mesh by for each length of the root of the mesh's area, or it is not made; at least 0.
+  double scale_limit = 2;  ///< above 1: stop when 95 % of the area is within this factor of the median scale
+  double qc_limit = 1.1;   ///< stop when the area-weighted mean QC is at most this; at least 1
+  /// Applies where only the mean QC exceeds its limit, or where no cut lowers the energy further. A cut must then lower
+  /// the mean QC of the whole mesh by at least this, per length sqrt(mesh area); at least 0.
   double qc_gain = 0;
-  /// Enough when the symmetric Dirichlet energy of the maps (mean weighted by area, 4 for an isometry, see MapQuality)
-  /// is not above it; at least 4.
+  /// Stop when the symmetric Dirichlet energy of the maps (area-weighted mean, 4 for an isometry, see MapQuality) is at
+  /// most this; at least 4.
   double energy_limit = 4.3;
-  /// Where the viewer stands, as a direction from the mesh; its length says how much seams keep out of sight: an edge
-  /// whose faces look at the viewer costs 1 + |front| times its length. Zero: seen from nowhere. Finite.
+  /// Direction from the mesh to the viewer; its length says how strongly seams avoid being seen: an edge whose faces
+  /// look at the viewer costs 1 + |front| times its length. Zero: no viewer. Finite.
   std::array<double, 3> front{0, 0, 0};
-  /// (n_vertices,) from -1 to 1, or null: above 0 prefers seams there, below 0 avoids them; 0 leaves the choice to the
-  /// distortion. An edge with the mean p of its ends costs 8^-p times as much.
+  /// (n_vertices,) in [-1, 1], or null: positive attracts seams, negative repels them, 0 leaves the choice to the
+  /// distortion. An edge whose ends have the mean p costs 8^-p times as much.
   const double* vertex_preference = nullptr;
-  PatchOptions map;  ///< of the maps whose distortion counts
+  PatchOptions map;  ///< of the maps whose distortion is measured
 };
 
 struct SeamSuggestion {
-  std::vector<std::array<int, 2>> edges;  ///< vertices of the mesh, the smaller first; none twice, none a seam before
+  std::vector<std::array<int, 2>> edges;  ///< mesh vertices, the smaller first; distinct, and not seams before
   std::vector<int> cut_offsets{0};  ///< cut i is edges [cut_offsets[i], cut_offsets[i + 1]); mirrored cuts are one
-  std::string message;  ///< parts that there is too little memory for, which got no seams; empty where there are none
+  std::string message;              ///< parts without seams for lack of memory; empty if there are none
 };
 
-/// Proposes seams that lower the distortion of the spectral maps of a mesh, chart by chart as build_charts cuts it.
-/// First what topology needs, whatever its length: handles are cut open along short loops that do not separate the
-/// surface (see handle_cuts.h), closed surfaces along a path between vertices far apart. Then, greedily, from the most
-/// distorted regions to the boundary: the prominent extrema of the scale (see field_extrema.h), and the vertices with
-/// the highest QC, are joined to the cuts by cheapest paths (Sheffer and Hart 2002, "Seamster"). Each cut is solved and
-/// kept only if the distortion falls; of several the one is taken that lowers it most for its length. Charts whose
-/// faces a mirror plane (see mirror_symmetry.h) maps onto each other get mirrored cuts, where paths allow that. Of
-/// large charts all this is done on copies with few vertices first (see coarse_piece.h), and the charts themselves are
-/// cut where their copies are, and further where that is not enough. Charts that cannot be solved even so get no seams.
-/// Where the length is not limited, a chart is also taken apart into flat parts that unfold without distortion (see
-/// rigid_unfolding.h), seams that are not worth it are taken back, and of the two the seams are proposed that cost less
-/// (see seam_functional.h); such seams are one cut, and need not be mirrored.
-/// The numbering of vertices and faces makes no difference (see canonical_mesh.h). Throws InvalidMesh for arrays that
-/// do not describe a mesh, Cancelled, and std::bad_alloc where there is too little memory for the mesh, or for any of
-/// its charts; those that are too large while others are not get no seams.
+/// Proposes seams that lower the distortion of the spectral maps of a mesh, for each chart of build_charts. First it
+/// makes the cuts that topology requires, regardless of length: it opens handles along short non-separating loops
+/// (handle_cuts.h) and closed surfaces along a path between distant vertices. Then it cuts greedily from the most
+/// distorted regions to the boundary: cheapest paths join the prominent extrema of the scale (field_extrema.h) and the
+/// vertices of highest QC to the existing cuts (Sheffer and Hart 2002, "Seamster"). It solves each candidate, keeps it
+/// only if the distortion falls, and prefers the one that lowers it most per length. Charts with a mirror plane
+/// (mirror_symmetry.h) get mirrored cuts where paths allow it. Large charts are first processed on coarse copies
+/// (coarse_piece.h): the charts are then cut where their copies are, and further where that is not enough. Charts that
+/// still cannot be solved get no seams. If the length is not limited, each chart is also split into flat parts that
+/// unfold without distortion (rigid_unfolding.h), and seams not worth their length are removed; the cheaper of the two
+/// proposals wins (seam_functional.h). Its seams are one cut, and need not be mirrored. The result does not depend on
+/// the numbering of vertices and faces (canonical_mesh.h). Throws InvalidMesh for arrays that do not describe a mesh,
+/// Cancelled, and std::bad_alloc where memory is too small for the mesh or for every chart; if it is too small for some
+/// charts only, those get no seams.
 SeamSuggestion suggest_seams(const PolygonMesh& mesh, const SeamSuggestionOptions& options, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -8,13 +8,13 @@
 
 namespace spectral_conformal {
 
-/// A vector that never changes and is shared by its copies: what several objects keep of one surface is in memory once.
-/// Copies may be made and used in several threads at once.
+/// An immutable vector that its copies share, so that objects on one surface hold its data once. Copies may be made and
+/// used in several threads at once.
 template <class T>
 class SharedVector {
  public:
   SharedVector() : SharedVector(std::vector<T>{}) {}
-  SharedVector(std::vector<T> values)  // NOLINT(google-explicit-constructor): takes the place of a vector
+  SharedVector(std::vector<T> values)  // NOLINT(google-explicit-constructor): a drop-in for a vector
       : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
   SharedVector(std::initializer_list<T> values) : SharedVector(std::vector<T>(values)) {}
 

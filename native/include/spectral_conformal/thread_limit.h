@@ -2,21 +2,20 @@
 
 namespace spectral_conformal {
 
-/// While it lives, a call of the thread that made it uses at most `limit` threads, including its own. Limits nest, and
-/// threads that the library starts inherit the limit of their caller. Results do not depend on it.
+/// While it lives, calls from the thread that created it use at most `limit` threads, including that thread. Limits
+/// nest, and threads started by the library inherit the limit of their caller. Results do not depend on it.
 class ThreadLimit {
  public:
-  /// limit: 0 for as many as the machine has cores.
+  /// limit: 0 for the number of cores.
   explicit ThreadLimit(unsigned limit);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
   static unsigned current();  ///< of the calling thread; 0 for none
-  /// Sets the limit of the calling thread until it is set again, for languages without destructors; returns the one
-  /// before.
+  /// Sets the limit of the calling thread and returns the previous one; for languages without destructors.
   static unsigned exchange(unsigned limit);
-  /// How many threads a call may use: the limit, or this thread's part of the cores if that is less.
+  /// How many threads a call may use: the limit, or this thread's share of the cores if that is smaller.
   static unsigned available();
 
  private:

@@ -13,7 +13,7 @@ constexpr double pi = 3.14159265358979323846;  // std::numbers::pi of C++20
 
 using Complex = std::complex<double>;
 
-/// |z|. std::abs takes several times as long, to serve numbers whose squares overflow or vanish as well.
+/// |z|. std::abs is several times slower because it handles numbers whose squares overflow or underflow.
 inline double modulus(Complex z) {
   constexpr double least = 1e-290;
   constexpr double largest = 1e290;
@@ -27,7 +27,7 @@ using ComplexVector = Eigen::VectorXcd;
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// The lower triangle of a Hermitian matrix, columns sorted, every diagonal entry stored (first in its column).
 using HermitianMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
-/// How much a triangle counts: 1, or 1/2 as one of the four triangles of a quad with both splits (quad_splits.h), so
+/// The weight of a triangle: 1, or 1/2 for each of the four triangles of a quad with both splits (quad_splits.h), so
 /// that the quad counts once.
 class TriangleWeight {
  public:
@@ -42,14 +42,14 @@ class TriangleWeight {
 constexpr TriangleWeight whole_triangle(false);
 constexpr TriangleWeight split_of_quad(true);
 
-/// Vertices in the order of the walk; the surface lies to the left, the last vertex is joined to the first.
+/// Vertices in walking order, with the surface on the left; an edge joins the last vertex to the first.
 using BoundaryLoop = std::vector<int>;
 /// Position in the plane, u + i v, per pinned vertex.
 using Pins = std::map<int, Complex>;
-/// Pins on face corners, as a UV map has them, in the caller's arrays. Nothing is owned.
+/// Pins on face corners, as in a UV map, in the caller's arrays; owns nothing.
 struct CornerPins {
   const bool* pinned = nullptr;  ///< (C,) or null for no pins
-  const double* uv = nullptr;    ///< (C, 2) the map so far; finite at pinned corners
+  const double* uv = nullptr;    ///< (C, 2) the current map; finite at pinned corners
 };
 
 }  // namespace spectral_conformal

@@ -12,7 +12,7 @@
 namespace spectral_conformal {
 
 ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost) {
-  // Enough subtrees for sixteen threads to end at about the same time.
+  // Enough subtrees for sixteen threads to finish at about the same time.
   constexpr double subtrees = 64;
   const int n = static_cast<int>(parent.size());
   std::vector<double> below = cost;  // of the subtree
@@ -20,7 +20,7 @@ ForestSchedule::ForestSchedule(const std::vector<int>& parent, const std::vector
     if (parent[node] >= 0) below[parent[node]] += below[node];
     cost_ += cost[node];
   }
-  // The node that names the task: of a cheap subtree its root.
+  // The node that represents the task: for a cheap subtree its root.
   std::vector<int> head(n);
   std::iota(head.begin(), head.end(), 0);
   for (int node = n - 1; node >= 0; --node) {
@@ -89,7 +89,7 @@ class ForestRun {
       } else {
         for (const int child : schedule_.children_[task]) release(child);
       }
-      // One is for this thread; the others wake where there is more, or nothing any more.
+      // This thread takes one task. Wake the others if there are more, or none left at all.
       if (ready_.size() > 1 || n_left_ == 0 || failure_) changed_.notify_all();
     }
   }
@@ -98,7 +98,7 @@ class ForestRun {
   }
 
  private:
-  /// Until there is a task, or none any more.
+  /// Waits until there is a task, or none left at all.
   void wait(std::unique_lock<std::mutex>& lock) {
     const auto is_over = [this] { return n_left_ == 0 || failure_; };
     if (!Listening::has_listener()) {

@@ -7,20 +7,20 @@
 namespace spectral_conformal {
 
 /// The order in which several threads traverse a forest, from the leaves to the roots or back: cheap subtrees as a
-/// whole, the nodes above them one by one, those with the most expensive path to the root first. Idle threads sleep.
+/// whole, the nodes above them one by one, most expensive path to the root first. Idle threads sleep.
 class ForestSchedule {
  public:
   ForestSchedule() = default;
-  /// parent (n,): greater than the node, -1 for a root. cost (n,): of each node, not negative, in any unit.
+  /// parent: (n,), greater than the node, -1 for a root. cost: (n,), per node, nonnegative, in any unit.
   ForestSchedule(const std::vector<int>& parent, const std::vector<double>& cost);
 
   /// Calls work(node) for every node, after all of its children, in up to `threads` threads including the caller's, or
-  /// fewer if the system has no more. Later calls see what earlier ones wrote. After a call has thrown no other subtree
-  /// begins, and its exception is thrown here when all have ended. While the caller's thread is idle it asks its
-  /// Listening; it leaves tasks of long_cost to other idle threads.
+  /// fewer if the system has no more. Later calls see what earlier ones wrote. After a call throws, no other subtree
+  /// begins; once all have ended, the exception is rethrown. While the caller's thread is idle, it asks its Listening;
+  /// it leaves tasks of long_cost to other idle threads.
   void run_up(unsigned threads, const std::function<void(int node)>& work,
               double long_cost = std::numeric_limits<double>::infinity()) const;
-  /// The same, each node after its parent.
+  /// The same, with each node after its parent.
   void run_down(unsigned threads, const std::function<void(int node)>& work) const;
 
   double cost() const { return cost_; }  ///< of all nodes
@@ -35,8 +35,8 @@ class ForestSchedule {
   std::vector<int> nodes_;                  ///< of each task, ascending
   std::vector<int> parent_;                 ///< of each task, a task or -1
   std::vector<std::vector<int>> children_;  ///< of each task, tasks
-  std::vector<double> way_up_;              ///< cost of a task, all below it and all on its path to the root
-  std::vector<double> below_;               ///< cost of a task and all below it
+  std::vector<double> way_up_;              ///< cost of a task, of all below it and of its path to the root
+  std::vector<double> below_;               ///< cost of a task and of all below it
   std::vector<double> task_cost_;
 };
 

@@ -15,8 +15,8 @@ HelperThreads::HelperThreads(unsigned count, const std::function<void()>& work) 
   try {
     const auto as_caller = [this, work, limit = ThreadLimit::current(), counter = WorkCounter::current(),
                             listening = Listening::current()] {
-      // The C++ library takes its memory for exceptions of a thread when the first is thrown there, and where that is
-      // for want of memory, the C library ends the process: it takes it here.
+      // The C++ library allocates a thread's exception memory at the first throw. If that throw is due to a lack of
+      // memory, the C library ends the process. So allocate it here.
       static_cast<void>(std::current_exception());
       const ThreadBudget::Share::Member member(share_);
       const ThreadLimit of_caller(limit);

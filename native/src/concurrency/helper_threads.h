@@ -8,8 +8,8 @@
 
 namespace spectral_conformal {
 
-/// Threads beside the caller's, with its ThreadLimit and WorkCounter, that all do the same work; joined by the
-/// destructor. There are fewer, or none, if the ThreadBudget, the system or the memory has no room for more: the caller
+/// Threads beside the caller's that all do the same work, with the caller's ThreadLimit and WorkCounter; the destructor
+/// joins them. There may be fewer, or none, if the ThreadBudget, the system or the memory allows no more: the caller
 /// must be able to do all of the work.
 class HelperThreads {
  public:

@@ -8,7 +8,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double usual_interval = std::chrono::nanoseconds(Listening::interval).count();
-/// Work may take this many times as long as it says before the listener is asked late.
+/// Work may take this many times its estimate before the listener is asked late.
 constexpr double looks_in_interval = 16;
 
 std::atomic<double> interval_of_test{0};  ///< of work, in nanoseconds; 0 for none
@@ -16,9 +16,9 @@ std::atomic<double> interval_of_test{0};  ///< of work, in nanoseconds; 0 for no
 struct Ear {
   Listening* own = nullptr;
   Listening* other = nullptr;  ///< of the thread that this one works for
-  // Since the listener was asked:
+  // Since the listener was last asked:
   double worked = 0;
-  double next_look = 0;  ///< at the clock, when so much is done
+  double next_look = 0;  ///< at the clock, when this much work is done
   Clock::time_point asked;
   double longest_silence = 0;  ///< of work
 
@@ -69,7 +69,7 @@ bool Listening::hear(double fraction, const char* phase) {
     is_cancelled_ = true;
     throw;
   }
-  ear.begin_interval();  // from the end of what the listener does
+  ear.begin_interval();  // starts when the listener returns
   return !is_cancelled_;
 }
 

@@ -11,33 +11,34 @@
 
 namespace spectral_conformal {
 
-/// While it lives, long work of the thread that made it can be canceled by a progress function even where it reports no
-/// progress itself: `still_working` repeats the last report, and threads that work for this one see a cancellation
-/// there. An inner object replaces the outer one.
+/// While it lives, a progress function can cancel long work of the creating thread even where the work reports no
+/// progress: `still_working` repeats the last report, and threads that work for this one see the cancellation there. An
+/// inner object replaces the outer one.
 class Listening {
  public:
-  /// How often the listener is asked, by work or by time. A listener in Python waits up to 5 ms for the interpreter's
-  /// lock while another thread is busy.
+  /// How often the listener is asked, in work or time. A Python listener waits up to 5 ms for the interpreter lock
+  /// while another thread is busy.
   static constexpr std::chrono::milliseconds interval{40};
 
-  /// progress: must outlive the object; where it is empty, nothing changes. phase: until the first report, with 0.
+  /// progress: must outlive the object; if empty, nothing changes. phase: reported with fraction 0 until the first
+  /// report.
   Listening(const Progress& progress, const char* phase);
   ~Listening();
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
 
-  /// Report to this one instead of the one that was given.
+  /// Report to this function instead of the given one.
   const Progress& progress() const { return heard_; }
 
   /// Asks the listener of this thread now, if it has one. Throws Cancelled, or what the listener throws.
   static void ask();
   /// Whether this thread has a listener of its own.
   static bool has_listener();
-  /// Whether that of this thread, or of the one that it works for, has ended the work.
+  /// Whether the listener of this thread, or of the thread that it works for, has canceled the work.
   static bool is_cancelled();
-  /// Throws what ended the work, if the listener of this thread has done that.
+  /// If the listener of this thread ended the work, throws the reason.
   static void rethrow();
-  /// That of this thread, or of the one that it works for; null for none.
+  /// The listener of this thread, or of the thread that it works for; null for none.
   static Listening* current();
 
   /// While it lives, the calling thread sees the cancellation of another.
@@ -67,20 +68,20 @@ class Listening {
 };
 
 /// For tests: sets the interval of work, in nanoseconds, for threads that begin to listen from now on; they then ignore
-/// the clock. Returns the previous one; 0 stands for the usual one.
+/// the clock. Returns the previous interval; 0 means the default.
 double exchange_listening_interval(double nanoseconds);
-/// The one in use.
+/// The interval in use.
 double listening_interval();
-/// For tests: the most work, in nanoseconds, that this thread has reported between two calls of a listener. Resets it.
+/// For tests: the most work, in nanoseconds, that this thread reported between two calls of a listener. Resets it.
 double take_longest_silence();
 
-/// Reports that this thread has worked for about so long since its last report. The listener is asked after each
-/// Listening::interval of such work, and earlier where the clock says that it is due: the first use of new memory,
-/// above all, may take many times as long. Cheap. Throws as Listening::ask does, so call it where nothing is half done.
+/// Reports about how long this thread has worked since its last report. The listener is asked after each
+/// Listening::interval of such work, or earlier if the clock says so: the first use of new memory, above all, may take
+/// many times as long. Cheap. Throws as Listening::ask does, so call it where nothing is half done.
 void still_working(double nanoseconds);
 
-/// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: about what each takes, which is reported
-/// between blocks of them. Throws as still_working does.
+/// Calls work(i) once for every i from 0 to n - 1, in this order. nanoseconds: the approximate time of each call,
+/// reported between blocks of calls. Throws as still_working does.
 template <class Index, class Work>
 void for_each_heard(Index n, double nanoseconds, const Work& work) {
   constexpr Index at_once = 8192;
@@ -92,13 +93,13 @@ void for_each_heard(Index n, double nanoseconds, const Work& work) {
   }
 }
 
-/// The same where each takes a few dozens of nanoseconds, as a triangle or an edge of which some numbers are computed.
+/// The same for calls of a few dozen nanoseconds, such as computing some numbers of a triangle or an edge.
 template <class Index, class Work>
 void for_each_heard(Index n, const Work& work) {
   for_each_heard(n, 50, work);
 }
 
-/// A copy of large elements, made so.
+/// Copies large elements in this way.
 template <class T>
 std::vector<T> heard_copy(const std::vector<T>& elements) {
   std::vector<T> result;

@@ -14,7 +14,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The calls that are left, and what became of the others.
+/// The remaining calls, and the outcome of the others.
 class SharedCalls {
  public:
   SharedCalls(int n, const std::function<void(int, const Progress&)>& work)
@@ -35,7 +35,7 @@ class SharedCalls {
   }
   bool is_cancelled() const { return cancelled_; }
   void cancel() { cancelled_ = true; }
-  /// Calls begin in their order, and none that has begun is left out: those before a failed one all were made.
+  /// Calls begin in order and always finish, so all calls before a failed one were made.
   void rethrow_first() const {
     for (const std::exception_ptr& failure : failures_) {
       if (failure) std::rethrow_exception(failure);
@@ -48,7 +48,7 @@ class SharedCalls {
   std::vector<std::exception_ptr> failures_;
   std::atomic<int> next_{0};
   std::atomic<bool> has_failed_{false};
-  std::atomic<bool> cancelled_{false};  ///< calls that go on hear of it; of failures they do not
+  std::atomic<bool> cancelled_{false};  ///< running calls see a cancellation, but not a failure
 };
 
 /// Threads that take calls until none is left.
@@ -75,7 +75,7 @@ class Helpers {
   std::mutex mutex_;
   std::condition_variable ended_;
   std::size_t n_ended_ = 0;
-  HelperThreads threads_;  ///< last: they use what stands above
+  HelperThreads threads_;  ///< last: they use the members above
 };
 
 }  // namespace

@@ -9,32 +9,32 @@
 
 namespace spectral_conformal {
 
-/// The one rule for sharing: threads are begun for pieces of at least this work, which takes twenty times as long as to
-/// begin one.
+/// The one rule for sharing work: a thread is started only for at least this much work, twenty times the cost of
+/// starting it.
 constexpr double shared_nanoseconds = 1e6;
 
 constexpr unsigned all_threads = std::numeric_limits<unsigned>::max();
 
-/// The threads that work of this size is worth.
+/// How many threads work of this size justifies.
 inline unsigned max_threads_for(double nanoseconds) { return nanoseconds < 2 * shared_nanoseconds ? 1 : all_threads; }
 
-/// Calls work(i, progress) once for every i from 0 to n - 1, in as many threads as the caller's part of the
-/// ThreadBudget allows, at most max_threads including the caller's. The calls must not depend on each other.
-/// `progress` is called in the caller's thread only, also while that waits for the others, with fractions that never
-/// fall. Once it returned false or threw it is not called again, and the function that the work gets stops all threads.
-/// Where `progress` is empty, the caller's Listening is asked instead. Throws Cancelled or what `progress` threw, and
-/// otherwise what the first failed call threw.
+/// Calls work(i, progress) once for every i from 0 to n - 1, in as many threads as the caller's share of the
+/// ThreadBudget allows, at most max_threads including the caller's. The calls must be independent. `progress` is called
+/// only in the caller's thread, also while that waits for the others, with fractions that never fall. Once it returns
+/// false or throws, it is not called again, and the progress function passed to the work stops all threads. If
+/// `progress` is empty, the caller's Listening is asked instead. Throws Cancelled or what `progress` threw; otherwise
+/// what the first failed call threw.
 void run_in_parallel(int n, const std::function<void(int i, const Progress& progress)>& work, const Progress& progress,
                      const char* phase_of_waiting, unsigned max_threads = all_threads);
 
-/// Makes a call that may take long and reports nothing, such as one of another library: in a helper thread while the
+/// Makes a long call that reports no progress, such as one into another library. It runs in a helper thread while the
 /// caller's thread asks its Listening, or in the caller's thread if the call is short, nobody listens or the
-/// ThreadBudget has no thread left. nanoseconds: about what it takes. Waits for its end even after a cancellation.
-/// Throws what the listener or the call throws.
+/// ThreadBudget has no thread left. nanoseconds: its approximate time. Waits for the end of the call even after a
+/// cancellation. Throws what the listener or the call throws.
 void call_while_listening(double nanoseconds, const std::function<void()>& call);
 
-/// Calls work(begin, end) once for every block of the numbers from 0 to n - 1, as run_in_parallel does; where there is
-/// one block, in the caller's thread. nanoseconds: about what each number takes, 1 or more. A block takes
+/// Calls work(begin, end) once for every block of the numbers from 0 to n - 1, as run_in_parallel does; a single block
+/// runs in the caller's thread. nanoseconds: the approximate time per number, 1 or more. A block takes
 /// shared_nanoseconds, or is one number; the caller's Listening is asked between blocks.
 template <class Index, class Work>
 void run_blocks_in_parallel(Index n, double nanoseconds, const Work& work) {

@@ -10,7 +10,7 @@ namespace spectral_conformal {
 namespace {
 
 struct Process {
-  std::mutex mutex;  ///< for what follows, and for the numbers of helpers in shares
+  std::mutex mutex;  ///< guards the following, and the helper counts in shares
   unsigned n_callers = 0;
   unsigned n_helpers = 0;
   std::atomic<unsigned> pretended_cores{0};
@@ -55,7 +55,7 @@ ThreadBudget::Share::Share(unsigned wanted) {
   caller_ = outer_ ? outer_->caller_ : this;
   total_ = available();
   if (!outer_) total_ = std::min(total_, std::max(1U, cores() / ++all.n_callers));
-  // More than its part it does not get, nor what others hold of the caller's or of the process's.
+  // A share gets at most its part, less what others hold of the caller's part or of the process's cores.
   size_ = std::min({wanted, rest_of(total_, 1), rest_of(caller_->total_, 1 + caller_->n_of_caller_),
                     rest_of(cores(), all.n_callers + all.n_helpers)});
   all.n_helpers += size_;

@@ -4,18 +4,18 @@
 
 namespace spectral_conformal {
 
-/// Divides the cores among the threads of the process. A call divides its part among the threads that it begins, these
-/// divide theirs again where they share calls of their own, and calls made at the same time divide the cores. A thread
-/// that has ended leaves its part to those that work for the same caller.
+/// Divides the cores among the threads of the process. Concurrent calls divide the cores. A call divides its part among
+/// the threads that it starts; these divide theirs again when they share work of their own. A thread that ends leaves
+/// its part to the threads that work for the same caller.
 class ThreadBudget {
  public:
-  /// How many threads a call of this thread may use, including this one: its part of the cores, or of its ThreadLimit
-  /// if that is less.
+  /// How many threads a call from this thread may use, including this one: its part of the cores, or of its ThreadLimit
+  /// if that is smaller.
   static unsigned available();
-  /// Threads that were begun and not yet joined, in the whole process.
+  /// Threads that were started and not yet joined, in the whole process.
   static unsigned n_helpers();
 
-  /// For tests: while it lives, the process acts as if it had this many cores; 0 for those of the machine.
+  /// For tests: while it lives, the process acts as if it had this many cores; 0 for the machine's.
   class Pretended {
    public:
     explicit Pretended(unsigned cores) : before_(exchange_cores(cores)) {}
@@ -26,22 +26,22 @@ class ThreadBudget {
    private:
     unsigned before_;
   };
-  /// The same until it is set again. Returns the previous number.
+  /// The same until the next call. Returns the previous number.
   static unsigned exchange_cores(unsigned cores);
   static unsigned cores();
 
-  /// The helpers of a thread while the object lives. The thread that made it destroys it, after it joined the helpers
-  /// and in reverse order of construction.
+  /// The helpers of a thread while the object lives. The thread that created it must destroy it after joining the
+  /// helpers, in reverse order of construction.
   class Share {
    public:
-    /// wanted: helpers; there may be fewer, or none.
+    /// wanted: the number of helpers; there may be fewer, or none.
     explicit Share(unsigned wanted);
     ~Share();
     Share(const Share&) = delete;
     Share& operator=(const Share&) = delete;
 
     unsigned size() const { return size_; }
-    /// Gives helpers back that could not be begun.
+    /// Returns helpers that could not be started.
     void shrink(unsigned size);
 
     /// Held by each helper while it works.
@@ -61,9 +61,9 @@ class ThreadBudget {
     unsigned each() const;
     void give_back(unsigned n);
 
-    Share* outer_ = nullptr;  ///< that this thread has a part of; null for a caller's own
+    Share* outer_ = nullptr;  ///< of which this thread has a part; null for a caller's own
     Share* caller_ = nullptr;
-    unsigned total_ = 1;  ///< for the helpers and the thread that has them
+    unsigned total_ = 1;  ///< for the helpers and the thread that owns them
     unsigned size_ = 0;
     std::atomic<unsigned> at_work_{1};
     unsigned n_of_caller_ = 0;  ///< helpers in all shares within the caller's

@@ -5,7 +5,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Each thread sees its own only, so that no call depends on what another thread does.
+/// Per thread, so that no call depends on another thread.
 thread_local unsigned limit_of_thread = 0;
 
 }  // namespace

@@ -5,19 +5,19 @@
 
 namespace spectral_conformal {
 
-/// What factorizations and searches cost: the same on every machine, however busy, for one SuiteSparse. The tests hold
-/// the speed of the module as it ships to these.
+/// The cost of factorizations and searches in operations: for a given SuiteSparse the same on every machine, however
+/// busy. The tests bound these counts for the module as shipped.
 struct WorkCounts {
   std::uint64_t analyses = 0;
   std::uint64_t factorizations = 0;
-  std::uint64_t solves = 0;           ///< whole ones, or forward and backward parts of one
-  std::uint64_t multiplications = 0;  ///< of supernodal factorizations, four for one of complex numbers
-  std::uint64_t solve_doubles = 0;    ///< of supernodal factors, read in solves
-  std::uint64_t steps = 0;            ///< corners, edges and list entries that the search for seams looks at
+  std::uint64_t solves = 0;           ///< whole solves, or forward and backward parts of one
+  std::uint64_t multiplications = 0;  ///< of supernodal factorizations; a complex one counts as four
+  std::uint64_t solve_doubles = 0;    ///< read from supernodal factors in solves
+  std::uint64_t steps = 0;            ///< corners, edges and list entries visited by the seam search
 };
 
-/// While it lives, it counts what is done by the thread that made it and by the threads that the library starts for
-/// that one, in place of a counter that counted there before. Nothing that is computed depends on it.
+/// While it lives, it counts the work of the thread that created it and of the threads that the library starts for that
+/// thread, replacing an earlier counter. No result depends on it.
 class WorkCounter {
  public:
   WorkCounter() : share_(this) {}
@@ -27,9 +27,9 @@ class WorkCounter {
   WorkCounts counts() const;
   void add(const WorkCounts& more);
 
-  /// That of the calling thread, or null.
+  /// The counter of the calling thread, or null.
   static WorkCounter* current();
-  /// Lets the calling thread count for a counter, or with null for none, while it lives.
+  /// While it lives, the calling thread counts for the given counter, or for none if null.
   class Share {
    public:
     explicit Share(WorkCounter* counter);
@@ -44,10 +44,10 @@ class WorkCounter {
  private:
   mutable std::mutex mutex_;
   WorkCounts counts_;
-  Share share_;  ///< last: from then on it counts
+  Share share_;  ///< last: counting starts here
 };
 
-/// For the calling thread's counter, if it has one.
+/// These add to the calling thread's counter, if any.
 void count_analysis();
 void count_factorization(double multiplications);
 void count_solve(double doubles);

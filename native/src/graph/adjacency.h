@@ -8,20 +8,21 @@
 
 namespace spectral_conformal {
 
-/// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by the node that they leave. The arcs of a node keep the
-/// order in which they were given.
+/// The arcs of a graph on the nodes 0, 1, ..., n - 1, grouped by source node. The arcs of a node keep their input
+/// order.
 class Adjacency {
  public:
-  /// An edge as it leaves a node.
+  /// An edge as seen from a node that it leaves.
   struct Arc {
     int edge;
     int to;
   };
 
   Adjacency() = default;
-  /// An undirected graph: edge e (E, 2) gives an arc in either direction, both with the number e.
+  /// An undirected graph with edges (E, 2): edge e yields an arc in either direction, both numbered e.
   Adjacency(int n_nodes, const std::vector<std::array<int, 2>>& edges);
-  /// `for_each_arc(visit)` calls visit(from, edge, to) for every arc. It is called twice and must visit alike.
+  /// `for_each_arc(visit)` calls visit(from, edge, to) for every arc. It is called twice and must visit the same arcs
+  /// in the same order.
   template <class ForEachArc>
   static Adjacency from_arcs(int n_nodes, const ForEachArc& for_each_arc);
 
@@ -45,8 +46,8 @@ Adjacency Adjacency::from_arcs(int n_nodes, const ForEachArc& for_each_arc) {
   return graph;
 }
 
-/// The graph of a matrix's pattern (compressed, the lower triangle): an edge for every entry below the diagonal, with
-/// its index among the values as its number.
+/// The graph of a matrix pattern (compressed, lower triangle): one edge per entry below the diagonal, numbered by its
+/// index among the values.
 Adjacency graph_of(const HermitianMatrix& matrix);
 
 }  // namespace spectral_conformal

@@ -5,14 +5,14 @@
 namespace spectral_conformal {
 
 /// A partition of 0, 1, ..., n - 1 that only grows coarser (union-find with path halving; Tarjan and van Leeuwen 1984).
-/// Each set is named by one of its elements, its root. Not boost::disjoint_sets, which names a set by rank: here the
-/// root is the smallest element, whatever the order of the unions, or the one that the caller says, and results that
-/// are numbered by roots do not depend on that order.
+/// Each set is represented by one of its elements, its root: the smallest element, or the one chosen by the caller. Not
+/// boost::disjoint_sets, whose roots depend on rank: here results numbered by roots do not depend on the order of the
+/// unions.
 class DisjointSets {
  public:
   /// n sets of one element each.
   explicit DisjointSets(int n);
-  /// The root of the set that `element` is in.
+  /// The root of the set of `element`.
   int find(int element) {
     while (parent_[element] != element) {
       parent_[element] = parent_[parent_[element]];
@@ -20,7 +20,7 @@ class DisjointSets {
     }
     return element;
   }
-  /// Unites the sets of two elements; the smaller root becomes the root. False where they are one set already.
+  /// Unites the sets of two elements; the smaller root becomes the root. Returns false if they are one set already.
   bool unite(int a, int b) {
     a = find(a);
     b = find(b);
@@ -31,7 +31,7 @@ class DisjointSets {
     }
     return a != b;
   }
-  /// Puts the set of the root `child` under the root `root`, which names both from then on.
+  /// Attaches the set of the root `child` to the root `root`, which then represents both.
   void attach(int child, int root) { parent_[child] = root; }
 
  private:

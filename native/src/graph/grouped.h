@@ -6,8 +6,7 @@
 
 namespace spectral_conformal {
 
-/// Values grouped by keys from 0 to n_keys - 1 (compressed sparse rows). Those of a key keep the order in which they
-/// were given.
+/// Values grouped by keys from 0 to n_keys - 1 (compressed sparse rows). The values of a key keep their input order.
 template <class T>
 class Grouped {
  public:
@@ -22,7 +21,8 @@ class Grouped {
   };
 
   Grouped() = default;
-  /// `for_each(visit)` calls visit(key, value) for every value. It is called twice and must visit alike.
+  /// `for_each(visit)` calls visit(key, value) for every value. It is called twice and must visit the same values in
+  /// the same order.
   template <class ForEach>
   Grouped(int n_keys, const ForEach& for_each) : start_(static_cast<std::size_t>(n_keys) + 1, 0) {
     for_each([&](int key, const T&) { ++start_[static_cast<std::size_t>(key) + 1]; });
@@ -33,7 +33,7 @@ class Grouped {
   }
 
   int n_keys() const { return static_cast<int>(start_.size()) - 1; }
-  /// All of them, key by key.
+  /// All values, key by key.
   const std::vector<T>& values() const { return values_; }
   /// The values [first(key), first(key + 1)) belong to the key.
   int first(int key) const { return start_[key]; }

@@ -1,7 +1,7 @@
 #include "graph/maximum_flow.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
-// Boost's iterators and edge descriptors are assigned after their construction, which GCC cannot follow.
+// Boost assigns iterators and edge descriptors after their construction, which GCC cannot follow.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
@@ -15,8 +15,8 @@
 namespace spectral_conformal {
 namespace {
 
-// Flow is counted in integers: sums of doubles would leave residuals of rounding, by which the source would seem to
-// reach what a minimum cut parts from it.
+// Flow is integral: rounding residuals of sums of doubles would let the source seem to reach nodes beyond a minimum
+// cut.
 using Amount = std::int64_t;
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
 
@@ -44,8 +44,8 @@ void connect(FlowGraph& graph, int a, int b, Amount capacity) {
 std::vector<char> min_cut_source_side(int n_nodes, const std::vector<CapacityEdge>& edges, int source, int sink) {
   double max_capacity = 0;
   for (const CapacityEdge& edge : edges) max_capacity = std::max(max_capacity, edge.capacity);
-  // The largest capacity is 2^40 units, so that edges of a regular mesh, as long as each other but for rounding
-  // (1e-12), carry the same amount; fewer where that keeps the sum of all below 2^61.
+  // The largest capacity is 2^40 units, so that edges of a regular mesh, equally long up to rounding (1e-12), carry the
+  // same amount; it is smaller where needed to keep the total below 2^61.
   const double n_units = std::min(std::ldexp(1.0, 40), std::ldexp(1.0, 61) / static_cast<double>(edges.size() + 1));
   const auto units = [&](double capacity) -> Amount {
     return max_capacity > 0 ? std::llround(capacity / max_capacity * n_units) : 0;

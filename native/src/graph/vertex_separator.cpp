@@ -9,7 +9,7 @@ namespace spectral_conformal {
 namespace {
 
 constexpr int none = -1;
-/// In place of a node before the first and after the last of a path.
+/// Stands for the node before the first and after the last of a path.
 constexpr int terminal = -2;
 
 /// Paths from sources to sinks that have no node in common. The residual network has two states of each node, entered
@@ -32,7 +32,7 @@ class DisjointPaths {
     }
   }
 
-  /// Whether there is room for more on the way there.
+  /// Whether the residual network has a path to the node.
   bool reaches(int node) const { return level_[entered(node)] >= 0; }
   bool passes(int node) const { return level_[left(node)] >= 0; }
 
@@ -52,16 +52,16 @@ class DisjointPaths {
     const int previous = previous_[node];
     if (!is_left(state)) {
       if (previous == terminal) return none;
-      return left(previous == none ? node : previous);  // takes the flow from there back
+      return left(previous == none ? node : previous);  // cancels the flow from there
     }
     if (k > 0) return entered(graph_.arc(graph_.first_arc(node) + k - 1).to);
-    return previous == none ? none : entered(node);  // lets the path go elsewhere
+    return previous == none ? none : entered(node);  // reroutes the path
   }
   bool is_end(int state) const {
     return is_left(state) && is_sink_[node_of(state)] && next_[node_of(state)] != terminal;
   }
 
-  /// Numbers the states by their distance from the sources, as far as the nearest end. False where none is reached.
+  /// Numbers the states by their distance from the sources, up to the nearest end. Returns false if no end is reached.
   bool find_levels() {
     std::fill(level_.begin(), level_.end(), none);
     queue_.clear();

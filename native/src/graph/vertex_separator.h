@@ -6,13 +6,13 @@
 
 namespace spectral_conformal {
 
-/// Where a node lies when a separator is taken away.
+/// The side of a node relative to a separator.
 enum class SeparatorSide : char { source, separator, sink };
 
-/// A smallest set of nodes that every walk from a source to a sink passes, and of each node its side, (n,): by Menger's
-/// theorem as many as there are paths without common nodes, found by blocking flows (Dinic 1970). A node that is source
-/// and sink is in every separator. Of several such sets it is the one nearest to the sources.
-/// is_source, is_sink: (n,), 0 or 1.
+/// The side (n,) of each node for a smallest vertex separator: a smallest set of nodes that meets every walk from a
+/// source to a sink. By Menger's theorem its size is the maximum number of disjoint paths, found by blocking flows
+/// (Dinic 1970). A node that is both source and sink is in every separator. Among the smallest ones this is the nearest
+/// to the sources. is_source, is_sink: (n,), 0 or 1.
 std::vector<SeparatorSide> smallest_vertex_separator(const Adjacency& graph, const std::vector<char>& is_source,
                                                      const std::vector<char>& is_sink);
 
