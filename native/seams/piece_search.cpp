@@ -215,8 +215,8 @@ PieceSeams PieceSearch::with_holes(const PieceSeams& filled, std::vector<SeamEdg
 
 /// Where the seams of a rigid unfolding are better than what was found, these.
 void PieceSearch::take_unfolded(double longest, const Progress& progress) {
-  // Where the length is limited, cuts come one by one.
-  if (std::isfinite(longest)) return;
+  // Where the length is limited, cuts come one by one. Large pieces are scans, whose graph is not made twice.
+  if (std::isfinite(longest) || is_large()) return;
   PieceSeams unfolded = priced(piece(), mirror());
   unfolded.forget_symmetry();
   std::vector<double> price = cost_factors_of(unfolded.graph(), piece());
