@@ -224,6 +224,10 @@ class _Drag:
         progress.show_status(context, texts.adjusting(number, note))
         editors.redraw(context)
 
+    def leaves(self, _context: bpy.types.Context, _event: bpy.types.Event) -> bool:
+        """Keep all events: the mouse drags wherever it is."""
+        return False
+
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Handle mouse movement, slower with Shift, and typed numbers; Enter or a click confirms."""
         if not self._bm.is_valid:

@@ -37,6 +37,9 @@ class Choice(Protocol):
     def begin(self, context: bpy.types.Context) -> None:
         """Show the choice."""
 
+    def leaves(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Return whether an event is for another part of the window, which then receives it."""
+
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Return {"FINISHED"} with an answer, {"RUNNING_MODAL"} for a handled event, else {"PASS_THROUGH"}."""
 
@@ -226,7 +229,9 @@ class JobOperator(ReportingOperator):
         if job.is_ended:
             return {"CANCELLED"}
         is_left = context.mode != "EDIT_MESH"
-        if job.choice is not None and not is_left:
+        if job.choice is not None and not is_left and event.type != "TIMER":
+            if job.choice.leaves(context, event):
+                return {"PASS_THROUGH"}
             status = job.choice.handle(context, event)
             if "FINISHED" in status:
                 answer = job.choice.answer

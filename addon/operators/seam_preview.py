@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
+from mathutils.bvhtree import BVHTree
 
 from .. import editors, user_preferences
 from ..core.layout.placement import place
@@ -17,9 +18,9 @@ from ..core.solve.solution import solve_all
 from ..core.solve.worker import Worker
 from ..core.words import texts
 from ..core.words.translation import translate
-from ..overlay import map_overlay
+from ..overlay import map_overlay, under_mouse
 from ..overlay.seam_lines import SeamLines
-from ..session import kept_maps
+from ..session import edit_meshes, kept_maps
 from ..ui.progress import HeaderText, clear_status, show_status
 from ..unwrapping.seams import Target
 
@@ -33,7 +34,13 @@ _LEAP = 0.1
 # Maps kept for the overlay, so that going back is fast and memory stays limited.
 _KEPT_MAPS = 8
 _SIGNS = {"+": 1, "-": -1}
-_APPLY = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
+_APPLY = {"RET", "NUMPAD_ENTER"}
+# Keys that the preview answers wherever the mouse is.
+_EVERYWHERE = {*_APPLY, "ESC"}
+# Keys of the 3D viewport that change the view only: standard views, the pie of views, sidebar and toolbar.
+_VIEW_KEYS = {*(f"NUMPAD_{n}" for n in range(10)), "NUMPAD_PERIOD", "ACCENT_GRAVE", "HOME", "N", "T"}
+# Pixels, times the scale of the interface: the corner of the viewport with the gizmos that move the view.
+_GIZMO_WIDTH, _GIZMO_HEIGHT = 100, 280
 
 
 def length_text(context: bpy.types.Context, length: float) -> str:
@@ -79,11 +86,21 @@ class SeamPreview:
         self._keys = HeaderText(context, translate(texts.PREVIEW_KEYS))
         self.change(context, 0)
 
+    def leaves(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Keep what happens over a 3D viewport, but for view keys and navigation gizmos; panels and editors work."""
+        if event.type in _EVERYWHERE:
+            return False
+        area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
+        if area is None or area.type != "VIEW_3D":
+            return True
+        is_key = event.type in _VIEW_KEYS and not (event.ctrl or event.alt)
+        return is_key or _is_on_gizmos(context, area, region, event)
+
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Handle the keys that change the number of cuts or end the choice."""
+        """Handle the keys that change the number of cuts or end the choice; a click on the mesh applies it."""
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
-        if event.type in _APPLY:
+        if event.type in _APPLY or (event.type == "LEFTMOUSE" and self._is_on_mesh(context, event)):
             return {"FINISHED"}
         step = self._step(event)
         if step and not event.ctrl:
@@ -142,6 +159,23 @@ class SeamPreview:
             self._overlaid = self.count
             map_overlay.preview(context, self._maps[self.count])
 
+    def _is_on_mesh(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Return whether the mouse is on one of the meshes in a 3D viewport."""
+        area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
+        if area is None or area.type != "VIEW_3D":
+            return False
+        points = under_mouse.ray(area, region, event.mouse_x - region.x, event.mouse_y - region.y)
+        for edit_mesh in self._target.edit_meshes:
+            edited = edit_mesh.edit_object
+            if abs(edited.matrix_world.determinant()) < 1e-30:
+                continue
+            inverse = edited.matrix_world.inverted()
+            start, end = (inverse @ point for point in points)
+            hit, *_ = BVHTree.FromBMesh(edit_meshes.keep(edited.data).bm).ray_cast(start, end - start)
+            if hit is not None:
+                return True
+        return False
+
     def _step(self, event: bpy.types.Event) -> int:
         """Return by how many cuts a key changes their number, 0 for other keys."""
         if event.type in _LEAPS:
@@ -169,6 +203,19 @@ class _Measured:
 
     quality: MapQuality
     maps: dict[str, np.ndarray]
+
+
+def _is_on_gizmos(
+    context: bpy.types.Context, area: bpy.types.Area, region: bpy.types.Region, event: bpy.types.Event
+) -> bool:
+    """Return whether the mouse is in the corner with the gizmos that move the view."""
+    space, scale = area.spaces.active, context.preferences.system.ui_scale
+    if not (space.show_gizmo and space.show_gizmo_navigate):
+        return False
+    # The sidebar covers the viewport's right side, and the gizmos keep left of it.
+    right = min([region.x + region.width, *(each.x for each in area.regions if each.type == "UI" and each.width > 1)])
+    top = region.y + region.height
+    return right - event.mouse_x < _GIZMO_WIDTH * scale and top - event.mouse_y < _GIZMO_HEIGHT * scale
 
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:

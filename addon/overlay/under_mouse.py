@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import bpy
 from bpy_extras import view3d_utils
+from mathutils import Vector
 
 from ..core.measure.map_view import MapView
 from . import map_overlay
@@ -25,12 +26,18 @@ def face_below(
     """Return the face at a point of a region, in pixels from its lower left corner; None for none."""
     if area.type == "IMAGE_EDITOR":
         return _in_uv_editor(context, region.view2d.region_to_view(x, y))
+    return _in_viewport(context, area.spaces.active, *ray(area, region, x, y))
+
+
+def ray(area: bpy.types.Area, region: bpy.types.Region, x: float, y: float) -> tuple[Vector, Vector]:
+    """Return the world positions of two points below a point of a 3D viewport, the first the nearer one."""
     # Regions of a quad view have their own view.
     view = area.spaces.active.region_3d
     if area.spaces.active.region_quadviews:
         quads = [each for each in area.regions if each.type == "WINDOW"]
         view = area.spaces.active.region_quadviews[quads.index(region)]
-    return _in_viewport(context, area.spaces.active, region, view, (x, y))
+    origin = view3d_utils.region_2d_to_origin_3d(region, view, (x, y))
+    return origin, origin + view3d_utils.region_2d_to_vector_3d(region, view, (x, y))
 
 
 def _in_uv_editor(context: bpy.types.Context, place: tuple[float, float]) -> FaceBelow | None:
@@ -44,12 +51,9 @@ def _in_uv_editor(context: bpy.types.Context, place: tuple[float, float]) -> Fac
 def _in_viewport(
     context: bpy.types.Context,
     space: bpy.types.SpaceView3D,
-    region: bpy.types.Region,
-    region_3d: bpy.types.RegionView3D,
-    place: tuple[float, float],
+    origin: Vector,
+    toward: Vector,
 ) -> FaceBelow | None:
-    origin = view3d_utils.region_2d_to_origin_3d(region, region_3d, place)
-    toward = origin + view3d_utils.region_2d_to_vector_3d(region, region_3d, place)
     nearest, found = float("inf"), None
     for shown, mesh, view in map_overlay.views(context):
         if not shown.visible_in_viewport_get(space) or abs(shown.matrix_world.determinant()) < 1e-30:

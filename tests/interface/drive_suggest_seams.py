@@ -154,6 +154,19 @@ def steps():
     yield from press("key", "ctrl+z", "key", "Tab", "key", "x")
     screenshot("suggest_seams_fewer")
     assert bpy.context.mode == "EDIT_MESH"
+    # Elsewhere Blender works, and nothing is applied: beside the mesh, in the sidebar, over the UV editor, by view keys.
+    point_at("VIEW_3D", 0.08, 0.1)
+    yield from press("click", 1)
+    yield from click_sidebar(TAB)
+    point_at("IMAGE_EDITOR")
+    yield from press("click", WHEEL_UP)
+    assert shown[0].count == fewer
+    point_at("VIEW_3D", 0.4, 0.3)
+    rotation = area_of("VIEW_3D").spaces.active.region_3d.view_rotation.copy()
+    yield from press("key", "KP_1")
+    yield from drive.until(lambda: area_of("VIEW_3D").spaces.active.region_3d.view_rotation != rotation)
+    assert shown
+    assert seams() == set()
     yield from press("key", "Escape")
     assert not shown
     assert (seams(), history()) == (set(), done)
@@ -171,6 +184,7 @@ def steps():
     assert shown[0].count == 4
     yield
     screenshot("suggest_seams_four")
+    point_at("VIEW_3D", 0.45, 0.5)
     yield from press("click", 1)
     yield from drive.until(lambda: history() != done)
     yield

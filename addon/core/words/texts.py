@@ -720,7 +720,7 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
     return sentence.format(n=count, cuts=cuts, length=length, total=total_length)
 
 
-PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click: Apply   Esc or right click: Cancel"
+PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mesh: Apply   Esc or right click: Cancel"
 
 
 def preview_status(known: str) -> str:

@@ -38,7 +38,12 @@ class Invoked:
             for name, function in vars(cls).items():
                 if type(function).__name__ == "function" and not name.startswith("__"):
                     setattr(self.operator, name, function.__get__(self.operator))
-        screen = SimpleNamespace(areas=[])
+        # One 3D viewport, without gizmos.
+        region = SimpleNamespace(type="WINDOW", x=0, y=0, width=800, height=600)
+        space = SimpleNamespace(show_gizmo=False)
+        spaces = SimpleNamespace(active=space)
+        view = SimpleNamespace(type="VIEW_3D", regions=[region], spaces=spaces, tag_redraw=lambda: None)
+        screen = SimpleNamespace(areas=[view])
         window = SimpleNamespace(screen=screen) if has_window else None
         manager = SimpleNamespace(
             windows=[window] if has_window else [],
@@ -58,6 +63,7 @@ class Invoked:
             objects_in_mode_unique_data=bpy.context.objects_in_mode_unique_data,
             workspace=SimpleNamespace(status_text_set=self.status.append, name="Workspace"),
             screen=screen,
+            preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
             temp_override=_override,
             window_manager=manager,
         )
@@ -87,7 +93,9 @@ class Invoked:
 
     def event(self, kind="MOUSEMOVE", value="NOTHING", **others):
         place = {"mouse_x": 0, "mouse_y": 0}
-        return SimpleNamespace(**{"type": kind, "value": value, "ascii": "", "ctrl": False, **place, **others})
+        return SimpleNamespace(
+            **{"type": kind, "value": value, "ascii": "", "ctrl": False, "alt": False, **place, **others}
+        )
 
     def send(self, kind, value="PRESS", **others):
         self.result = self.operator.modal(self.context, self.event(kind, value, **others))

@@ -9,6 +9,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+from mathutils import Vector
 
 from tests.blender.inside import jobs, scenes
 
@@ -516,7 +517,7 @@ def test_escape_during_the_unwrap_leaves_everything(previewed, monkeypatch):
     worker = module("core.solve.worker").Worker
     # A solve that has not ended when the event comes.
     monkeypatch.setattr(worker, "wait", lambda _self, _seconds: False)
-    assert preview.send("LEFTMOUSE") == {"RUNNING_MODAL"}
+    assert preview.send("RET") == {"RUNNING_MODAL"}
     assert preview.send("ESC") == {"CANCELLED"}
     monkeypatch.undo()
     assert scenes.state(head) == before
@@ -558,8 +559,43 @@ def test_meshes_that_changed_meanwhile_are_left_alone(previewed):
 def test_view_navigation_goes_on(previewed):
     _, _, _, preview = previewed
     assert preview.send("MIDDLEMOUSE") == {"PASS_THROUGH"}
-    assert preview.send("WHEELUPMOUSE", ctrl=True) == {"PASS_THROUGH"}
+    assert preview.send("WHEELUPMOUSE", ctrl=True, mouse_x=900) == {"PASS_THROUGH"}
     assert preview.send("X", ascii="x") == {"RUNNING_MODAL"}
+
+
+def test_panels_other_editors_and_view_keys_work_during_the_preview(previewed):
+    _, _, _, preview = previewed
+    total = preview.choice.count
+    for event in ("LEFTMOUSE", "RIGHTMOUSE", "WHEELDOWNMOUSE", "X"):
+        assert preview.send(event, mouse_x=900) == {"PASS_THROUGH"}
+    for key in ("NUMPAD_1", "NUMPAD_PERIOD", "ACCENT_GRAVE", "N", "T"):
+        assert preview.send(key) == {"PASS_THROUGH"}
+    view = preview.context.screen.areas[0]
+    view.spaces.active.show_gizmo = view.spaces.active.show_gizmo_navigate = True
+    assert preview.send("LEFTMOUSE", mouse_x=790, mouse_y=590) == {"PASS_THROUGH"}
+    view.regions.append(SimpleNamespace(type="UI", x=600, y=0, width=200, height=600))
+    assert preview.send("LEFTMOUSE", mouse_x=590, mouse_y=590) == {"PASS_THROUGH"}
+    assert preview.send("WHEELDOWNMOUSE", mouse_x=650) == {"PASS_THROUGH"}
+    assert preview.is_running
+    assert preview.choice.count == total
+    assert preview.send("WHEELDOWNMOUSE", mouse_x=100) == {"RUNNING_MODAL"}
+    assert preview.choice.count == total - 1
+    # Enter and Esc are for the preview wherever the mouse is.
+    assert preview.send("ESC", mouse_x=900) == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("is_on_mesh", [False, True])
+def test_a_click_applies_on_the_mesh_only(previewed, monkeypatch, is_on_mesh):
+    head, _, _, preview = previewed
+    under_mouse = module("overlay.under_mouse")
+    center = head.matrix_world.translation
+    target = center if is_on_mesh else center + Vector((0.0, 0.0, 100.0))
+    away = Vector((0.0, -50.0, 0.0))
+    monkeypatch.setattr(under_mouse, "ray", lambda *_: (target + away, target))
+    preview.send("LEFTMOUSE")
+    preview.wait()
+    assert preview.result == ({"FINISHED"} if is_on_mesh else {"RUNNING_MODAL"})
+    preview.send("ESC")
 
 
 def test_leaving_edit_mode_ends_the_preview(previewed):
