@@ -90,7 +90,7 @@ def pack(native: Path, version: str, folder: Path) -> Path:
     """Make a wheel of the one for this Python with another extension module in it; return it."""
     own_tag = packaging.python_tag(wheel())
     with wheels.unpacked(wheel(), folder) as content:
-        (own,) = content.glob("spectral_conformal/_native*")
+        (own,) = content.glob("spectral_conformal/_native*.so")
         own.unlink()
         shutil.copy2(native, own.parent)
         (information,) = content.glob("*.dist-info/WHEEL")

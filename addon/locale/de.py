@@ -572,7 +572,8 @@ TEXTS = {
     "{cuts}, length {length}": "{cuts}, Länge {length}",
     "{n} of {cuts}, length {length} of {total}": "{cuts}, davon gezeigt: {n}, Länge {length} von {total}",
     "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mesh: Apply   Esc or right click: Cancel": (
-        "Mausrad, +/-, Bild auf/ab: Weniger oder mehr   Eingabe oder Klick auf das Netz: Anwenden   Esc oder Rechtsklick: Abbrechen"
+        "Mausrad, +/-, Bild auf/ab: Weniger oder mehr   Eingabe oder Klick auf das Netz: Anwenden   "
+        "Esc oder Rechtsklick: Abbrechen"
     ),
     "{operator}: {known}   {keys}": "{operator}: {known}   {keys}",
     "{percent} of the surface within {factor} times the median scale (now {now})": (

@@ -154,7 +154,7 @@ def steps():
     yield from press("key", "ctrl+z", "key", "Tab", "key", "x")
     screenshot("suggest_seams_fewer")
     assert bpy.context.mode == "EDIT_MESH"
-    # Elsewhere Blender works, and nothing is applied: beside the mesh, in the sidebar, over the UV editor, by view keys.
+    # Elsewhere Blender works, and nothing is applied: beside the mesh, in the sidebar, over the UV editor.
     point_at("VIEW_3D", 0.08, 0.1)
     yield from press("click", 1)
     yield from click_sidebar(TAB)
