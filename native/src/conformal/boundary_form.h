@@ -19,7 +19,7 @@ struct BoundaryForm {
   double value(const ComplexVector& z) const;
 };
 
-/// The form of a boundary loop. Vertices whose two boundary edges have no length get no mass.
+/// The form of a boundary loop. Vertices whose two boundary edges have length 0 get no mass.
 BoundaryForm boundary_form(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions,
                            BoundaryMeasure measure);
 

@@ -11,14 +11,14 @@
 namespace spectral_conformal {
 namespace {
 
-/// The inverse-area weights of triangles that are tiny or thin beyond this, or both, are held back, so that no entry of
-/// L grows beyond it, relative to the mean triangle's. Beyond about 1e13 rounding breaks the factorisation.
+/// Limits the inverse-area weights of tiny or thin triangles so that no entry of L exceeds this, relative to the mean
+/// triangle's. Beyond about 1e13 rounding breaks the factorization.
 constexpr double max_entry = 1e12;
 
-/// Of one triangle, where nothing but a few numbers is computed of it.
+/// Time to compute a few numbers of one triangle.
 constexpr double triangle_nanoseconds = 25;
 
-/// Calls work(i) once for every i from 0 to n - 1, in several threads where there are many.
+/// Calls work(i) once for every i from 0 to n - 1, in several threads if n is large.
 template <class Work>
 void for_each_index(std::size_t n, const Work& work) {
   constexpr double nanoseconds = 50;
@@ -80,7 +80,7 @@ int ConformalEnergy::clamp(double min_height) {
   std::vector<TriangleShape> shapes = energy_shapes();
   int clamped = 0;
   for (TriangleShape& shape : shapes) {
-    // A clamped shape must not count again because of rounding.
+    // Rounding must not make a clamped shape count again.
     if (!(shape.relative_height() < min_height * (1 - 1e-9))) continue;
     shape = shape.clamped_to(min_height);
     ++clamped;
@@ -101,8 +101,8 @@ double ConformalEnergy::weight(std::size_t triangle) const {
   return in_quad / std::max(shape.area() / weight_unit_, 1 / (max_entry * shape.relative_height()));
 }
 
-/// Calls visit(i, j, w cot t / 2, w / 2) for every half-edge i -> j of every triangle with weight w, t its opposite
-/// angle: what the half-edge has in E_D (Eq. 3) and in A.
+/// Calls visit(i, j, w cot t / 2, w / 2) for every half-edge i -> j of every triangle with weight w and opposite angle
+/// t: the half-edge's entries in E_D (Eq. 3) and in A.
 template <class Visit>
 void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
   const std::vector<TriangleShape>& shapes = energy_shapes();
@@ -131,7 +131,7 @@ double ConformalEnergy::max_diagonal() const {
 }
 
 HermitianMatrix ConformalEnergy::matrix() const {
-  // No Complex, which would begin as 0: unset, new memory is first touched between blocks that are heard.
+  // Not Complex, which would be set to 0: left unset, new memory is first touched in blocks that report their work.
   struct Entry {
     int row;
     double real;
@@ -139,7 +139,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
   };
   std::vector<int> start(static_cast<std::size_t>(n_vertices_) + 1, 0);
   for (const auto& triangle : triangles_) {
-    // A polygon that passes a vertex twice may leave a triangle with a side from that vertex to itself.
+    // A polygon that visits a vertex twice may yield a triangle with a side from that vertex to itself.
     for (int k = 0; k < 3; ++k) {
       if (triangle[k] != triangle[(k + 1) % 3]) ++start[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
     }
@@ -160,7 +160,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
       entries[fill[i]++] = {j, -dirichlet, -half_weight};
     }
   });
-  // Merge the two halves of every edge. The order of summation is that of the triangles: insertion sort is stable.
+  // Merge the two halves of every edge. Insertion sort is stable, so the order of summation is that of the triangles.
   std::vector<int> column_size(static_cast<std::size_t>(n_vertices_), 0);
   for_each_index(column_size.size(), [&](std::size_t column) {
     Entry* const first = entries.data() + start[column];

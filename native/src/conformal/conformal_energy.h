@@ -15,52 +15,51 @@ namespace spectral_conformal {
 /// of its half-edges i->j with opposite angle t
 ///   L_ii += w cot t / 2,  L_jj += w cot t / 2,  L_ij -= w cot t / 2,  L_ji -= w cot t / 2    (Dirichlet, Eq. 3)
 ///   L_ij += i w / 2,      L_ji -= i w / 2                                                    (minus the area form)
-/// The inverse-area weights are relative to the mean area (w = mean / |T|), so that L keeps the same magnitude.
-/// A metric (section 4.3) makes it the quasi-conformal energy: the cotangents are those of the stretched triangles, the
-/// area form does not change.
+/// The inverse-area weights are relative to the mean area (w = mean / |T|), so that L keeps the same magnitude. With a
+/// metric (section 4.3) it is the quasi-conformal energy: cotangents of the stretched triangles, the same area form.
 class ConformalEnergy {
  public:
   /// positions (V, 3) near unit scale; triangles counter-clockwise; triangle_weights per triangle. The last `n_virtual`
-  /// triangles (filled holes) are in the energy and in no measure of the surface.
-  /// Nearly degenerate triangles are clamped as local_isometric_frame does and counted in clamped_triangles().
+  /// triangles (filled holes) enter the energy but no measure of the surface. Nearly degenerate triangles are clamped
+  /// as by local_isometric_frame and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, SharedVector<std::array<int, 3>> triangles,
                   SharedVector<TriangleWeight> triangle_weights, Weights weights, std::size_t n_virtual = 0);
   /// The same patch and metric with other weights.
   ConformalEnergy(const ConformalEnergy& like, Weights weights);
 
-  /// Stretches the triangles by a metric per triangle, on top of the metric they have: its frame is that of
-  /// energy_shapes. All or nothing: where memory runs out, this object is as it was. Clamped triangles are left alone.
-  /// Precondition: positive definite.
+  /// Stretches each triangle by a metric, on top of its present one, in the frame of energy_shapes. All or nothing: if
+  /// memory runs out, this object is unchanged. Clamped triangles are skipped. Precondition: positive definite.
   void stretch(const std::vector<TriangleMetric>& metric);
 
-  /// Gives thin triangles a relative_height of at least this, in the energy only. Returns how many. All or nothing.
+  /// Raises the relative_height of thin triangles to this minimum, in the energy only. Returns their number. All or
+  /// nothing.
   int clamp(double min_height);
 
-  /// L, assembled by each call: it is large, and needed for a factorization only.
+  /// L, assembled anew by each call: it is large, and only factorizations need it.
   HermitianMatrix matrix() const;
-  double max_diagonal() const;  ///< largest diagonal entry of L, summed up by each call
+  double max_diagonal() const;  ///< largest diagonal entry of L, computed anew by each call
   int n_vertices() const { return n_vertices_; }
   Weights weights() const { return weights_; }
   int clamped_triangles() const { return clamped_triangles_; }
-  /// True area of the surface, weighted by the triangle weights, in squared units of the positions.
+  /// Area of the surface, weighted by the triangle weights, in squared units of the positions.
   double area() const { return area_; }
-  /// The factor by which inverse-area weights were multiplied (the mean triangle area); 1 for uniform weights.
+  /// The factor in the inverse-area weights (the mean triangle area); 1 for uniform weights.
   double weight_unit() const { return weight_unit_; }
 
-  /// z^H L z = 2 E_C, as a sum of one square per triangle: accurate relative to itself even where it nearly vanishes.
+  /// z^H L z = 2 E_C, as a sum of one square per triangle: relatively accurate even where it nearly vanishes.
   double value(const ComplexVector& z) const;
   /// z^H A z = 2 A(z), twice the weighted signed area of the map.
   double area_form(const ComplexVector& z) const;
-  /// L z, accumulated from the differences along the edges of each triangle, so that constants vanish exactly.
-  /// Returns value(z), which costs nothing beside it.
+  /// L z, accumulated from the differences along the edges of each triangle, so that constants vanish exactly. Returns
+  /// value(z), at no extra cost.
   double apply(const ComplexVector& z, ComplexVector& result) const;
 
-  /// Virtual ones included, at the end.
+  /// All triangles, virtual ones at the end.
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   std::size_t n_virtual() const { return n_virtual_; }
-  /// In 3D, without the metric.
+  /// Shapes in 3D, without the metric.
   const std::vector<TriangleShape>& shapes() const { return shapes_; }
-  /// Stretched by the metric, and clamped.
+  /// Shapes stretched by the metric, and clamped.
   const std::vector<TriangleShape>& energy_shapes() const { return stretched_.empty() ? shapes_ : stretched_; }
   const std::vector<TriangleWeight>& triangle_weights() const { return triangle_weights_; }
 
@@ -73,7 +72,7 @@ class ConformalEnergy {
   SharedVector<std::array<int, 3>> triangles_;
   SharedVector<TriangleWeight> triangle_weights_;
   std::vector<TriangleShape> shapes_;
-  std::vector<TriangleShape> stretched_;  ///< empty without a metric or clamped triangles
+  std::vector<TriangleShape> stretched_;  ///< empty without metric and clamped triangles
   Weights weights_;
   std::size_t n_virtual_;
   double weight_unit_ = 1;

@@ -21,19 +21,19 @@ QuotientForm quotient_form(const BoundaryForm& form);
 
 struct CorrectionOptions {
   int max_corrections = 0;
-  double negligible = 0;  ///< ends below this change of z, relative to z
-  /// Scales each correction to where the quotient is stationary to first order, which converges for indefinite B too;
-  /// otherwise whole.
+  double negligible = 0;  ///< stops below this change of z, relative to z
+  /// Scales each correction to where the quotient is stationary to first order, which converges for indefinite B too.
+  /// Otherwise takes whole corrections.
   bool exact_step = false;
-  /// Leaves out a change that is not smaller than the one before, and ends there.
+  /// Stops at a change that is not smaller than the previous one, without applying it.
   bool only_falling = false;
 };
 
-/// Corrections that end below this change of z leave less than single precision, in which UVs are stored.
+/// A last change of z below this leaves an error below single precision, in which UVs are stored.
 constexpr double resolved_change = 1e-7;
 
 struct Correction {
-  double change = 0;  ///< of the last step taken, relative to z; not a number or infinite where there was none to take
+  double change = 0;  ///< of the last step, relative to z; NaN or infinite if there was none
   int solves = 0;
 };
 
@@ -41,11 +41,11 @@ struct Correction {
 double eigen_residual(const ConformalEnergy& energy, const QuotientForm& form, const ComplexVector& z,
                       ComplexVector& r);
 
-/// The corrections of an eigenvector by what its residual leaves,
+/// Corrects an eigenvector by its residual,
 ///   z <- z - t (L + s M)^-1 (L z - lambda B z):
-/// the eigenvectors of the unshifted problem are the fixed points, and because the residual is summed triangle by
-/// triangle, more accurately than the factor is, they take out the shift and the rounding of the factor.
-/// `factorization` holds L + s M; each correction is made mean-free: constants are the kernel of L.
+/// the fixed points are the eigenvectors of the unshifted problem. The residual, summed triangle by triangle, is more
+/// accurate than the factor, so the corrections remove the shift and the rounding of the factor. `factorization` holds
+/// L + s M. Each correction is made mean-free, since constants are the kernel of L.
 Correction correct(Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& form,
                    const CorrectionOptions& options, ComplexVector& z);
 

@@ -9,21 +9,21 @@ namespace {
 
 using Matrix = Eigen::MatrixXcd;
 
-/// Of the space at the start, e^(ik t) for 0 < |k| <= this.
+/// The initial space has e^(ik t) for 0 < |k| <= this.
 constexpr int n_frequencies = 4;
-/// Vectors that a restart keeps, and where it comes; memory bounds them.
+/// Vectors that a restart keeps, and the dimension that triggers one; both are bounded by memory.
 constexpr Eigen::Index kept_dimension = 12;
 constexpr Eigen::Index max_dimension = 24;
-/// Solves that do not halve the change: rounding keeps it where it is.
+/// Number of solves without halving the change after which rounding is the limit.
 constexpr int solves_without_progress = 2 * max_dimension;
 
-/// The Rayleigh-Ritz space; columns v with v^H (L + s M) v = 1, orthogonal to each other, mean-free.
+/// The Rayleigh-Ritz space: mean-free columns, orthonormal in L + s M.
 class DavidsonSpace {
  public:
   DavidsonSpace(const ConformalEnergy& energy, const BoundaryForm& form, double shift, const QuotientForm& quotient)
       : energy_(energy), form_(form), shift_(shift), quotient_(quotient) {}
 
-  /// Adds the direction of w, made orthogonal; leaves it out where nothing is left of it.
+  /// Adds the part of w orthogonal to the space, unless nothing is left of it.
   void add(ComplexVector w) {
     ComplexVector image;
     for (int pass = 0; pass < 2; ++pass) {
@@ -36,7 +36,7 @@ class DavidsonSpace {
       w -= vectors_ * (vectors_.adjoint() * image);
     }
     const double left = shifted_norm(w, image);
-    constexpr double rounding = 1e-10;  // shorter, it would not be orthogonal any more
+    constexpr double rounding = 1e-10;  // a shorter remainder would no longer be orthogonal
     if (!(left > rounding)) return;
     w /= left;
     const Eigen::Index n = size();
@@ -49,9 +49,9 @@ class DavidsonSpace {
     extend(projected_form_, image);
   }
 
-  /// Chooses the vector with the smallest positive quotient. False where the form is positive for none.
+  /// Chooses the vector with the smallest positive quotient. Returns false if the form is positive for none.
   bool solve() {
-    // As the largest of B c = mu (T + d) c in the eigenvectors of T, where tiny energies keep their accuracy.
+    // Takes the largest mu of B c = mu (T + d) c in the eigenbasis of T, where tiny energies keep their accuracy.
     const Eigen::SelfAdjointEigenSolver<Matrix> by_energy(projected_energy_);
     constexpr double d = 1e-14;  // well above the rounding of T, whose eigenvalues lie between 0 and 1
     const Eigen::VectorXd scale = (by_energy.eigenvalues().cwiseMax(0.0).array() + d).sqrt().inverse();
@@ -62,17 +62,17 @@ class DavidsonSpace {
     const Eigen::Index last = size() - 1;
     if (!(mu[last] > 0) || !std::isfinite(mu[last])) return false;
     coefficients_ = basis * by_quotient.eigenvectors();
-    // Of lambda / (lambda + s), which the factor leaves of an error: the smallest that is not z's own.
+    // The factor reduces an error component to lambda / (lambda + s): take the smallest value other than that of z.
     const auto left = [this](double value) { return value > 0 ? 1 / (1 + shift_ * value) : 1.0; };
     gap_ = last > 0 ? left(mu[last - 1]) - left(mu[last]) : 0;
     return true;
   }
   ComplexVector best() const { return vectors_ * coefficients_.rightCols(1); }
-  /// What (L + s M)^-1 (L - lambda B) takes at least from the error of the best vector, as far as this space knows it.
+  /// The least fraction of the best vector's error that (L + s M)^-1 (L - lambda B) removes, estimated in this space.
   double gap() const { return gap_; }
 
   void restart() {
-    // Orthonormal again, although the form may be indefinite.
+    // Orthonormalize again, since the form may be indefinite.
     const Matrix best = vectors_ * coefficients_.rightCols(kept_dimension);
     vectors_.resize(0, 0);
     projected_energy_.resize(0, 0);
@@ -89,7 +89,7 @@ class DavidsonSpace {
     return std::sqrt(w.dot(image).real());
   }
 
-  /// A row and a column for the last vector, whose image under a form this is.
+  /// Adds a row and a column for the last vector, given its image under a form.
   void extend(Matrix& projected, const ComplexVector& image) const {
     const Eigen::Index n = size() - 1;
     const ComplexVector column = vectors_.adjoint() * image;
@@ -110,7 +110,7 @@ class DavidsonSpace {
   double gap_ = 0;
 };
 
-/// M e^(i k t), t being the mass passed along the boundary, as an angle.
+/// M e^(i k t), where t is the mass passed along the boundary, as an angle.
 ComplexVector fourier_mode(const BoundaryForm& form, Eigen::Index n, int k) {
   ComplexVector mode = ComplexVector::Zero(n);
   double passed = 0;

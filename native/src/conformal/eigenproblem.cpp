@@ -18,11 +18,11 @@
 namespace spectral_conformal {
 namespace {
 
-/// As many solves as a few restarts of Lanczos take, without its failures on tiny spaces.
+/// Costs as many solves as a few restarts of Lanczos, without its failures on tiny spaces.
 constexpr int dense_limit = 24;
 
-/// What left an operator by an exception while Spectra ran: the caller's progress function, a factorization, a lack of
-/// memory. Spectra reports failures of its own as std::runtime_error, which such an exception may be as well.
+/// Keeps an exception that an operator threw while Spectra ran: from the progress function, a factorization or a lack
+/// of memory. Spectra reports its own failures as std::runtime_error, so the type cannot tell them apart.
 class Interruption {
  public:
   template <class Function>
@@ -43,7 +43,7 @@ class Interruption {
 /// The operator T of solve_eigenproblem on the vertices that carry mass.
 class ReducedOperator {
  public:
-  using Scalar = double;  // for Spectra, which sees the real view
+  using Scalar = double;  // Spectra sees the real view
 
   ReducedOperator(Factorization& factorization, const BoundaryForm& form, const Progress& progress)
       : factorization_(factorization), form_(form), progress_(progress) {
@@ -97,14 +97,14 @@ class ReducedOperator {
   const Progress& progress_;
   ComplexVector root_mass_;
   ComplexVector constant_;
-  // Work space; Spectra takes the operator by const reference.
+  // Work space; mutable because Spectra takes the operator by const reference.
   mutable ComplexVector weighted_;
   mutable ComplexVector solved_;
   mutable int solves_ = 0;
   mutable Interruption interruption_;
 };
 
-/// All of T, column by column.
+/// Forms T column by column.
 ComplexVector dense_eigenvector(const ReducedOperator& op) {
   const Eigen::Index n = op.complex_size();
   Eigen::MatrixXcd dense(n, n);
@@ -126,7 +126,7 @@ class AreaOperator {
       : energy_(energy), matrix_(std::move(matrix)) {}
   Eigen::Index rows() const { return 2 * matrix_->rows(); }
   Eigen::Index cols() const { return rows(); }
-  /// A z, A being minus the imaginary part of L: A_ij = -i Im L_ij.
+  /// A z, where A is minus the imaginary part of L: A_ij = -i Im L_ij.
   void apply(const ComplexVector& z, ComplexVector& result) const {
     result.setZero(z.size());
     for (int column = 0; column < matrix_->outerSize(); ++column) {
@@ -151,7 +151,7 @@ class AreaOperator {
   std::shared_ptr<const HermitianMatrix> matrix_;  ///< L
 };
 
-/// L. Not by a copy: the constructor of Eigen's sparse matrix loses memory where it finds too little.
+/// L. Not copied: the constructor of Eigen's sparse matrix leaks if memory runs out.
 std::shared_ptr<const HermitianMatrix> shared_matrix(const ConformalEnergy& energy) {
   auto result = std::make_shared<HermitianMatrix>();
   energy.matrix().swap(*result);
@@ -195,7 +195,7 @@ class ShiftedOperator {
     const ComplexVector in = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(x), matrix_.rows());
     ComplexVector out;
     factorization_.solve(in, out);
-    // The constant carries no area; the solve amplifies what rounding puts into it.
+    // Constants carry no area, and the solve amplifies their rounding errors.
     out.array() -= out.mean();
     Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(y), matrix_.rows()) = out;
     ++solves_;
@@ -211,8 +211,8 @@ class ShiftedOperator {
   mutable Interruption interruption_;
 };
 
-/// Runs Lanczos. Spectra throws std::runtime_error where its small projected matrix is not finite or does not converge;
-/// what interrupted the operator passes through.
+/// Runs Lanczos. Spectra throws std::runtime_error if its small projected matrix is not finite or does not converge; an
+/// exception of the operator passes through.
 template <class Solver, class Operator>
 bool converges(Solver& solver, const Operator& op, const EigenproblemOptions& options) {
   try {
@@ -247,7 +247,7 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
     const Eigen::VectorXd real = solver.eigenvectors(1);
     y = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(real.data()), n);
   }
-  // One more application gives the values at the other vertices, and with them the residual.
+  // One more application gives the values at the other vertices, and the residual.
   op.project(y);
   y.normalize();
   op.extend(y, result.vector);
@@ -271,7 +271,7 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   ComplexVector start = ComplexVector::Zero(n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
   Eigenpair result;
-  constexpr int min_dimension = 12;  // negative eigenvalues fill part of the space
+  constexpr int min_dimension = 12;  // negative eigenvalues occupy part of the space
   const int dimension = std::min<int>(std::max(options.krylov_dimension, min_dimension), static_cast<int>(2 * n));
   Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
                                                                                                     dimension);
@@ -286,9 +286,9 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   result.mu = solver.eigenvalues()[0];
   const QuotientForm quotient = quotient_form(area);
   CorrectionOptions corrections;
-  corrections.max_corrections = 30;                   // a bound: they end by themselves where they no longer fall
-  corrections.negligible = 0.01 * options.tolerance;  // so that what Lanczos left does not show in the result
-  corrections.only_falling = true;  // negative eigenvalues larger than mu in size make the changes grow
+  corrections.max_corrections = 30;                   // a bound: they stop when they no longer fall
+  corrections.negligible = 0.01 * options.tolerance;  // so that the error of Lanczos does not show in the result
+  corrections.only_falling = true;  // negative eigenvalues larger than mu in magnitude make the changes grow
   const Correction correction = correct(factorization, energy, quotient, corrections, result.vector);
   result.solves += correction.solves;
   result.residual = correction.change;

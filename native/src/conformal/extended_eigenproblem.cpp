@@ -17,7 +17,7 @@ class RitzSpace {
     factorization_.select(form.support());
   }
 
-  /// Takes vectors of an earlier space with the same factor and support.
+  /// Takes the vectors of an earlier space with the same factor and support.
   void take(const RitzBasis& basis) {
     vectors_ = basis.vectors;
     images_ = basis.images;
@@ -30,10 +30,10 @@ class RitzSpace {
     rayleigh_ritz();
   }
 
-  /// Adds a direction w. Returns its length in G before it was made orthogonal to the space; 0 where nothing was added.
+  /// Adds a direction w. Returns its length in G before orthogonalization; 0 if nothing was added.
   double grow(ComplexVector w) {
     for (int pass = 0; pass < 2; ++pass) {
-      // The constant has length 1/s in G: what rounding leaves of it would drown the rest.
+      // The constant has length 1/s in G: its rounding error would drown the rest.
       w.array() -= w.mean();
       if (size() > 0) w -= vectors_ * (images_.adjoint() * w);
     }
@@ -84,7 +84,7 @@ class RitzSpace {
   void rayleigh_ritz() {
     const Matrix projected = images_.adjoint() * forces_;
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (projected + projected.adjoint()));
-    // Not assigned as it is: Eigen 3.4 frees the old memory twice where there is none for the new size.
+    // Not assigned directly: Eigen 3.4 frees the old memory twice if there is none for the new size.
     coefficients_ = Matrix(solver.eigenvectors());
     mu_ = solver.eigenvalues().tail(1).value();
   }
@@ -99,12 +99,12 @@ class RitzSpace {
   int solves_ = 0;
 };
 
-/// Runs until the residual's length in G is below the tolerance, or, where rounding keeps it above, no longer falls.
-/// Returns whether it got there, or, for tolerances below 1e-9, stopped near enough for the corrections that follow.
+/// Runs until the residual's length in G is below the tolerance or, because of rounding, no longer falls. Returns
+/// whether it converged or, for tolerances below 1e-9, stopped near enough for the subsequent corrections.
 bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progress& progress) {
-  constexpr double near_enough = 1e-9;  // a hundredth of what resolved_change asks of the corrections
+  constexpr double near_enough = 1e-9;  // a hundredth of resolved_change, the goal of the corrections
   const int max_solves = options.max_restarts * options.krylov_dimension;
-  // Some six restarts without halving the residual: rounding keeps it where it is.
+  // About six restarts without halving the residual: rounding is the limit.
   const int patience = 20 * options.krylov_dimension;
   double best = std::numeric_limits<double>::infinity();
   int best_at = space.solves();
@@ -160,7 +160,7 @@ Eigenpair solve_extended_eigenproblem(Factorization& factorization, const Confor
   basis = space.basis();
 
   CorrectionOptions corrections;
-  corrections.max_corrections = 12;  // a bound: exact steps end by themselves where rounding is reached
+  corrections.max_corrections = 12;  // a bound: exact steps stop when they reach rounding
   corrections.negligible = 0.1 * options.tolerance;
   corrections.exact_step = true;
   const Correction correction = correct(factorization, energy, quotient_form(form), corrections, result.vector);

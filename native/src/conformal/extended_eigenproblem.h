@@ -12,8 +12,8 @@ namespace spectral_conformal {
 /// `form` must outlive the result.
 QuotientForm quotient_form(const ExtendedForm& form);
 
-/// Approximate eigenvectors of an earlier solve with the same factor, from which the next one starts.
-/// With G = S^T (L + s M)^-1 S on the support S of the form: W^H G W = I and images = G W up to constants.
+/// Approximate eigenvectors of an earlier solve with the same factor, as a start for the next one. With G = S^T (L + s
+/// M)^-1 S on the support S of the form: W^H G W = I and images = G W up to constants.
 struct RitzBasis {
   std::vector<int> support;
   Eigen::MatrixXcd vectors;  ///< W (n, m)
@@ -21,17 +21,16 @@ struct RitzBasis {
 };
 
 /// The eigenvector of the smallest positive eigenvalue of L z = lambda B z for the form B of section 4.2, definite or
-/// not, as the largest of
+/// not, from the largest mu of
 ///   B z = mu (L + s M) z,   mu > 0.
-/// B acts on its support S only, so this reduces to B_S G w = mu w, which is self-adjoint in the inner product of G.
-/// A Rayleigh-Ritz subspace grows by the residual of its best vector (the Lanczos method where it starts from one
-/// vector; a locally optimal one where it starts from the vectors of an earlier solve), each at the price of one
-/// reduced solve, and is restarted from its best vectors. Then the whole vector z is corrected by descent along (L + s
-/// M)^-1 (L z - lambda B z) with the exact step, which takes out the shift and the factor's rounding and converges for
-/// indefinite forms too. `factorization` holds L + s M and is left with the support selected. `basis` is where the
-/// solve starts if its support is the form's, and `starts`, maps on the support, otherwise; `basis` is replaced.
-/// options.max_restarts times krylov_dimension bounds the reduced solves. `residual` of the result is the last relative
-/// change of z.
+/// B acts only on its support S, so this reduces to B_S G w = mu w, which is self-adjoint in the inner product of G. A
+/// Rayleigh-Ritz subspace grows by the residual of its best vector, at the cost of one reduced solve each, and is
+/// restarted from its best vectors. (From one start vector this is the Lanczos method; from the vectors of an earlier
+/// solve, a locally optimal one.) Then the whole vector z is corrected by descent along (L + s M)^-1 (L z - lambda B z)
+/// with the exact step, which removes the shift and the factor's rounding and converges for indefinite forms too.
+/// `factorization` holds L + s M, and keeps the support selected. The solve starts from `basis` if that has the form's
+/// support, otherwise from `starts`, maps on the support; `basis` is replaced. options.max_restarts times
+/// krylov_dimension bounds the reduced solves. `residual` of the result is the last relative change of z.
 Eigenpair solve_extended_eigenproblem(Factorization& factorization, const ConformalEnergy& energy,
                                       const ExtendedForm& form, const EigenproblemOptions& options,
                                       const std::vector<ComplexVector>& starts, RitzBasis& basis,

@@ -11,20 +11,20 @@ namespace spectral_conformal {
 
 /// The form B of Eq. 5 with the soft constraints of section 4.2,
 ///   B^ + sum_k alpha_k (e_i - e_j)(e_i - e_j)^T + beta sum_l B^_l - weight Q,
-/// of which extenders with alpha < 0 and attracting pins make an indefinite one. It acts on a few vertices only, its
-/// support, and vanishes on constants. B^_l is the spread of a boundary loop about its own barycenter: what remains
-/// of the paper's rigid hole when the fake vertex, which has no conformal energy of its own, is eliminated.
+/// indefinite if an extender has alpha < 0 or pins attract. It acts only on a few vertices, its support, and vanishes
+/// on constants. B^_l is the spread of a boundary loop about its own barycenter: the paper's rigid hole after
+/// elimination of the fake vertex, which has no conformal energy.
 class ExtendedForm {
  public:
   explicit ExtendedForm(const BoundaryForm& boundary);
 
-  /// Extenders that join a group with itself, or of strength 0, have no effect, but are part of the support.
+  /// Extenders that join a group with itself or have strength 0 have no effect, but belong to the support.
   void add_extender(const Extender& extender);
   /// Adds beta times the spread of `loop` about its own barycenter.
   void add_spread(const BoundaryForm& loop, double beta);
   void add_attraction(const PinAttraction& attraction);
 
-  /// Distinct vertices, in the order of their first appearance: those of `boundary` come first.
+  /// Distinct vertices in the order of their first appearance, those of `boundary` first.
   const std::vector<int>& support() const { return support_; }
   /// x on the support, from z (V,).
   ComplexVector restrict(const ComplexVector& z) const;
@@ -46,13 +46,13 @@ class ExtendedForm {
     double factor;
     Complex value(const ComplexVector& x) const;
   };
-  /// Their indices in the support, to which vertices that are not in it yet are added.
+  /// Their indices in the support; adds vertices that are not in it yet.
   std::vector<int> local(const std::vector<int>& vertices);
 
   std::vector<int> support_;
   std::vector<int> index_;  ///< of each vertex up to the largest so far, or -1
   double total_;
-  // All in indices of the support instead of vertices.
+  // All in indices of the support, not vertices.
   std::vector<Spread> spreads_;
   std::vector<Difference> differences_;
   std::vector<PinAttraction> attractions_;

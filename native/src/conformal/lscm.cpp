@@ -40,9 +40,9 @@ class PinnedSystem {
         centre_(z.mean()),
         progress_(progress) {}
 
-  /// Steps by all of what the factor makes of the residual, as long as they halve it.
+  /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
   void refine() {
-    constexpr int max_solves = 4;  // the first and its refinements, which end by themselves where rounding is reached
+    constexpr int max_solves = 4;  // the first solve and its refinements, which stop when they reach rounding
     double before = std::numeric_limits<double>::infinity();
     ComplexVector rhs;
     ComplexVector step;
@@ -57,8 +57,8 @@ class PinnedSystem {
     }
   }
 
-  /// Conjugate gradients, preconditioned by the factor, for where its rounding, or its shift, is as large as the
-  /// smallest eigenvalues of L: those of long strips. L is applied triangle by triangle, which resolves them.
+  /// Conjugate gradients, preconditioned by the factor, for long strips: there the factor's rounding or shift is as
+  /// large as the smallest eigenvalues of L. L is applied triangle by triangle, which resolves them.
   void conjugate_gradients() {
     constexpr double negligible = 1e-10;
     constexpr int steps_without_progress = 48;
@@ -75,7 +75,7 @@ class PinnedSystem {
       residual(r);
       r = -r;
       factor_.solve(r, w);
-      // Of Polak and Ribiere: the residual is that of z, not one that is carried along.
+      // Polak-Ribiere: the residual is recomputed from z, not updated.
       const double rho_before = rho;
       rho = r.dot(w).real();
       if (rho == 0) {
@@ -83,7 +83,8 @@ class PinnedSystem {
         return;
       }
       const double beta = k == 0 ? 0 : std::max(0.0, rho - before.dot(w).real()) / rho_before;
-      // The Lanczos matrix of the same steps has the eigenvalues of the preconditioned L, the smallest among them.
+      // The Lanczos matrix of the same steps approximates the eigenvalues of the preconditioned L, including the
+      // smallest.
       if (k > 0) {
         change_ = relative(w) / least_eigenvalue(diagonal, beside);
         if (!(change_ > negligible)) return;
@@ -106,7 +107,7 @@ class PinnedSystem {
     }
   }
 
-  /// What is left of the error, relative to z.
+  /// The remaining error, relative to z.
   double change() const { return change_; }
 
  private:
@@ -162,7 +163,7 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
   }
   int n_free = 0;
   for (int& index : free_index) index = index < 0 ? -1 : n_free++;
-  // Starting from the pins' mean keeps the numbers small wherever the pins are: L 1 = 0.
+  // Starting from the mean of the pins keeps the numbers small wherever the pins lie, since L 1 = 0.
   result.vector.setConstant(mean);
   double extent = 0;
   for (const auto& [vertex, position] : pins) {
@@ -177,7 +178,8 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
   factorization->analyze(block);
   const bool is_definite = factorization->factorize(block);
   if (!is_definite) {
-    // The smallest eigenvalues of a long strip are below the rounding of the factor: as little as makes it definite.
+    // The smallest eigenvalues of a long strip are below the rounding of the factor: use the least shift that makes it
+    // definite.
     bool is_factorized = false;
     double given = 0;
     for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {

@@ -6,11 +6,11 @@
 
 namespace spectral_conformal {
 
-/// A soft force that pulls pinned vertices towards their positions, as a term of the form B of Eq. 5 like the extenders
+/// A soft force that pulls pinned vertices toward their positions, as a term of the form B of Eq. 5 like the extenders
 /// of section 4.2:
 ///   B^ - weight Q,   z^H Q z = min over a, b of sum_k |z_k - (a p_k + b)|^2,
 /// the deviation of the pinned vertices from the best similar image of their positions p. The eigenproblem stays
-/// homogeneous and its factor stays the same. Q vanishes for fewer than three pins.
+/// homogeneous, and its factor unchanged. Q vanishes for fewer than three pins.
 struct PinAttraction {
   std::vector<int> vertices;
   ComplexVector shape;  ///< positions about their mean, of norm 1; 0 where all pins coincide
@@ -25,11 +25,11 @@ struct PinAttraction {
   ComplexVector deviation(const ComplexVector& z) const;
 };
 
-/// weight = strength x (1^T M 1) / number of pins: the same strength means the same at any resolution and scale.
+/// weight = strength x (1^T M 1) / number of pins, so that a strength does not depend on resolution and scale.
 PinAttraction pin_attraction(const Pins& pins, const BoundaryForm& form, double strength);
 
 /// Moves z, (V,), by the similarity z -> a z + b that brings the pinned vertices nearest to their positions. One pin
-/// moves it only. Returns false, z unchanged, when no similarity with a != 0 does.
+/// only translates it. Returns false, z unchanged, if no similarity with a != 0 does so.
 bool fit_to_pins(ComplexVector& z, const Pins& pins);
 
 }  // namespace spectral_conformal

@@ -17,7 +17,8 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
   std::vector<Complex> unshifted;
   unshifted.reserve(form.vertices.size());
   for (const int v : form.vertices) unshifted.push_back(diagonal(v));
-  // The median withstands the huge entries of tiny triangles, next to which a shift would drown the small eigenvalues.
+  // The median is robust against the huge entries of tiny triangles; a shift of their size would drown the small
+  // eigenvalues.
   std::vector<double> ratios;
   ratios.reserve(form.vertices.size());
   for (std::size_t i = 0; i < form.vertices.size(); ++i) {
@@ -32,8 +33,8 @@ ShiftedFactor factor_shifted(HermitianMatrix&& matrix, const Positions& position
     report(progress, 0.0, "ordering");
     result.factorization->analyze(matrix, &positions);
   }
-  // To 1e8 times the given shift, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no longer
-  // converge in their bounded number.
+  // Up to 1e8 times the given shift, that is, from the first attempt's 1e-12 to 1e-4: beyond that the corrections no
+  // longer converge within their bound.
   constexpr int max_raises = 4;
   constexpr double raise_factor = 100;
   for (int raise = 0; raise <= max_raises; ++raise) {

@@ -13,15 +13,16 @@
 namespace spectral_conformal {
 namespace {
 
-/// The reduced equation must hold at least this well before the corrections, whatever tolerance was asked for: on flat
-/// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which they then take out.
+/// The reduced equation must hold at least this well before the corrections, whatever the requested tolerance: on flat
+/// patches, where lambda vanishes, rounding leaves about 1e-16 / relative_shift = 1e-4, which the corrections then
+/// remove.
 constexpr double eigenproblem_residual_limit = 1e-3;
 
-/// Ends whole corrections: where the rounding of the residual begins.
+/// Stops whole corrections at the rounding of the residual.
 constexpr double negligible_change = 1e-10;
 
-/// Ends steps of exact length: a tenth of what counts as resolved, since each leaves up to 0.9 of the error, and above
-/// the 1e-9 where rounding ends them.
+/// Stops steps of exact length: a tenth of resolved_change, since each leaves up to 0.9 of the error, and above 1e-9,
+/// where rounding stops them.
 constexpr double negligible_exact_step = 0.1 * resolved_change;
 
 Eigenvector eigenvector_of(Eigenpair&& pair) {
@@ -34,11 +35,11 @@ Eigenvector eigenvector_of(Eigenpair&& pair) {
   return result;
 }
 
-/// Takes out the shift and the rounding of the factor.
+/// Removes the shift and the rounding of the factor.
 void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy& energy, const QuotientForm& quotient,
              bool exact_steps) {
   CorrectionOptions corrections;
-  // Each leaves (lambda + s) / (lambda_2 + s) of the error, lambda_2 being the next eigenvalue.
+  // Each leaves (lambda + s) / (lambda_2 + s) of the error, with the next eigenvalue lambda_2.
   corrections.max_corrections = 40;
   // The first change is the rounding of the factor; below 1e-10 it is that of the residual.
   corrections.negligible = negligible_change;
@@ -46,8 +47,8 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
   Correction correction = correct(factorization, energy, quotient, corrections, v.z);
   v.solves += correction.solves;
   if (exact_steps && !(correction.change < resolved_change)) {
-    // Entries near 1e12, next to which the rounding of the factor is as large as lambda: whole corrections then move
-    // away from z, by a rate that differs between BLAS kernels, while a measured step always lowers the quotient.
+    // With entries near 1e12, the rounding of the factor is as large as lambda. Whole corrections then move away from
+    // z, at a rate that differs between BLAS kernels; a measured step always lowers the quotient.
     v.z = uncorrected;
     corrections.max_corrections = 100;  // measured: up to 72
     corrections.negligible = negligible_exact_step;
@@ -58,7 +59,7 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
   v.change = correction.change;
 }
 
-/// Tells apart eigenvalues smaller than the shift that lie close together, as on long strips.
+/// Separates close eigenvalues smaller than the shift, as on long strips.
 void resolve(Eigenvector& v, const ConformalEnergy& energy, const BoundaryForm& mass, const ShiftedFactor& factor,
              const QuotientForm& quotient, const Progress& progress) {
   DavidsonResult resolved =
@@ -80,7 +81,7 @@ Eigenvector smallest_eigenvector(const ConformalEnergy& energy, const Eigenprobl
   options.start = attempt.start;
   options.krylov_dimension = attempt.krylov_dimension;
   Factorization& factorization = *factor.factorization;
-  // Not where the rounding of L is larger than the shift, as it is beside the huge entries of thin triangles.
+  // Not if the rounding of L exceeds the shift, as with the huge entries of thin triangles.
   const bool may_resolve =
       !attempt.exact_steps && std::numeric_limits<double>::epsilon() * factor.max_diagonal < attempt.relative_shift;
   Eigenvector v;

@@ -9,29 +9,29 @@
 
 namespace spectral_conformal {
 
-/// What attempts at the same eigenproblem differ in.
+/// The parameters of one attempt at an eigenproblem.
 struct Attempt {
   double relative_shift;  ///< see factor_shifted
-  unsigned start;         ///< see EigenproblemOptions; the next one, too
+  unsigned start;         ///< see EigenproblemOptions, as for the next member
   int krylov_dimension;
-  double tolerance_factor;  ///< of the tolerance that is asked for
-  bool exact_steps;         ///< corrections of exact length where whole ones do not converge
+  double tolerance_factor;  ///< relative to the requested tolerance
+  bool exact_steps;         ///< use corrections of exact length if whole ones do not converge
 };
 
 /// The form B of an eigenproblem L z = lambda B z.
 struct EigenproblemForm {
-  const BoundaryForm& boundary;            ///< M of L + s M, and B^ where the others are not given
+  const BoundaryForm& boundary;            ///< M of L + s M, and B^ if the others are not given
   const ExtendedForm* extended = nullptr;  ///< with the soft constraints of section 4.2
   bool is_area = false;                    ///< B = A (section 3.3)
 };
 
-/// What solves with soft constraints start from: solutions of earlier ones with the same factor, or empty.
+/// Starts for solves with soft constraints: solutions of earlier solves with the same factor, or empty.
 struct EarlierMaps {
   RitzBasis ritz_basis;  ///< of the last one with soft constraints
   ComplexVector z;       ///< the last accepted map
 };
 
-/// An eigenvector of Eq. 5, at no particular position and scale.
+/// An eigenvector of Eq. 5, up to position and scale.
 struct Eigenvector {
   ComplexVector z;      ///< (V,)
   double lambda = 0;    ///< z^H L z / z^H B z
@@ -42,10 +42,10 @@ struct Eigenvector {
   bool converged = false;
 };
 
-/// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z: the eigenproblem of B with the factor of
-/// L + s M (eigenproblem.h, extended_eigenproblem.h), then corrections that take out the shift and the rounding of the
-/// factor (correction.h), and where eigenvalues lie too close together for these, davidson.h.
-/// earlier: where a solve with soft constraints starts; its basis is replaced.
+/// The eigenvector of the smallest nonzero eigenvalue of L z = lambda B z: solves the eigenproblem of B with the factor
+/// of L + s M (eigenproblem.h, extended_eigenproblem.h), then removes the shift and the rounding of the factor by
+/// corrections (correction.h), or, if eigenvalues are too close for these, by davidson.h. earlier: the start of a solve
+/// with soft constraints; its basis is replaced.
 Eigenvector smallest_eigenvector(const ConformalEnergy& energy, const EigenproblemForm& form,
                                  const ShiftedFactor& factor, const Attempt& attempt, double tolerance,
                                  EarlierMaps& earlier, const Progress& progress);

@@ -27,7 +27,7 @@ class PseudoRandom {
 ComplexVector start_vector(const BoundaryForm& form, unsigned start) {
   PseudoRandom random(start + 1);
   ComplexVector y(form.mass.size());
-  // Enough to have a part along every eigenvector, too little to lose the circle.
+  // Enough for a component along every eigenvector, too little to lose the circle.
   const double noise = start == 0 ? 0.05 : 1.0;
   const double total = form.total();
   double passed = 0;

@@ -5,9 +5,9 @@
 
 namespace spectral_conformal {
 
-/// Where an eigenvalue iteration starts: a circle run through in proportion to the mass passed, blurred by noise so
-/// that no symmetry of the patch can make it orthogonal to the eigenvector. `start` 0: a little noise; otherwise noise
-/// alone, seeded by it. The same on every platform. Returns y = M^1/2 z on form.vertices.
+/// The start of an eigenvalue iteration: a circle traversed in proportion to the boundary mass, with noise, so that no
+/// symmetry of the patch makes it orthogonal to the eigenvector. `start` 0: a little noise; otherwise noise alone, with
+/// this seed. The same on every platform. Returns y = M^1/2 z on form.vertices.
 ComplexVector start_vector(const BoundaryForm& form, unsigned start);
 
 }  // namespace spectral_conformal

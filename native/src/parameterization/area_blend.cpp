@@ -11,7 +11,7 @@ AreaBlend blend_area(const SpectralProblem& problem, double amount, const Progre
   const NormalizedPatch& patch = *problem.patch;
   const ConformalEnergy& energy = problem.energy;
   AreaBlend result;
-  Timings timings;  // all of it is the blend's
+  Timings timings;  // all of it counts as the blend
   SpectralProblem conformal = other_problem(problem, energy.weights(), problem.boundary);
   SpectralMap map = attempted_map(conformal, {}, {}, part(progress, 0.0, 0.2), timings);
   if (map.rejection != Rejection::none) {

@@ -5,8 +5,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Gives way to rounding: a hundred times the shift, a start without preferred shape, four times the directions, a
-/// tenth of the error, and corrections of measured length.
+/// Copes with rounding: a hundred times the shift, a start without preferred shape, four times the directions, a tenth
+/// of the error, and corrections of measured length.
 constexpr Attempt second_attempt{1e-10, 1, 24, 0.1, true};
 
 }  // namespace
@@ -14,12 +14,12 @@ constexpr Attempt second_attempt{1e-10, 1, 24, 0.1, true};
 SpectralMap retried_map(SpectralProblem& problem, SpectralMap map, const SolveOptions& options, const Pins& attractors,
                         const Progress& progress, Timings& timings) {
   if (map.rejection == Rejection::none || map.attempts > 1 || !options.second_attempt) return map;
-  // Without a factor the shift has been raised as far as it may be.
+  // Without a factor the shift was already raised to its limit.
   if (map.rejection == Rejection::not_factorized) return map;
-  // A strongly negative extender has maps that wind as its true optimum, so that another attempt would end there, too:
-  // the pair meets where the map branches.
+  // For a strongly negative extender the true optimum winds, so another attempt would end there too: the pair meets
+  // where the map branches.
   if (map.rejection == Rejection::winding && options.has_extenders_or_rigidity()) return map;
-  // The fraction done only rises: the failed attempt has used it up.
+  // Progress must not fall, and the failed attempt has used it up.
   const Progress rest = [&progress](double, const char* phase) { return !progress || progress(1.0, phase); };
   map = spectral_map(problem, options, attractors, second_attempt, rest, timings);
   map.attempts = 2;
@@ -37,7 +37,7 @@ PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress)
   SpectralProblem& problem = task.patch.problem;
   map.take(spectral_map(problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
            task.options);
-  // Without a factor no form was solved with.
+  // Without a factor no form was used.
   if (problem.is_factored()) map.result.hole_rigidity = task.options.hole_rigidity.value_or(0);
   return map;
 }

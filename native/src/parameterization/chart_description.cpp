@@ -9,15 +9,15 @@
 namespace spectral_conformal {
 namespace {
 
-/// A bijection in which each bit of x changes about half of the bits (the finalizer of splitmix64; Steele, Lea and
-/// Flood 2014).
+/// A bijection in which each bit of x flips about half of the result's bits (the finalizer of splitmix64; Steele, Lea
+/// and Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
   return x ^ (x >> 31);
 }
 
-/// Two chains of words, each state a bijection of the one before and of the word.
+/// Two chains over the words; each state is a bijection of the previous state and of the word.
 class Digest {
  public:
   template <class... Values>
@@ -31,7 +31,7 @@ class Digest {
   }
 
  private:
-  /// In words of eight bytes; the last one is filled up with zeros.
+  /// Adds words of eight bytes; the last one is padded with zeros.
   void add_bytes(const void* data, std::size_t size) {
     const auto* bytes = static_cast<const char*>(data);
     for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
@@ -43,7 +43,7 @@ class Digest {
   }
   template <class Value>
   void add_value(const Value& value) {
-    // Others may have bytes that mean nothing between their members.
+    // Other types may have padding bytes.
     static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
     add_bytes(&value, sizeof value);
   }
@@ -92,7 +92,7 @@ class Digest {
 std::string describe_chart(const Chart& chart, const Positions& positions, const std::vector<TriangleMetric>& metric,
                            const PatchOptions& patch, const SolveOptions& solve, const Pins& pins) {
   Digest digest;
-  // Bound by name, so that a member that is added must be added here.
+  // Bound by name, so that adding a member requires a change here.
   const auto& [faces, vertices, triangles, triangle_weights, triangle_face, boundary_loops, euler_characteristic,
                orientable, self_intersecting_polygons, reversed_faces, duplicates] = chart;
   digest.add(faces, vertices, triangles.vector(), triangle_weights.vector(), triangle_face, boundary_loops,

@@ -9,9 +9,9 @@
 
 namespace spectral_conformal {
 
-/// A digest of 128 bits of all that the map of a chart is made of: charts with the same map and report have the same
-/// one. Of a million different charts, two have the same one with a probability of 1e-27. positions (V, 3), metric and
-/// pins as Solver takes them.
+/// A digest of 128 bits of everything that determines the map and report of a chart: equal inputs have equal digests.
+/// The probability of a collision among a million different charts is 1e-27. positions: (V, 3); metric and pins as for
+/// Solver.
 std::string describe_chart(const Chart& chart, const Positions& positions, const std::vector<TriangleMetric>& metric,
                            const PatchOptions& patch, const SolveOptions& solve, const Pins& pins);
 

@@ -7,7 +7,7 @@
 
 namespace spectral_conformal {
 
-/// The metric of each triangle of a chart from that of each mesh face, (n_faces,); empty where `metric` is null.
+/// The metric of each triangle of a chart, from the metric (n_faces,) of the mesh faces; empty if `metric` is null.
 std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& chart, const SpaceMetric* metric);
 
 }  // namespace spectral_conformal

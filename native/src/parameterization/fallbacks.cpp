@@ -12,7 +12,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Cotangents up to 1e5 leave the corrections eleven of sixteen digits to converge with.
+/// Cotangents up to 1e5 leave eleven of sixteen digits for the corrections.
 constexpr double min_relative_height = 1e-5;
 
 /// Smaller is better: flipped triangles, then mean QC.
@@ -31,13 +31,13 @@ Step step_of(Fallback fallback, const SpectralProblem& other, int clamped_triang
   return {other.energy.weights() == Weights::uniform ? StepKind::uniform_weights : StepKind::inverse_area};
 }
 
-/// Looks for the map that stands in for a rejected one.
+/// Searches for the substitute for a rejected map.
 class FallbackSearch {
  public:
   FallbackSearch(const SolveTask& task, PatchMap& rejected, const SolveOptions& options, const Progress& progress)
       : task_(task), rejected_(rejected), options_(options), progress_(progress) {}
 
-  /// The rejected map unfolded, or an embedding; not where it would wind round a vertex twice.
+  /// Tries the rejected map unfolded, or an embedding; not if it would wind round a vertex twice.
   void unfold_rejected() {
     Stopwatch watch(rejected_.result.timings);
     const ComplexVector& whole = rejected_.found.whole;
@@ -47,7 +47,7 @@ class FallbackSearch {
     try {
       unfolded = unfold(problem(), {}, z, {true, false}, progress_);
     } catch (const SolveFailure&) {
-      return;  // the rejection of the map itself is the one to report
+      return;  // report the rejection of the map itself
     }
     watch.lap("unfolding");
     if (!unfolded.fold_free.is_locally_injective) return;
@@ -57,7 +57,7 @@ class FallbackSearch {
     consider(std::move(map));
   }
 
-  /// The map of another problem: blended by area_blend, not at all where that is 0.
+  /// Tries the map of another problem, blended by area_blend unless that is 0.
   void solve(Fallback fallback, Weights weights, BoundaryMeasure boundary, double area_blend) {
     if (!has_form(*problem().patch, boundary)) return;
     SpectralProblem other = other_problem(problem(), weights, boundary);
@@ -127,7 +127,7 @@ PatchMap replaced(const SolveTask& task, PatchMap map, const Progress& progress)
     return map;
   }
   SpectralProblem& problem = task.patch.problem;
-  problem.drop_factor();  // other problems have factors of their own, which are as large
+  problem.drop_factor();  // other problems have factors of the same size
   const double area_blend = task.patch.blend ? 0 : task.patch.options.area_blend;
   const bool is_unfolding_last = area_blend > 0 || !task.attractors.empty();
   const Weights weights = problem.energy.weights();

@@ -11,9 +11,9 @@ namespace spectral_conformal {
 namespace {
 
 constexpr double reduction = 4;
-/// Below, holes are as free as without: the form of the outer loop outweighs theirs a thousandfold.
+/// Below this, holes are as free as at 0: the form of the outer loop outweighs theirs a thousandfold.
 constexpr double min_rigidity = 1e-3;
-/// A mean QC up to which rigidity is not worth its solves.
+/// Up to this mean QC, rigidity is not worth its solves.
 constexpr double hardly_distorted = 1.02;
 
 struct Quality {
@@ -36,13 +36,13 @@ std::vector<double> lowered_from(double rigidity) {
   return result;
 }
 
-/// Solves for one rigidity after the other and keeps the best.
+/// Solves for one rigidity after another and keeps the best map.
 class RigiditySearch {
  public:
   RigiditySearch(SpectralProblem& problem, const SolveOptions& options, const Progress& progress, Timings& timings)
       : problem_(problem), options_(options), progress_(progress), timings_(timings) {}
 
-  /// From a rigidity downwards to the first map without flipped triangles, or that with the fewest.
+  /// Lowers a rigidity to the first map without flipped triangles, or takes the map with the fewest.
   RigidMap lower(double rigidity) {
     std::vector<double> rigidities = lowered_from(rigidity);
     rigidities.push_back(0);
@@ -62,7 +62,7 @@ class RigiditySearch {
     return std::move(best_);
   }
 
-  /// By mean QC.
+  /// Chooses by mean QC.
   RigidMap choose() {
     best_.map = solve(0);
     if (!problem_.is_factored()) return std::move(best_);
@@ -77,8 +77,7 @@ class RigiditySearch {
       SpectralMap map = solve(rigidity);
       if (map.rejection != Rejection::none) continue;
       const Quality quality = quality_of(*problem_.patch, map);
-      // Where that of rigidity 0 is refused, only a map without flipped triangles is better than what fallbacks.h
-      // finds.
+      // If the map of rigidity 0 is rejected, only a map without flipped triangles beats the fallbacks (fallbacks.h).
       const bool is_better = found_
                                  ? quality.flipped <= best_quality_.flipped && quality.mean_qc < best_quality_.mean_qc
                                  : quality.flipped == 0;
@@ -95,7 +94,7 @@ class RigiditySearch {
   SpectralMap solve(double rigidity) {
     SolveOptions changed = options_;
     changed.hole_rigidity = rigidity;
-    // The fraction done only rises: the first solve has used it up.
+    // Progress must not fall, and the first solve has used it up.
     const bool is_first = best_.attempts == 0;
     const Progress rest = [&](double fraction, const char* phase) {
       return !progress_ || progress_(is_first ? fraction : 1.0, phase);
@@ -117,7 +116,7 @@ class RigiditySearch {
   Timings& timings_;
   RigidMap best_;
   Quality best_quality_;  ///< of the best
-  bool found_ = false;    ///< whether it passes its checks
+  bool found_ = false;    ///< whether the best passes its checks
 };
 
 }  // namespace

@@ -37,9 +37,9 @@ std::vector<Step> repairs_of(const Chart& chart, int degenerate_triangles) {
   return steps;
 }
 
-/// The triangles that shrink so far that the digits of the coordinates z (V,) do not tell their corners apart.
+/// Counts the triangles so small that their corners coincide to the precision of the coordinates z (V,).
 int count_unresolved(const ConformalEnergy& energy, const ComplexVector& z) {
-  // Leaves three digits to the shape of a triangle.
+  // Leaves three digits for the shape of a triangle.
   constexpr double min_fraction = 1e-13;
   const double min_length = min_fraction * (z.array() - z.mean()).abs().maxCoeff();
   int count = 0;
@@ -70,19 +70,20 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
   return {options, std::move(problem), !metric.empty(), std::move(repairs), {}, std::move(timings)};
 }
 
-/// What solving a patch with these options and pins asks for. Throws InvalidMesh for what the method does not take.
+/// The task of solving a patch with these options and pins. Throws InvalidMesh for input that the method does not
+/// support.
 SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins& pins) {
   SolveTask task{patch, options, pins, {}, {}};
   task.options.method = method_with_pins(options, pins.size());
   if (task.options.method != Method::spectral && options.has_extenders_or_rigidity()) {
     throw InvalidMesh("Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.");
   }
-  // Where less is asked for than single precision stores, as while a slider moves, a start near the end saves solves.
+  // At a tolerance coarser than single precision, as while a slider moves, a start near the solution saves solves.
   if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
   // With fewer than three pins a similarity always fits. A single hard pin only moves the map.
   if (is_attracted(task.options) && pins.size() > 2) task.attractors = pins;
   if (task.options.method == Method::lscm && pins.size() > 1) task.held = pins;
-  // A metric is what the map is to be measured by, not the distortion that rigidity is chosen by.
+  // With a metric, the map is not judged by the distortion that would choose the rigidity.
   const bool is_chosen = task.is_free() && !patch.has_metric && !(patch.options.area_blend > 0);
   std::optional<double>& rigidity = task.options.hole_rigidity;
   if (patch.problem.patch->inner.empty() || (!rigidity && !is_chosen)) rigidity = 0;
@@ -97,7 +98,7 @@ PatchMap unsolved(const SolveTask& task) {
   return map;
 }
 
-/// Stage: adds what there is to say of the patch and of the digits of the map.
+/// Stage: adds the remarks on the patch and on the precision of the map.
 PatchMap remarked(const SolveTask& task, PatchMap map) {
   const PreparedPatch& patch = task.patch;
   const int unresolved = count_unresolved(patch.problem.energy, map.result.z);
@@ -118,7 +119,7 @@ bool SolveOptions::has_extenders() const {
 bool SolveOptions::has_extenders_or_rigidity() const { return hole_rigidity.value_or(0) != 0 || has_extenders(); }
 
 Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
-  // Of fewer pins a similarity is made, which no method has to know of.
+  // Fewer pins only define a similarity, which needs no other method.
   if (n_pins < 3 || options.method == Method::lscm || is_attracted(options)) return options.method;
   if (options.method == Method::spectral) return Method::lscm;
   throw InvalidMesh(
@@ -127,7 +128,7 @@ Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
 
 struct Solver::State {
   PreparedPatch patch;
-  // Of a solver made from a mesh; empty otherwise.
+  // For a solver made from a mesh; empty otherwise.
   std::vector<int> vertices = {};  ///< the mesh vertex of each chart vertex, ascending
   int n_mesh_vertices = 0;
 
@@ -174,22 +175,22 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   const Listening listening(given, "ordering");
   const Progress& progress = listening.progress();
   const SolveTask task = task_of(state_->patch, state_->in_chart(options), state_->in_chart(pins));
-  // The fractions of progress, here and in area_blend.cpp, are guesses of the time that phases take: a blend is many
-  // factorizations, a factorization somewhat longer than the eigenproblem. They only have to rise.
+  // The fractions of progress, here and in area_blend.cpp, estimate the time of the phases: a blend takes many
+  // factorizations, a factorization somewhat longer than the eigenproblem. They only have to increase.
   const bool is_fold_free = options.fold_free;
   const Progress solving = part(progress, 0.0, is_fold_free ? 0.5 : 1.0);
   const double begun = state_->patch.options.area_blend > 0 ? 0.5 : 0.0;
 
-  // The recipe: from the patch to its map. Each stage takes the map, or why there is none, as the one before left it.
+  // The recipe: from the patch to its map. Each stage receives the map of the previous one, or the reason for its lack.
   PatchMap map = unsolved(task);
-  map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric gives up angles for areas
-  map = pinned(task, std::move(map), part(solving, begun, 0.95));            // LSCM, where pins are hard
+  map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric trades angles for areas
+  map = pinned(task, std::move(map), part(solving, begun, 0.95));            // LSCM for hard pins
   map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));  // the paper's map with several B
   map = spectral(task, std::move(map), part(solving, begun, 0.95));          // the paper's map: spectral_map.h
-  map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // where it fails its checks
+  map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // if it fails its checks
   map = polished(task, std::move(map), part(solving, 0.95, 1.0));            // on to a lower mean QC
-  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map, where it was rejected
-  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded, where there is none
+  map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map if it was rejected
+  map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded if there is none
   if (map.rejection) throw SolveFailure(*map.rejection);
   map = measured_blend(task, std::move(map));
   map = fitted_to_pins(task, std::move(map));

@@ -11,53 +11,53 @@
 
 namespace spectral_conformal {
 
-/// One patch, and what its solves share.
+/// One patch, with the data that its solves share.
 struct PreparedPatch {
   PatchOptions options;
   SpectralProblem problem;
   bool has_metric = false;
   std::vector<Step> repairs = {};  ///< of its faces
-  /// Of PatchOptions::area_blend, once the metric is that of the blend.
+  /// PatchOptions::area_blend, once the patch has the blended metric.
   struct Blend {
     RelaxationStatus status;
     double scale_deviation_before;
     int flipped;  ///< triangles of the relaxed map
   };
   std::optional<Blend> blend = {};
-  Timings timings = {};  ///< of what is done once
+  Timings timings = {};  ///< of the work done once
 };
 
-/// What is asked of a patch.
+/// The request to a patch.
 struct SolveTask {
   PreparedPatch& patch;
-  SolveOptions options;  ///< with the method that solves
+  SolveOptions options;  ///< with the method that actually solves
   Pins pins;
   Pins attractors;  ///< soft pins
   Pins held;        ///< hard pins, two or more
 
   /// Whether pinned LSCM solves (section 2.2).
   bool is_pinned() const { return options.method == Method::lscm; }
-  /// Whether a hole rigidity is given or to be chosen for the patch (hole_rigidity.h).
+  /// Whether a hole rigidity is given, or is to be chosen for the patch (hole_rigidity.h).
   bool has_rigid_holes() const { return is_free() && options.hole_rigidity != 0.0; }
-  /// Whether nothing but the patch shapes the map: Method::spectral without extenders and soft pins.
+  /// Whether the patch alone shapes the map: Method::spectral without extenders and soft pins.
   bool is_free() const { return options.method == Method::spectral && !options.has_extenders() && attractors.empty(); }
 };
 
-/// What the stages of a solve (parameterize.cpp) hand on: a map, or why there is none yet, and how it came about.
+/// What the stages of a solve (parameterize.cpp) pass on: a map, or why there is none yet, and its history.
 struct PatchMap {
-  Parameterization result;        ///< z is empty where there is no map
+  Parameterization result;        ///< z is empty if there is no map
   std::optional<Step> rejection;  ///< why there is none
-  SpectralMap found;              ///< as its solve left it, but for z
-  SpectralMap with_free_holes;    ///< see hole_rigidity.h; its z is empty where there is none
+  SpectralMap found;              ///< as its solve left it, except z
+  SpectralMap with_free_holes;    ///< see hole_rigidity.h; its z is empty if there is none
 
   void add(const Step& step) { result.steps.push_back(step); }
-  /// The map of a solve, or why it was rejected: options are those of the solve.
+  /// Takes the map of a solve, or the reason for its rejection. options: those of the solve.
   void take(SpectralMap&& map, const SolveOptions& options);
-  /// The numbers of `found`, and its z.
+  /// Copies the numbers of `found`, and moves its z.
   void take_found();
 };
 
-/// Why a map was rejected. Precondition: it was.
+/// Why a map was rejected. Precondition: it was rejected.
 Step rejected(const SpectralMap& map, const SolveOptions& options);
 
 }  // namespace spectral_conformal

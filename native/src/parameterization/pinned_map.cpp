@@ -14,15 +14,15 @@
 namespace spectral_conformal {
 namespace {
 
-/// |L z| of a pinned map over its free vertices, relative to its extent and the largest entry of L: what the refinement
-/// leaves is near 1e-16.
+/// Limit for |L z| of a pinned map over its free vertices, relative to its extent and the largest entry of L; the
+/// refinement leaves about 1e-16.
 constexpr double pinned_residual_limit = 1e-10;
 
 InvalidMesh same_position() {
   return InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
 }
 
-/// Pins in a unit of their own, so that pins of any magnitude solve alike: z = origin + unit * held.
+/// Pins in their own unit, so that the solve does not depend on their magnitude: z = origin + unit * held.
 struct ScaledPins {
   Pins held;
   Complex origin = 0;
@@ -36,7 +36,7 @@ ScaledPins scaled(const Pins& pins) {
     const Complex offset = pin.second - result.origin;
     result.unit = std::max({result.unit, std::abs(offset.real()), std::abs(offset.imag())});
   }
-  // Rounding alone can make an extent of the smallest numbers.
+  // Rounding alone can give the smallest numbers an extent.
   const bool equal =
       std::all_of(pins.begin(), pins.end(), [&pins](const auto& pin) { return pin.second == pins.begin()->second; });
   if (equal || !(result.unit > 0) || !std::isfinite(result.unit)) throw same_position();
@@ -109,7 +109,7 @@ PatchMap fitted_to_pins(const SolveTask& task, PatchMap map) {
   } else if (!fit_to_pins(z, pins)) {
     throw same_position();
   } else if (task.attractors.empty() && pins.size() < 3) {
-    // The similarity meets them but for rounding.
+    // The similarity meets them up to rounding.
     for (const auto& [vertex, position] : pins) z[vertex] = position;
   }
   return map;

@@ -24,7 +24,7 @@ SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const 
   };
   const ComplexVector unpolished = map.whole.head(patch.n_vertices);
   const double mean_qc_before = mean_qc(unpolished);
-  // As a rule the border proves that neither covers itself.
+  // Usually the border proves that neither map overlaps itself.
   std::optional<int> covering_before;
   const auto covers_more = [&](const ComplexVector& z) {
     const int covering = n_covering_triangles(patch, z);
@@ -54,7 +54,7 @@ SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const 
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress) {
   const PreparedPatch& prepared = task.patch;
   const NormalizedPatch& patch = *prepared.problem.patch;
-  // What was asked of the shape is not to be polished away.
+  // Do not polish away a requested shape.
   const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
   if (map.rejection || !task.options.polish || !task.is_free() || is_shaped) return map;
   Parameterization& result = map.result;

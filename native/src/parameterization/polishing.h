@@ -6,12 +6,12 @@
 
 namespace spectral_conformal {
 
-/// A map of lower mean QC (polish.h), and the number of steps to it; not the whole way, or none of it, where more of
-/// the map would lie on itself than before. The given map where no step lowers it. Needs the factor of the map.
+/// A map of lower mean QC (polish.h), with its number of steps; fewer steps, or none, where the map would otherwise
+/// overlap itself more than before. The given map if no step lowers the mean QC. Needs the factor of the map.
 SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const Progress& progress, Timings& timings);
 
-/// Stage: polishes the map where PatchOptions::polish asks for it and nothing else is asked of its shape. Of a patch
-/// with holes that of free holes, too: it is taken where the lead of rigid ones is less than what polishing takes away.
+/// Stage: polishes the map if SolveOptions::polish requests it and nothing else is requested of its shape. With rigid
+/// holes it also polishes the map with free holes, and takes it if its mean QC is then lower.
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -14,8 +14,8 @@ namespace spectral_conformal {
 /// A map of a patch, or why there is none.
 struct SpectralMap {
   Rejection rejection = Rejection::none;
-  ComplexVector z;        ///< (V,) in its position, size and turn (placement.h); empty where it was rejected
-  ComplexVector whole;    ///< with virtual vertices, before it was placed; for Rejection::winding, too
+  ComplexVector z;        ///< (V,) after placement (placement.h); empty if rejected
+  ComplexVector whole;    ///< with virtual vertices, before placement; also for Rejection::winding
   double eigenvalue = 0;  ///< in the units of the input
   double residual = 0;    ///< see SolveRecord
   double shift = 0;       ///< s of L + s M
@@ -30,8 +30,8 @@ SpectralProblem spectral_problem(std::shared_ptr<const NormalizedPatch> patch, W
                                  BoundaryMeasure boundary, FactorizationBackend backend);
 
 /// Spectral conformal parameterization (Mullen et al. 2008) of a patch, by Method::spectral, fiedler or area.
-/// attractors: soft pins. The factor stays in the problem for the next solve, and so does the map: solves with soft
-/// constraints start from it.
+/// attractors: soft pins. The problem keeps the factor for the next solve, and the map: solves with soft constraints
+/// start from it.
 SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                          const Attempt& attempt, const Progress& progress, Timings& timings);
 

@@ -18,7 +18,7 @@ BoundaryForm SpectralProblem::mass(Method method) const {
 void SpectralProblem::factorize(Method method, double asked_shift, const Progress& progress) {
   const bool is_fiedler = method == Method::fiedler;
   if (is_factored() && relative_shift == asked_shift && is_factor_of_fiedler == is_fiedler) return;
-  // The structure of L is the same whatever is added to its diagonal.
+  // The structure of L does not depend on what is added to its diagonal.
   std::unique_ptr<Factorization> analyzed = std::move(factor.factorization);
   drop_factor();
   factor = factor_shifted(energy.matrix(), patch->positions, mass(method), asked_shift, backend, progress,
@@ -75,7 +75,7 @@ std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, con
 
 double eigenvalue_unit(const SpectralProblem& problem, Method method) {
   if (method == Method::area) return 1;
-  // positions = input / scale. Lengths, and with them M, are divided by scale; L has weight_unit / |T|.
+  // positions = input / scale. Lengths, and hence M, are divided by scale; L has weight_unit / |T|.
   const double scale = problem.patch->scale;
   const bool uniform = problem.energy.weights() == Weights::uniform;
   const double energy_unit = uniform ? 1 : problem.energy.weight_unit() * scale * scale;

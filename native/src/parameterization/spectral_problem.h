@@ -25,57 +25,57 @@ struct SpectralProblem {
   ConformalEnergy energy;             ///< L (Eq. 2 and 3)
   BoundaryForm form;                  ///< B (Eq. 5), without the constants
   ShiftedFactor factor = {};          ///< of L + s M (Eq. 7), or empty
-  double relative_shift = 0;          ///< that the factor was asked for with
+  double relative_shift = 0;          ///< as requested for the factor
   bool is_factor_of_fiedler = false;  ///< whether M of the factor is the identity
   EarlierMaps earlier = {};           ///< maps of solves with this factor
 
   bool is_factored() const { return factor.factorization != nullptr; }
   /// M of L + s M: the mass of the boundary, or for Method::fiedler the identity.
   BoundaryForm mass(Method method) const;
-  /// Factors L + s M, unless it is factored already. The factor stays empty where L + s M is not positive definite in
-  /// double precision.
+  /// Factors L + s M, unless already factored. The factor stays empty if L + s M is not positive definite in double
+  /// precision.
   void factorize(Method method, double asked_shift, const Progress& progress);
-  /// Gives the memory of the factor back, with the maps that belong to it.
+  /// Frees the factor and the maps that belong to it.
   void drop_factor();
-  /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: where memory
-  /// runs out, the problem is as it was.
+  /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: if memory runs
+  /// out, the problem is unchanged.
   void stretch(const std::vector<TriangleMetric>& metric);
-  /// Gives thin triangles a minimal height in the energy and drops the factor. Returns how many.
+  /// Gives thin triangles a minimal height in the energy and drops the factor. Returns their number.
   int clamp(double min_relative_height);
 };
 
-/// Whether B of Eq. 5 is not zero: by length it is on an outer loop that has none.
+/// Whether B of Eq. 5 is nonzero: measured by length, it vanishes on an outer loop of length 0.
 bool has_form(const NormalizedPatch& patch, BoundaryMeasure boundary);
 
 /// B of Eq. 5, the mass of the outer loop. Throws InvalidMesh unless has_form.
 BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary);
 
-/// The same patch and metric with another energy or form. Throws as form_of.
+/// The same patch and metric with another energy or form. Throws as form_of does.
 SpectralProblem other_problem(const SpectralProblem& like, Weights weights, BoundaryMeasure boundary);
 
 /// B of Eq. 5 with the soft constraints of section 4.2: extenders, rigid holes and attractors (pin_attraction.h). Empty
-/// where there are none.
+/// if there are none.
 std::optional<ExtendedForm> constrained_form(const SpectralProblem& problem, const SolveOptions& options,
                                              const Pins& attractors);
 
-/// What a quotient z^H L z / z^H B z is multiplied by to be in the units of the input.
+/// The factor that converts a quotient z^H L z / z^H B z to the units of the input.
 double eigenvalue_unit(const SpectralProblem& problem, Method method);
 
 /// The numbers of any map.
 struct MapNumbers {
-  double eigenvalue = 0;  ///< its quotient of Eq. 5, in the units of the input
-  double residual = 0;    ///< how far it is from an eigenvector, see SolveRecord
+  double eigenvalue = 0;  ///< quotient of Eq. 5, in the units of the input
+  double residual = 0;    ///< distance from an eigenvector, see SolveRecord
   int turning_number = 0;
 };
 
 /// z: with virtual vertices, in this function and the next.
 MapNumbers map_numbers(const SpectralProblem& problem, const ComplexVector& z);
 
-/// The area and the turning number of a map where it is finite; the other members are the caller's.
+/// The area and turning number of a map if it is finite; the caller sets the other members.
 MapCheck measured_check(const SpectralProblem& problem, const ComplexVector& z);
 
-/// Fixes what the energy leaves free (placement.h): centered, with the area in 3D, upright. z (V,). False, and z stays,
-/// where its signed area is not positive.
+/// Fixes the freedom that the energy leaves (placement.h): centers z (V,), scales it to the area in 3D and turns it
+/// upright. Returns false, z unchanged, if its signed area is not positive.
 bool place(const SpectralProblem& problem, ComplexVector& z);
 
 }  // namespace spectral_conformal

@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// Seconds per phase, in the order of their first appearance.
 using Timings = std::vector<std::pair<std::string, double>>;
 
-/// Adds the seconds that pass until the next call to the phase of the given name.
+/// Adds the seconds until the next call to the named phase.
 class Stopwatch {
  public:
   explicit Stopwatch(Timings& timings) : timings_(timings), last_(Clock::now()) {}

@@ -19,7 +19,7 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
   loops.insert(loops.end(), patch.inner.begin(), patch.inner.end());
   UnfoldedMap result;
   result.mean_qc_before = z.size() > 0 ? chart_distortion(patch, z).mean_qc : std::numeric_limits<double>::quiet_NaN();
-  // Pins may hold the map mirrored, which is no fold.
+  // Pins may hold the map mirrored, which is not a fold.
   const bool mirrored = !held.empty() && signed_area(energy, z) < 0;
   FoldFreeMap& map = result.fold_free;
   map = fold_free_map(
@@ -54,11 +54,11 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
     result.eigenvalue = unfolded.eigenvalue;
     result.eigenvalue_of = EigenvalueOf::map;
     result.residual = unfolded.residual;
-    // What stands in for a map that was refused may have been unfolded before, and is then moved apart.
+    // The substitute for a rejected map may have been unfolded before; now its parts are moved apart.
     if (std::isnan(result.mean_qc_before) && !result.is_embedding) result.mean_qc_before = unfolded.mean_qc_before;
     result.unfolded += fold_free.flipped_before - (fold_free.is_embedding ? 0 : fold_free.flipped);
     result.is_embedding = result.is_embedding || fold_free.is_embedding;
-    // The quotient is that of the patch's own energy and form.
+    // The quotient refers to the patch's own energy and form.
     result.weights = asked.weights;
     result.boundary = asked.boundary;
     result.clamped_triangles = 0;
@@ -89,7 +89,7 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
 PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress) {
   SpectralProblem& problem = task.patch.problem;
   if (!task.options.fold_free || (map.rejection && !task.held.empty())) return map;
-  if (map.rejection) problem.drop_factor();  // the embedding has factors of its own
+  if (map.rejection) problem.drop_factor();  // the embedding makes its own factors
   Stopwatch watch(map.result.timings);
   UnfoldedMap unfolded = unfold(problem, task.held, map.result.z, {false, true}, progress);
   map = with_unfolded(task, std::move(map), std::move(unfolded));

@@ -26,8 +26,8 @@ namespace spectral_conformal {
 
 namespace {
 
-/// The largest quasi-conformal distortion of a face, as measure_face_distortion has it: the mean over its triangles,
-/// weighted by their area in 3D.
+/// The largest quasi-conformal distortion of a face, defined as in measure_face_distortion: the mean over its
+/// triangles, weighted by their area in 3D.
 double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
   double largest = 1;
   const std::vector<int>& triangles = distortion.triangulation;
@@ -35,7 +35,7 @@ double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
     const int face = chart.triangle_face[static_cast<std::size_t>(triangles[k])];
     double area = 0;
     double qc = 0;
-    // The triangles of a face follow each other.
+    // The triangles of a face are consecutive.
     for (; k < triangles.size() && chart.triangle_face[static_cast<std::size_t>(triangles[k])] == face; ++k) {
       const int t = triangles[k];
       if (distortion.area[t] == 0) continue;
@@ -47,7 +47,7 @@ double largest_of_a_face(const Chart& chart, const Distortion& distortion) {
   return largest;
 }
 
-/// Fills in mean_qc, max_qc, flipped and area of a solved chart.
+/// Sets mean_qc, max_qc, flipped and area of a solved chart.
 void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVector& z, double scale,
              UnwrappedChart& report) {
   const Distortion distortion = measure_distortion(energy.shapes(), chart.triangles, chart.triangle_weights, z);
@@ -63,7 +63,7 @@ void measure(const Chart& chart, const ConformalEnergy& energy, const ComplexVec
   report.area = energy.area() * scale * scale;
 }
 
-/// Adds the pins of mesh vertices, on the copies that a chart has of them, where corners have none.
+/// Adds the pins of mesh vertices to their copies in a chart, except where corners have pins.
 void add_vertex_pins(const PinSplitMesh& split, const Chart& chart, const Pins& vertex_pins, Pins& pins) {
   if (vertex_pins.empty()) return;
   for (int v = 0; v < chart.n_vertices(); ++v) {
@@ -77,7 +77,7 @@ struct Cut {
   PinSplitMesh split;
   PolygonMesh mesh;
   ChartDecomposition decomposition;
-  std::vector<int> n_copies;  ///< per given vertex, in all charts
+  std::vector<int> n_copies;  ///< per given vertex, over all charts
   Cut(const PolygonMesh& given, const CornerPins& corner_pins)
       : split(given, corner_pins),
         mesh(split.view()),
@@ -89,7 +89,7 @@ struct Cut {
   }
 };
 
-/// Extenders, found by chart: those that have many charts to act in are not looked at in each.
+/// Finds the extenders of a chart, without testing all extenders for every chart.
 class ExtendersOfCharts {
  public:
   /// Both must outlive this object.
@@ -100,7 +100,7 @@ class ExtendersOfCharts {
     }
   }
   const VertexExtender& operator[](std::size_t k) const { return extenders_[k]; }
-  /// The numbers, ascending, of those of which the chart has the end with fewer copies.
+  /// The numbers, ascending, of the extenders whose end with fewer copies has one in the chart.
   std::vector<std::size_t> near(const Chart& chart) const {
     std::vector<std::size_t> result;
     if (extenders_.empty()) return result;
@@ -114,7 +114,7 @@ class ExtendersOfCharts {
   }
 
  private:
-  /// None of what is no vertex of the mesh.
+  /// 0 if not a vertex of the mesh.
   int n_copies(int vertex) const {
     const bool exists = vertex >= 0 && vertex < static_cast<int>(cut_.n_copies.size());
     return exists ? cut_.n_copies[static_cast<std::size_t>(vertex)] : 0;
@@ -125,7 +125,7 @@ class ExtendersOfCharts {
   std::map<int, std::vector<std::size_t>> by_rarer_end_;
 };
 
-/// Solves one chart, again and again; reports what it cannot do instead of throwing.
+/// Solves one chart, repeatedly; reports failures instead of throwing.
 class ChartUnwrapper {
  public:
   /// `cut`, `chart` and `options` must outlive this object.
@@ -152,18 +152,18 @@ class ChartUnwrapper {
     }
   }
 
-  /// A map of the chart, where there is one.
+  /// A map of the chart, if there is one.
   struct Solution {
     UnwrappedChart report;
     ComplexVector z;
     std::vector<std::size_t> acting;  ///< extenders
     Timings timings;
-    std::string description;       ///< see describe_chart; empty where nothing is to be kept
-    std::optional<Complex> point;  ///< of a chart without area, what it is where others have a map
+    std::string description;       ///< see describe_chart; empty if nothing is to be kept
+    std::optional<Complex> point;  ///< image of a chart without area if other charts have maps
   };
 
-  /// With `kept`, which is read only, takes the map from there where there is one. The solve is then the first. Throws
-  /// std::bad_alloc, without its factor: others need the memory.
+  /// With `kept`, which is only read, takes the map from there if present; this must then be the first solve. Throws
+  /// std::bad_alloc after dropping its factor, since other charts need the memory.
   Solution solve(const ExtendersOfCharts& extenders, std::optional<double> hole_rigidity, double tolerance,
                  const Progress& progress, const KeptMaps* kept = nullptr) {
     Solution result{report_, {}, {}, {}, {}, {}};
@@ -198,7 +198,7 @@ class ChartUnwrapper {
     return result;
   }
 
-  /// What became of a chart whose solve there is no memory for.
+  /// The result for a chart whose solve ran out of memory.
   Solution out_of_memory() const {
     Solution result{report_, {}, {}, {}, {}, {}};
     result.report.steps = {counted(StepKind::out_of_memory, static_cast<int>(report_.faces.size()))};
@@ -206,7 +206,7 @@ class ChartUnwrapper {
   }
 
  private:
-  /// The extenders between two different vertices of the chart; `acting` gets their numbers.
+  /// The extenders between two different vertices of the chart; appends their numbers to `acting`.
   std::vector<Extender> own(const ExtendersOfCharts& extenders, std::vector<std::size_t>& acting) {
     std::vector<Extender> result;
     for (const std::size_t k : extenders.near(chart_)) {
@@ -237,7 +237,7 @@ class ChartUnwrapper {
     return result;
   }
 
-  /// Takes the map of a chart from those that are kept; false where there is none.
+  /// Takes the map of a chart from the kept ones; false if there is none.
   bool take(const KeptMaps& kept, const Positions& positions, const std::vector<TriangleMetric>& metric,
             const SolveOptions& options, Solution& result) const {
     Stopwatch watch(result.timings);
@@ -275,15 +275,15 @@ class ChartUnwrapper {
   const Chart& chart_;
   PatchOptions patch_;
   const SpaceMetric* metric_;
-  UnwrappedChart report_;  ///< before a solve
+  UnwrappedChart report_;  ///< the report before a solve
   Pins pins_;
   SolveOptions options_;                             ///< without forces
-  bool is_possible_ = false;                         ///< false: the report says why there is nothing to solve
+  bool is_possible_ = false;                         ///< false: the report says why
   std::unique_ptr<Solver> solver_;                   ///< made by the first solve
-  std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made when first needed
+  std::vector<std::pair<int, int>> by_mesh_vertex_;  ///< (mesh vertex, chart vertex), sorted; made on demand
 };
 
-/// Gives the corners of some faces, each at its vertex of the chart, their UVs of the map.
+/// Writes the UVs of the corners of some faces, each from its chart vertex.
 template <class Map>
 void write_corners(const Cut& cut, const std::vector<int>& faces, const Map& map, Unwrap& result) {
   constexpr double face_nanoseconds = 30;
@@ -297,11 +297,11 @@ void write_corners(const Cut& cut, const std::vector<int>& faces, const Map& map
   });
 }
 
-/// Charts without area, by their number in the result, and the point that each becomes.
+/// Charts without area, by their number in the result, each with the point that it becomes.
 using Points = std::vector<std::pair<std::size_t, Complex>>;
 
-/// Adds a chart to the result: the UVs of its corners, and the extenders that act, which are no longer unused. Its
-/// map goes to `kept`, which may be null, unless there is no memory for it.
+/// Adds a chart to the result: writes the UVs of its corners and marks its acting extenders as used. Stores its map in
+/// `kept`, which may be null, if memory allows.
 void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Points& points,
          KeptMaps* kept = nullptr) {
   add_seconds(solution.timings, result.timings);
@@ -311,27 +311,27 @@ void add(const Cut& cut, ChartUnwrapper::Solution&& solution, Unwrap& result, Po
         cut, solution.report.faces, [&](int vertex) { return solution.z[vertex]; }, result);
   }
   if (solution.point) points.push_back({result.charts.size(), *solution.point});
-  // What becomes of one without area depends on the other charts.
+  // The result of a chart without area depends on the other charts.
   if (kept && !solution.point && !solution.description.empty()) {
     try {
       UnwrappedChart report = solution.report;
       report.reused = false;
       kept->keep(std::move(solution.description), {std::move(report), std::move(solution.z)});
     } catch (const std::bad_alloc&) {
-      // Solved again, then.
+      // It will be solved again.
     }
   }
   result.charts.push_back(std::move(solution.report));
 }
 
-/// Where another chart has a map, those without area become points, which cover nothing; otherwise nothing is mapped.
+/// If another chart has a map, charts without area become points, which cover nothing; otherwise nothing is mapped.
 void add_points(const Cut& cut, const Points& points, Unwrap& result) {
   const bool has_map = std::any_of(result.charts.begin(), result.charts.end(), [](const auto& c) { return c.solved; });
   if (!has_map) return;
   for (const auto& [i, point] : points) {
     UnwrappedChart& report = result.charts[i];
     report.solved = true;
-    // L z = 0 for what is the same everywhere.
+    // L z = 0 for constant z.
     report.eigenvalue = report.residual = 0;
     report.mean_qc = report.max_qc = 1;
     report.problem.clear();
@@ -341,7 +341,7 @@ void add_points(const Cut& cut, const Points& points, Unwrap& result) {
   }
 }
 
-/// A result without its charts.
+/// A result still without charts.
 Unwrap empty_result(const Cut& cut, std::size_t n_extenders) {
   const int n_corners = cut.mesh.n_faces == 0 ? 0 : cut.mesh.face_offsets[cut.mesh.n_faces];
   Unwrap result;
@@ -363,12 +363,12 @@ void add_degenerate_faces(const Cut& cut, Unwrap& result) {
   result.charts.push_back(std::move(unusable));
 }
 
-/// Goes through all charts, small ones in several threads at once, large ones one after the other.
+/// Iterates over all charts: small ones in parallel, large ones one after another.
 class ChartLoop {
  public:
   explicit ChartLoop(const std::vector<Chart>& charts) {
-    constexpr double cutting = 0.05;  // of the work, which is counted by faces, to make the charts
-    double total = 1e-9;              // no charts: no division by zero
+    constexpr double cutting = 0.05;  // share of making the charts in the work, which is counted by faces
+    double total = 1e-9;              // avoids a division by zero without charts
     for (const Chart& chart : charts) total += static_cast<double>(chart.faces.size());
     double done = 0;
     end_.push_back(cutting);
@@ -379,9 +379,9 @@ class ChartLoop {
     }
   }
 
-  /// Calls solve(i, progress), and then write(its solution) in the order of the charts. One that runs out of memory
-  /// beside others is solved again alone, and where that is too much, too, give_up(i) stands in for its solve. Throws
-  /// std::bad_alloc where that is so of all.
+  /// Calls solve(i, progress), and then write(its solution) in the order of the charts. A chart that runs out of memory
+  /// beside others is solved again alone; if that fails too, give_up(i) replaces its solve. Throws std::bad_alloc if
+  /// every chart fails so.
   template <class Solve, class GiveUp, class Write>
   void run(const Progress& progress, const Solve& solve, const GiveUp& give_up, const Write& write) const {
     int first = 0;
@@ -396,12 +396,12 @@ class ChartLoop {
             try {
               solutions[static_cast<std::size_t>(k)] = solve(i, part(charts_progress, end_[i], end_[i + 1]));
             } catch (const std::bad_alloc&) {
-              // It has none, then.
+              // It stays without a solution.
             }
           },
           progress, "eigenproblem", max_threads_for(face_nanoseconds * static_cast<double>(n_faces_of(first, last))));
       const bool were_others = last - first > 1;
-      // The fraction done only rises.
+      // Progress must not fall.
       const Progress rest = [&](double, const char* phase) { return !progress || progress(end_[last], phase); };
       for (std::optional<ChartUnwrapper::Solution>& solution : solutions) {
         if (!solution && were_others) solution = solved_alone(first, rest, solve);
@@ -409,7 +409,7 @@ class ChartLoop {
           solution = give_up(first);
           ++given_up;
         }
-        // Its memory goes with it.
+        // This frees its memory.
         write(*std::exchange(solution, std::nullopt));
         ++first;
       }
@@ -418,13 +418,13 @@ class ChartLoop {
   }
 
  private:
-  /// Charts of more faces share their own factorization among threads, and take too much memory for two at a time.
+  /// Larger charts parallelize their own factorization, and take too much memory for two at a time.
   static constexpr std::size_t max_faces_together = 20000;
-  /// In a batch: the maps of all its charts are kept until it ends.
+  /// Per batch: the maps of all its charts are kept until it ends.
   static constexpr std::size_t max_faces_in_batch = 400000;
-  /// Likewise: a chart of one face takes a kilobyte until then.
+  /// Likewise: even a chart of one face takes a kilobyte until then.
   static constexpr int max_charts_in_batch = 20000;
-  /// About what a face takes at least.
+  /// Approximate minimum time per face.
   static constexpr double face_nanoseconds = 1000;
 
   template <class Solve>
@@ -477,7 +477,7 @@ Unwrap unwrap(const PolygonMesh& mesh, const UnwrapOptions& options, const Progr
         ChartUnwrapper::Solution solution =
             ChartUnwrapper(cut, chart, options)
                 .solve(extenders, options.solve.hole_rigidity, options.solve.tolerance, charts_progress, kept);
-        // Each gives its memory back before the next solve.
+        // Each frees its memory before the next solve.
         const Chart solved = std::move(chart);
         return solution;
       },
