@@ -4,21 +4,21 @@
 
 namespace spectral_conformal {
 
-/// A power of two next to the largest of some lengths: measured in it, squares neither overflow nor vanish, and to
-/// change units rounds nothing.
+/// A power of two near the largest of some lengths. In this unit squares neither overflow nor underflow, and changing
+/// units is exact.
 class BinaryUnit {
  public:
-  /// Makes the unit large enough for a coordinate; one that is not finite does not count.
+  /// Makes the unit large enough for a coordinate; ignores non-finite ones.
   void include(double coordinate) {
     if (std::abs(coordinate) > largest_) enlarge(coordinate);
   }
-  /// Makes the unit large enough for what another is large enough for.
+  /// Makes the unit at least as large as another.
   void include(const BinaryUnit& other) { include(other.largest_); }
-  /// log2 of the unit; bounded, so that it has an inverse. 0 without a coordinate other than 0.
+  /// log2 of the unit; bounded, so that the unit has an inverse. 0 without nonzero coordinates.
   int exponent() const;
-  /// A length in this unit.
+  /// Converts a length to this unit.
   double scaled(double length) const { return length * factor_; }
-  /// An area in squares of this unit, in those of the coordinates.
+  /// Converts an area from squares of this unit to squares of the coordinates' unit.
   double area_of(double scaled_area) const { return scaled_area * length_ * length_; }
 
  private:

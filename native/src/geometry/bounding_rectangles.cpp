@@ -7,8 +7,8 @@
 #include "geometry/signed_area.h"
 
 namespace spectral_conformal {
-// Hull and calipers are our own, not CGAL's convex_hull_2 and min_rectangle_2: those compare exactly and return one
-// rectangle, so that among the equal ones of a symmetric or regular outline rounding would choose.
+// Not CGAL's convex_hull_2 and min_rectangle_2: they compare exactly and return one rectangle, so rounding would choose
+// among the equal ones of a symmetric or regular outline.
 
 /// Andrew's monotone chain.
 std::vector<Complex> convex_hull(std::vector<Complex> points) {
@@ -67,7 +67,7 @@ std::vector<Rectangle> smallest_rectangles(const std::vector<Complex>& hull, dou
     while (top < i + n && height(top + 1) > height(top)) ++top;
     left = std::max(left, top);
     while (left < i + n && along(left + 1) < along(left)) ++left;
-    // Of points that are nearly in a line, rounding makes small numbers negative.
+    // For nearly collinear points, rounding can make small numbers negative.
     const Rectangle rectangle{direction, std::max(0.0, along(right) - along(left)), std::max(0.0, height(top))};
     found.push_back(rectangle);
     smallest = std::min(smallest, rectangle.width * rectangle.height);

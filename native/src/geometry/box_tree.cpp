@@ -6,7 +6,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Below this, testing the leaves one by one takes no longer than a level of nodes.
+/// Up to this, testing the leaves one by one takes no longer than a level of nodes.
 constexpr int max_leaves = 4;
 
 }  // namespace
@@ -41,7 +41,7 @@ int BoxTree::build(int first, int last) {
   if (last - first <= max_leaves) return node;
   const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
   const int middle = first + (last - first) / 2;
-  // Halves of the sum of both ends; the index makes the order the same everywhere.
+  // Half the sum of both ends; the index makes the order the same on every platform.
   std::nth_element(leaves_.begin() + first, leaves_.begin() + middle, leaves_.begin() + last,
                    [axis](const Leaf& a, const Leaf& b) {
                      const double centre_a = 0.5 * a.box.low[axis] + 0.5 * a.box.high[axis];

@@ -8,7 +8,7 @@
 
 namespace spectral_conformal {
 
-/// A rectangle with sides along the axes, its border included.
+/// A closed axis-aligned rectangle.
 struct PlaneBox {
   std::array<double, 2> low;
   std::array<double, 2> high;
@@ -17,11 +17,11 @@ struct PlaneBox {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];
   }
   void include(const PlaneBox& other);
-  /// The smallest one that holds some points of the plane, one at least.
+  /// The bounding box of at least one point.
   static PlaneBox of(std::initializer_list<Complex> points);
 };
 
-/// A balanced binary tree of boxes, built in O(n log n), that finds those which meet a given one.
+/// A balanced binary tree of boxes, built in O(n log n), that finds the boxes meeting a given one.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<PlaneBox>& boxes);
@@ -29,7 +29,7 @@ class BoxTree {
   /// Calls visit(index) for the boxes that meet `box`, until it returns false.
   template <class Visit>
   void for_each_meeting(const PlaneBox& box, Visit&& visit) const {
-    // Twice the depth of a balanced tree of as many boxes as an int can count.
+    // Twice the depth of a balanced tree with INT_MAX boxes.
     std::array<int, 64> stack;
     int top = 0;
     if (!nodes_.empty()) stack[top++] = 0;
@@ -57,7 +57,7 @@ class BoxTree {
     PlaneBox box;
     int first;         ///< of its leaves
     int last;          ///< beyond its leaves
-    int second_child;  ///< the first one follows the node; 0 where it has none
+    int second_child;  ///< the first child follows the node; 0 if none
   };
 
   int build(int first, int last);

@@ -15,7 +15,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The corners that are not convex, in a tree. Clipping ears makes no corner that is convex another kind.
+/// The non-convex corners, in a tree. Clipping ears leaves convex corners convex.
 struct Obstacles {
   std::vector<int> corners;
   BoxTree tree;
@@ -73,13 +73,13 @@ class EarClipping {
   }
 
  private:
-  /// What a corner does that lies on the sides of an ear: diagonals through corners are for want of others.
+  /// The effect of a corner on the sides of an ear: diagonals through corners are a last resort.
   enum class Contact { blocks, is_allowed };
 
   Complex point(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
   int turn(int corner) const { return orientation(point(previous_[corner]), point(corner), point(next_[corner])); }
   bool is_clipped(int corner) const { return next_[corner] < 0; }
-  /// An edge without length begins or ends there, or the outline turns back on itself.
+  /// Whether an edge of length 0 begins or ends there, or the outline turns back on itself.
   bool is_spike(int corner) const {
     const Complex back = point(previous_[corner]) - point(corner);
     const Complex on = point(next_[corner]) - point(corner);
@@ -87,11 +87,11 @@ class EarClipping {
     constexpr double rounding = 1e-12;
     const double along = dot(back, on);
     const double between = std::abs(cross(back, on));
-    // The shorter edge ends so near the other one.
+    // Distance of the shorter edge's end from the other edge.
     const double longer = std::max(std::abs(back), std::abs(on));
     return between <= rounding * along || (along > 0 && between <= tolerance_ * longer);
   }
-  /// Where a point lies beside the line from a to b: 1 left, -1 right, 0 nearer than the tolerance.
+  /// The side of the line from a to b on which p lies: 1 left, -1 right, 0 within the tolerance.
   int side(Complex a, Complex b, Complex p) const {
     if (tolerance_ == 0) return orientation(a, b, p);
     const double height = cross(b - a, p - a);
@@ -102,7 +102,7 @@ class EarClipping {
     if (!is_clipped(corner)) candidates_.emplace(-std::norm(point(next_[corner]) - point(previous_[corner])), corner);
   }
 
-  /// A corner that is not convex and keeps a convex one from being an ear, or -1.
+  /// A non-convex corner that keeps a convex one from being an ear, or -1.
   int find_blocker(int corner, Contact contact) const {
     const int before = previous_[corner];
     const int after = next_[corner];
@@ -123,7 +123,7 @@ class EarClipping {
       if (p == a || p == c || turn(other) > 0) return true;
       bool blocks = false;
       if (p == b) {
-        // Edges that leave the same place within the ear.
+        // Edges that leave the same point into the ear.
         blocks = is_between(point(next_[other])) || is_between(point(previous_[other]));
       } else {
         const int least = std::min({side(a, b, p), side(b, c, p), side(c, a, p)});
@@ -135,7 +135,7 @@ class EarClipping {
     return found;
   }
 
-  /// Where no corner is an ear beyond doubt: one whose diagonal touches others, or without area, or any.
+  /// If no corner is clearly an ear: one whose diagonal touches others, or one without area, or any.
   int forced_ear() {
     while (is_clipped(start_)) ++start_;
     int flat = -1;
@@ -171,9 +171,9 @@ class EarClipping {
   Obstacles obstacles_;
   std::vector<int> previous_;
   std::vector<int> next_;                                   ///< -1: clipped
-  std::priority_queue<std::pair<double, int>> candidates_;  ///< the shortest diagonal first: few corners are near it
-  std::vector<std::vector<int>> waiting_;                   ///< per corner, for it to be clipped or to become convex
-  int start_ = 0;                                           ///< of forced_ear
+  std::priority_queue<std::pair<double, int>> candidates_;  ///< shortest diagonal first: few corners are near it
+  std::vector<std::vector<int>> waiting_;  ///< per corner, those waiting for it to be clipped or become convex
+  int start_ = 0;                          ///< of forced_ear
   std::vector<std::array<int, 3>> triangles_;
 };
 
@@ -196,7 +196,7 @@ std::vector<std::array<int, 3>> clip_ears(const std::vector<Complex>& outline, d
 
 bool covers_once(const std::vector<Complex>& points, const std::vector<std::array<int, 3>>& triangles,
                  double tolerance) {
-  // What overlaps deeper still does, and no triangle that covers anything turns over.
+  // Deeper overlaps survive this, and no triangle with area turns over.
   constexpr double below_half = 0.49;
   ComplexVector merged = Eigen::Map<const ComplexVector>(points.data(), static_cast<Eigen::Index>(points.size()));
   if (tolerance > 0) merged = merge_points(merged, std::vector<double>(points.size(), below_half * tolerance));
@@ -217,7 +217,7 @@ bool covers_once(const std::vector<Complex>& points, const std::vector<std::arra
            !is_beyond_a_side(placed[other], placed[t], tolerance);
   };
   bool overlaps = false;
-  std::vector<std::size_t> barely;  // met another less deep, which they are not swept with: to be tested pair by pair
+  std::vector<std::size_t> barely;  // meet another less deeply, so they are not swept together: test pair by pair
   sweep_triangles(swept, [&](int first, int second) {
     overlaps = overlap(static_cast<std::size_t>(first), static_cast<std::size_t>(second));
     const int out = std::max(first, second);

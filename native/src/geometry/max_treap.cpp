@@ -7,7 +7,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The finaliser of MurmurHash3: looks like chance, and is different for different items.
+/// The finalizer of MurmurHash3: pseudo-random, and different for different items.
 std::uint32_t priority(int item) {
   auto hash = static_cast<std::uint32_t>(item) + 1;
   hash = (hash ^ (hash >> 16)) * 0x85ebca6bU;

@@ -4,26 +4,26 @@
 
 namespace spectral_conformal {
 
-/// A sequence of items, each with a value, that finds the nearest item whose value is above a limit (a treap, Seidel
-/// and Aragon 1996, "Randomized Search Trees", whose nodes know the largest value below them). All in O(log n) on
-/// average; the priorities are the same in each run. Items are numbers from 0; `none` stands for no item.
+/// A sequence of items with values that finds the nearest item with a value above a limit: a treap (Seidel and Aragon
+/// 1996, "Randomized Search Trees") whose nodes store the largest value in their subtree. All operations take O(log n)
+/// on average; the priorities are the same in each run. Items are numbers from 0; `none` stands for no item.
 class MaxTreap {
  public:
   static constexpr int none = -1;
 
-  /// Puts an item that is not in the sequence before another one, or, for `none`, at the end.
+  /// Inserts a new item before another one, or, for `none`, at the end.
   void insert_before(int at, int item, double value);
   void erase(int item);
   double value(int item) const { return nodes_[static_cast<std::size_t>(item)].value; }
   void set_value(int item, double value);
 
-  /// The first item of all with a value above the limit.
+  /// The first item with a value above the limit.
   int first_above(double limit) const { return first_above_in(root_, limit); }
-  /// The first after an item.
+  /// The first such item after a given one.
   int next_above(int item, double limit) const;
-  /// The last before an item.
+  /// The last such item before a given one.
   int previous_above(int item, double limit) const;
-  /// The first item for which is_behind holds, which holds for all after it, too.
+  /// The first item for which is_behind holds. Precondition: it then holds for all later items.
   template <class Predicate>
   int first_behind(const Predicate& is_behind) const {
     int found = none;
@@ -57,7 +57,7 @@ class MaxTreap {
   double largest_below(int item) const;
   void update_up(int item);
   void replace(int item, int by);
-  /// Puts a node in the place of its parent, which becomes its child.
+  /// Rotates a node into the position of its parent, which becomes its child.
   void rotate_up(int item);
 
   std::vector<Node> nodes_;

@@ -9,10 +9,10 @@
 namespace spectral_conformal {
 namespace {
 
-/// Of two eigenvalues with a larger ratio, double precision (epsilon 2e-16) does not resolve the smaller one.
+/// Beyond this ratio of eigenvalues, double precision (epsilon 2e-16) does not resolve the smaller one.
 constexpr double max_ratio = 1e16;
 
-/// G = mean I + deviator, the deviator being trace-free with eigenvalues +-radius.
+/// G = mean I + deviator, where the deviator is trace-free with eigenvalues +-radius.
 struct Split {
   double mean;
   double half_difference;
@@ -58,7 +58,7 @@ TriangleMetric metric_of_map(const TriangleShape& shape, Complex d1, Complex d2)
 TriangleMetric metric_along(const Eigen::Vector3d& direction, double ratio,
                             const Eigen::Matrix<double, 2, 3>& tangent_frame) {
   const Eigen::Vector2d t = tangent_frame * direction.stableNormalized();
-  // The projection of a perpendicular direction is rounding, some 1e-16 long, and points anywhere.
+  // The projection of a perpendicular direction is rounding error, about 1e-16 long, and points anywhere.
   if (!(t.norm() > 1e-12)) return {};
   const Eigen::Vector2d unit = t.normalized();
   const double excess = ratio * ratio - 1;

@@ -43,9 +43,9 @@ int NearestPoint::to(Complex place) const {
   struct Range {
     int first;
     int last;
-    double least;  ///< no point in it is nearer, by squares
+    double least;  ///< lower bound of the squared distance to its points
   };
-  // One more at each level of a balanced tree of as many points as an int can count.
+  // One entry per level of a balanced tree with INT_MAX points.
   std::array<Range, 64> stack;
   int top = 0;
   stack[top++] = {0, static_cast<int>(leaves_.size()), 0};

@@ -6,14 +6,14 @@
 
 namespace spectral_conformal {
 
-/// Finds the nearest of some points of the plane in a k-d tree (Bentley 1975): built in O(n log n), asked in O(log n)
-/// where the points are not all about equally far.
+/// Finds the nearest of some points of the plane in a k-d tree (Bentley 1975): built in O(n log n), queried in O(log n)
+/// unless most points are about equally far.
 class NearestPoint {
  public:
-  /// Points, finite, one at least.
+  /// points: finite, at least one.
   explicit NearestPoint(const std::vector<Complex>& points);
 
-  /// The index of the nearest point, the smallest of equally near ones.
+  /// The index of the nearest point; the smallest index among equally near ones.
   int to(Complex place) const;
 
  private:
@@ -26,7 +26,7 @@ class NearestPoint {
 
   /// The middle of each range splits it; in place, without nodes.
   std::vector<Leaf> leaves_;
-  std::vector<char> axis_;  ///< across which the leaf at this place splits its range
+  std::vector<char> axis_;  ///< axis across which the leaf at this index splits its range
 };
 
 }  // namespace spectral_conformal

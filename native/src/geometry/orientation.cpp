@@ -7,7 +7,7 @@
 namespace spectral_conformal {
 
 int exact_orientation(Complex a, Complex b, Complex c) {
-  // CGAL's exact numbers hold no others: expanding one does not end.
+  // CGAL's exact numbers require finite values: expanding another does not terminate.
   for (const Complex p : {a, b, c}) {
     if (std::isfinite(p.real()) && std::isfinite(p.imag())) continue;
     throw SolveFailure(rejected(Rejection::not_finite));

@@ -11,12 +11,12 @@ namespace spectral_conformal {
 int exact_orientation(Complex a, Complex b, Complex c);
 
 /// The orientation of the triangle a b c: 1 counter-clockwise, -1 clockwise, 0 where the points lie on one line. Exact,
-/// whatever rounding does to the area. Throws SolveFailure for coordinates that are not finite.
+/// regardless of rounding. Throws SolveFailure for coordinates that are not finite.
 inline int orientation(Complex a, Complex b, Complex c) {
   // Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), bound A:
   // a determinant above (3 + 16 u) u of the sum of its terms, u = 2^-53, has the right sign.
   constexpr double error_bound = 3.3306690738754716e-16;
-  // Below, products may have lost digits to underflow, which the bound does not cover.
+  // Below this, products may lose digits to underflow, which the bound does not cover.
   constexpr double underflow = 1e-280;
   const double left = (a.real() - c.real()) * (b.imag() - c.imag());
   const double right = (a.imag() - c.imag()) * (b.real() - c.real());

@@ -8,10 +8,10 @@
 
 namespace spectral_conformal {
 
-/// A triangle in the plane, with what every pair of triangles needs.
+/// A triangle in the plane, with the data that pair tests need.
 struct PlaneTriangle {
   std::array<Complex, 3> corners;
-  std::array<Complex, 3> inwards;  ///< unit normal of each side; 0 for a side without length
+  std::array<Complex, 3> inwards;  ///< unit normal of each side; 0 for a side of length 0
   std::array<double, 3> height;    ///< over each side, negative for a clockwise triangle
   double size;                     ///< longest side
   double reach;                    ///< largest coordinate
@@ -32,8 +32,7 @@ struct PlaneTriangle {
   }
 };
 
-/// Whether the two have at most `tolerance` in common across one of the sides of `a`. A collapsed triangle has nothing
-/// in common with any.
+/// Whether the two overlap by at most `tolerance` across one of the sides of `a`. A collapsed triangle overlaps none.
 inline bool separated_by_side(const PlaneTriangle& a, const PlaneTriangle& b, double tolerance) {
   for (int k = 0; k < 3; ++k) {
     if (a.inwards[k] == 0.0) continue;

@@ -6,11 +6,11 @@
 
 namespace spectral_conformal {
 
-/// Points (V,), each moved by at most its radius: to the first one that it is near, if there is one. What meets up to
-/// rounding then meets exactly. Where two triangles that are moved so do not meet, some side of one of them had them
-/// overlap by at most twice the largest radius: the least depth of two convex polygons is that across one of their
-/// sides, and each corner changes it by at most what it is moved. radii (V,): the same at the same place. O(n log n)
-/// where radii of neighbors are about the same.
+/// Moves each of the points (V,) by at most its radius, to the first point within it, if any. Contacts up to rounding
+/// then become exact. If two triangles moved in this way do not meet, they overlapped before by at most twice the
+/// largest radius across some side: the least depth of two convex polygons is attained across one of their sides, and
+/// each corner changes it by at most its motion. radii: (V,), equal for coincident points. O(n log n) if neighbors have
+/// similar radii.
 ComplexVector merge_points(const ComplexVector& points, const std::vector<double>& radii);
 
 }  // namespace spectral_conformal

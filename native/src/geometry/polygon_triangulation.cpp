@@ -49,7 +49,7 @@ bool has_no_area(const Eigen::Ref<const Positions>& corners) {
 void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   const auto point = [&](int i) -> Vector { return corners.row(i).transpose(); };
   const Vector normal = (point(2) - point(0)).cross(point(3) - point(1));  // Newell's, in closed form
-  // A triangle lies inside when it is oriented like the quad, with an area above this fraction of the quad's: less is
+  // A triangle lies inside if it is oriented like the quad and has more than this fraction of its area; less is
   // rounding of a corner on the diagonal.
   constexpr double min_fraction = 1e-9;
   const auto is_above = [&](const std::array<int, 3>& triangle, double fraction) {
@@ -65,14 +65,14 @@ void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangu
   if (both || along_02) result.triangles.insert(result.triangles.end(), quad_splits.begin(), quad_splits.begin() + 2);
   if (both || along_13) result.triangles.insert(result.triangles.end(), quad_splits.begin() + 2, quad_splits.end());
   result.triangle_weights.assign(result.triangles.size(), both ? split_of_quad : whole_triangle);
-  // Two corners may coincide, or all lie on one line.
+  // Two corners may coincide, or all may be collinear.
   result.simple =
       along_02 || along_13 || are_above(0, -min_fraction) || are_above(2, -min_fraction) || has_no_area(corners);
 }
 
 struct FaceInfo {
   bool is_visited = false;
-  int winding = 0;                         ///< how often the outline goes round it
+  int winding = 0;                         ///< winding number of the outline
   std::array<int, 3> corners{-1, -1, -1};  ///< the corner of the polygon at each vertex
 };
 
@@ -85,14 +85,14 @@ using ConstrainedDelaunay =
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 /// The constrained Delaunay triangulation of a polygon whose outline may touch itself at corners and run along itself
-/// in the other direction, as bridges to holes do. Corners at one place are one vertex; which of them a triangle has is
-/// told by the edges between which it lies there.
+/// in the other direction, as bridges to holes do. Coincident corners are one vertex; the edges on both sides of a
+/// triangle tell which of them it has.
 class OutlineTriangulation {
  public:
   explicit OutlineTriangulation(const std::vector<Complex>& outline) : outline_(outline) {}
 
-  /// Returns false where the outline crosses itself, an edge passes through another corner, or corners are joined by
-  /// nothing but a place that they share.
+  /// Returns false if the outline crosses itself, an edge passes through another corner, or parts are joined only by
+  /// coincident corners.
   bool triangulate(std::vector<std::array<int, 3>>& triangles) {
     insert_corners();
     list_edges();
@@ -109,7 +109,7 @@ class OutlineTriangulation {
 
  private:
   using Face = ConstrainedDelaunay::Face_handle;  // a pointer
-  /// Of the outline: from the vertex of one corner to that of the next.
+  /// An edge of the outline, from the vertex of one corner to that of the next.
   struct Edge {
     int from;
     int to;
@@ -128,8 +128,8 @@ class OutlineTriangulation {
     std::vector<Kernel::Point_2> points;
     points.reserve(outline_.size());
     for (const Complex p : outline_) points.emplace_back(p.real(), p.imag());
-    // Which of the Delaunay triangulations of corners on a circle is found depends on their order. Fewer come as they
-    // are, for many that would be quadratic.
+    // The order decides which of the Delaunay triangulations of cocircular corners is found. Up to this many corners
+    // keep their order; for more that would take quadratic time.
     constexpr int sorted_from = 1024;
     if (size() >= sorted_from) {
       const CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<Kernel::Point_2>::type> traits(
@@ -158,7 +158,7 @@ class OutlineTriangulation {
     const Edge* const end = begin + edges_.size();
     return {std::lower_bound(begin, end, Edge{from, to, -1}), std::lower_bound(begin, end, Edge{from, to + 1, -1})};
   }
-  /// The only corner at which such an edge begins, or -1.
+  /// The only corner at which an edge between these vertices begins, or -1.
   int corner_of_edge(int from, int to) const {
     const auto [first, last] = edges_between(from, to);
     return last - first == 1 ? first->corner : -1;
@@ -170,7 +170,7 @@ class OutlineTriangulation {
   static int start_of_side(Face face, int side) { return face->vertex(face->ccw(side))->info(); }
   static int end_of_side(Face face, int side) { return face->vertex(face->cw(side))->info(); }
 
-  /// Counts from the infinite face inwards; false unless the outline goes round everything once or not at all.
+  /// Propagates winding numbers inward from the infinite face; false unless all are 0 or 1.
   bool find_windings() {
     std::vector<Face> stack{triangulation_.infinite_face()};
     stack.front()->info().is_visited = true;
@@ -199,7 +199,8 @@ class OutlineTriangulation {
     return true;
   }
 
-  /// Gives the triangles around a vertex, from the edge that leaves a corner to that which arrives, this corner.
+  /// Assigns a corner to the triangles around its vertex, from the edge that leaves the corner to the edge that
+  /// arrives.
   bool assign_corners() {
     for (const Face face : triangulation_.finite_face_handles()) {
       if (face->info().winding == 0) continue;
@@ -240,7 +241,7 @@ class OutlineTriangulation {
   std::vector<Edge> edges_;  ///< sorted
 };
 
-/// The polygon along Newell's normal, counter-clockwise; empty where it has none.
+/// The polygon projected along Newell's normal, counterclockwise; empty if the normal vanishes.
 std::vector<Complex> projected(const Eigen::Ref<const Positions>& corners) {
   const Vector centre = corners.colwise().mean().transpose();
   const Vector normal = polygon_normal(corners, centre);
@@ -260,7 +261,7 @@ bool triangulate_outline(const Eigen::Ref<const Positions>& corners, std::vector
   const std::vector<Complex> outline = projected(corners);
   if (outline.empty()) return false;
   if (OutlineTriangulation(outline).triangulate(triangles)) return true;
-  // Corners that lie on an edge do so up to rounding, to single precision where they come from a file.
+  // Corners lie on an edge up to rounding, in single precision if they come from a file.
   constexpr double rounding = 1e-6;
   double extent = 0;
   for (const Complex p : outline) extent = std::max(extent, std::abs(p));

@@ -10,8 +10,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// Both splits of a parallelogram or trapezoid have equal smaller areas: what differs by less than this fraction of the
-/// quad's area differs by rounding (some 1e-16) or by nothing that a measure could tell.
+/// Both splits of a parallelogram or trapezoid have equal smaller areas. A difference below this fraction of the quad's
+/// area is rounding (about 1e-16), or too small for any measure.
 constexpr double equal_areas = 1e-9;
 
 std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }

@@ -27,8 +27,8 @@ double TriangleShape::quasi_conformal_distortion(Complex d1, Complex d2) const {
 
 namespace {
 
-/// The triangle whose side opposite to `apex` has the given length, and whose apex stands at `foot` along it, counted
-/// from the next corner, and `height` over it.
+/// The triangle whose side opposite to `apex` has the given length, with the apex at `foot` along that side, measured
+/// from the next corner, and at `height` above it.
 TriangleShape over_side(int apex, double length, double foot, double height) {
   std::array<Complex, 3> z;
   z[apex] = Complex(foot, height);

@@ -20,8 +20,8 @@ struct TriangleShape {
   /// Whether the shape was clamped, see local_isometric_frame.
   bool clamped = false;
 
-  /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2:
-  /// i (d1 (x2 - i y2) - d2 x1). Written out, because complex multiplication by the standard checks for infinities.
+  /// 4 |T| times the derivative f_z of the linear map with f(0) = 0, f(x1) = d1, f(x2 + i y2) = d2: i (d1 (x2 - i y2) -
+  /// d2 x1). Written out, because standard complex multiplication checks for infinities.
   Complex holomorphic_part(Complex d1, Complex d2) const {
     return {d1.real() * y2 - d1.imag() * x2 + d2.imag() * x1, d1.real() * x2 + d1.imag() * y2 - d2.real() * x1};
   }
@@ -31,9 +31,9 @@ struct TriangleShape {
     return {d1.real() * y2 + d1.imag() * x2 - d2.imag() * x1, d1.imag() * y2 - d1.real() * x2 + d2.real() * x1};
   }
 
-  /// The adjoint of these two parts: adds what a function of them gains by the images of the corners to a gradient,
-  /// given its derivatives g by the holomorphic and h by the antiholomorphic one (f_u + i f_v of f by u + i v). With
-  /// p = x2 + i y2: by d1, -i p g + i conj(p) h; by d2, i x1 (g - h); by the first corner, minus both.
+  /// The adjoint of these two parts: adds the derivatives of a function of them by the images of the corners to a
+  /// gradient, given its derivatives g by the holomorphic and h by the antiholomorphic part (f_u + i f_v for f by u + i
+  /// v). With p = x2 + i y2: by d1, -i p g + i conj(p) h; by d2, i x1 (g - h); by the first corner, minus both.
   void add_gradient(const std::array<int, 3>& corners, Complex g, Complex h, Complex* gradient) const {
     const Complex by_d1(x2 * (g.imag() - h.imag()) + y2 * (g.real() + h.real()),
                         x2 * (h.real() - g.real()) + y2 * (g.imag() + h.imag()));
@@ -50,14 +50,13 @@ struct TriangleShape {
   /// ||f_z| - |f_zbar||; infinite where the image has no area.
   double quasi_conformal_distortion(Complex d1, Complex d2) const;
 
-  /// The relative height below which a triangle counts as degenerate: cotangents reach its inverse, and 1e10 leaves six
-  /// of the sixteen digits of a sum that has terms of order 1.
+  /// The relative height below which a triangle is degenerate: cotangents reach its inverse, and 1e10 leaves six of
+  /// sixteen digits in a sum with terms of order 1.
   static constexpr double min_height = 1e-10;
 };
 
-/// The local isometric frame of a triangle in space. A triangle with a relative height below min_height gets that
-/// height, so that its cotangents stay finite; one without extent becomes equilateral, of side 1. Either is marked
-/// clamped.
+/// The local isometric frame of a triangle in 3D. A triangle with a relative height below min_height gets that height,
+/// so that its cotangents stay finite; one without extent becomes equilateral, with side 1. Both are marked as clamped.
 TriangleShape local_isometric_frame(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2);
 
 /// Area of a triangle in 3D.

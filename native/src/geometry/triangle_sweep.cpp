@@ -11,10 +11,10 @@
 namespace spectral_conformal {
 namespace {
 
-/// From left to right; a line that leans a little meets the points of one column from below.
+/// The order from left to right; within a column from below, as if the line leaned slightly.
 bool is_left_of(Complex p, Complex q) { return p.real() != q.real() ? p.real() < q.real() : p.imag() < q.imag(); }
 
-/// A triangle as the line meets it.
+/// A triangle as seen by the sweep line.
 struct SweptTriangle {
   Complex first;
   Complex middle;
@@ -27,7 +27,7 @@ SweptTriangle swept(std::array<Complex, 3> corners) {
   return {corners[0], corners[1], corners[2], orientation(corners[0], corners[2], corners[1]) > 0};
 }
 
-/// Whether the interiors of two counter-clockwise triangles meet: no side of either has all of the other beyond it.
+/// Whether the interiors of two counter-clockwise triangles meet: no side of either separates them.
 bool interiors_meet(const std::array<Complex, 3>& a, const std::array<Complex, 3>& b) {
   const auto has_side_between = [](const std::array<Complex, 3>& triangle, const std::array<Complex, 3>& other) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,7 +64,8 @@ class TriangleSweep {
   }
 
  private:
-  /// Where a triangle begins or ends. At one point they end first: those that meet there only do not meet inside.
+  /// A start or end of a triangle. At the same point ends come first: triangles that meet only there have disjoint
+  /// interiors.
   struct Event {
     Complex point;
     bool begins;
@@ -76,7 +77,7 @@ class TriangleSweep {
     }
   };
 
-  /// The order on the line.
+  /// The order along the line.
   struct Above {
     const TriangleSweep* sweep;
     bool operator()(int t, int other) const {
@@ -86,7 +87,7 @@ class TriangleSweep {
   };
   using Line = std::multiset<int, Above>;
 
-  /// Whether the triangle that begins lies below another on the line. Where the two meet right there either will do.
+  /// Whether the starting triangle lies below another on the line. If the two meet there, either answer will do.
   bool begins_below(const SweptTriangle& other) const {
     const SweptTriangle& own = swept_[static_cast<std::size_t>(begun_)];
     const Complex p = own.first;
@@ -122,7 +123,7 @@ class TriangleSweep {
     return line_.erase(place);
   }
 
-  /// Takes triangles out until the one at a place, or the one that is there then, does not meet the one below it.
+  /// Removes triangles until the one at this position of the line does not meet the one below it.
   void clear_below(Line::iterator place) {
     while (!is_ended_ && place != line_.end() && place != line_.begin()) {
       const auto below = std::prev(place);
@@ -144,8 +145,8 @@ class TriangleSweep {
   const std::function<int(int first, int second)>& leave_out_;
   std::vector<SweptTriangle> swept_;
   int begun_ = -1;                      ///< the last one
-  Line line_;                           ///< those that the line meets, from below
-  std::vector<Line::iterator> places_;  ///< per triangle; its end where it is not on the line
+  Line line_;                           ///< triangles that meet the line, from below
+  std::vector<Line::iterator> places_;  ///< per triangle; end() if not on the line
   bool is_ended_ = false;
 };
 

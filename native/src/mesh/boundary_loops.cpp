@@ -51,8 +51,8 @@ std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Ei
   const Adjacency graph = graph_of(neighbours);
   std::array<int, 2> pair{loop.front(), loop.front()};
   double farthest = -1;
-  constexpr int max_sweeps = 6;     // two are exact on a tree; further ones only lengthen the path
-  constexpr double growth = 1e-12;  // above the rounding of a sum of edge lengths, some 1e-13
+  constexpr int max_sweeps = 6;     // two are exact on a tree; more can only lengthen the path
+  constexpr double growth = 1e-12;  // above the rounding of a sum of edge lengths, about 1e-13
   int source = loop.front();
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     const std::vector<double> distance = distances_from(source, graph, positions);

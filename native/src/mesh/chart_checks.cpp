@@ -10,8 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-// Within these limits the squares of lengths, hence areas and eigenvalues in the units of the input, are normal numbers
-// too.
+// Within these limits squares of lengths, and hence areas and eigenvalues in input units, are normal numbers.
 constexpr double min_extent = 1e-100;
 constexpr double max_extent = 1e100;
 

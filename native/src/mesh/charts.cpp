@@ -15,18 +15,18 @@ namespace {
 
 struct Components {
   std::vector<int> chart_of_face;
-  std::vector<char> reversed;    ///< per face: wound against its chart's majority
+  std::vector<char> reversed;    ///< per face: wound against the majority of its chart
   std::vector<char> orientable;  ///< per chart
   std::vector<std::vector<int>> faces;
 };
 
-/// Connected components over twins, with a consistent orientation where there is one.
+/// Connected components over twins, consistently oriented if possible.
 Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
   Components result;
   result.chart_of_face.assign(static_cast<std::size_t>(mesh.n_faces), -1);
   result.reversed.assign(static_cast<std::size_t>(mesh.n_faces), 0);
-  std::vector<char> seed_is_reversed;  // per chart: its first face, against the majority
-  std::vector<int> open;               // the last first: what it leads to is near in memory
+  std::vector<char> seed_is_reversed;  // per chart: its first face is wound against the majority
+  std::vector<int> open;               // last in, first out: neighbors are near in memory
   for (int seed = 0; seed < mesh.n_faces; ++seed) {
     if (!half_edges.is_used(seed) || result.chart_of_face[seed] >= 0) continue;
     const int chart = static_cast<int>(result.faces.size());
@@ -69,8 +69,8 @@ Components connect(const PolygonMesh& mesh, const HalfEdges& half_edges) {
   return result;
 }
 
-/// Chains the boundary half-edges, each of which starts at a vertex of its own. `next_vertex` maps a chart vertex to
-/// the next one along the boundary, or -1.
+/// Chains the boundary half-edges, which start at distinct vertices. `next_vertex` maps a chart vertex to the next one
+/// along the boundary, or -1.
 std::vector<BoundaryLoop> chain_loops(std::vector<int>& next_vertex) {
   std::vector<BoundaryLoop> loops;
   for (std::size_t seed = 0; seed < next_vertex.size(); ++seed) {
@@ -92,13 +92,13 @@ class ChartBuilder {
                const std::vector<int>& vertex_of_corner)
       : mesh_(mesh), half_edges_(half_edges), reversed_(reversed), vertex_of_corner_(vertex_of_corner) {}
 
-  /// Fills in triangles, loops and the Euler characteristic of a chart that has its faces and vertices.
+  /// Sets triangles, loops and the Euler characteristic of a chart from its faces and vertices.
   void complete(Chart& chart) {
     triangles_.clear();
     triangle_weights_.clear();
     std::size_t max_triangles = 0;
     for (const int face : chart.faces) {
-      // A quad has both of its splits.
+      // A quad may have both splits.
       const int size = mesh_.n_corners(face);
       max_triangles += static_cast<std::size_t>(size == 4 ? 4 : size - 2);
     }
@@ -142,7 +142,7 @@ class ChartBuilder {
       chart.triangle_face.push_back(index);
       return;
     }
-    // Not resize: Eigen 3.4 frees the old memory twice where there is no new one.
+    // Not resize: Eigen 3.4 frees the old memory twice if the allocation fails.
     if (corners_.rows() != size) corners_ = Positions(size, 3);
     for (int i = 0; i < size; ++i) {
       const double* p = mesh_.positions + 3 * static_cast<std::size_t>(mesh_.corner_vertices[corner(i)]);
@@ -163,7 +163,7 @@ class ChartBuilder {
   const HalfEdges& half_edges_;
   const std::vector<char>& reversed_;
   const std::vector<int>& vertex_of_corner_;
-  std::vector<std::array<int, 3>> triangles_;  ///< of the chart that is being completed
+  std::vector<std::array<int, 3>> triangles_;  ///< of the chart being completed
   std::vector<TriangleWeight> triangle_weights_;
   std::vector<int> next_vertex_;
   Positions corners_;
@@ -202,7 +202,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     still_working(80);
   }
 
-  // Number the fans chart by chart in the order of the mesh's vertices: first sort the fans' roots by vertex.
+  // Number the fans chart by chart in the order of the mesh vertices: first sort their roots by vertex.
   const Grouped<int> roots(mesh.n_vertices, [&](const auto& visit) {
     for (int c = 0; c < half_edges.n_corners(); ++c) {
       if (half_edges.is_used(half_edges.face(c)) && fans.find(c) == c) visit(mesh.corner_vertices[c], c);
@@ -233,7 +233,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
   ChartBuilder builder(mesh, half_edges, components.reversed, result.chart_vertex_of_corner);
   for (Chart& chart : result.charts) builder.complete(chart);
 
-  std::vector<std::pair<int, int>> corner_of_vertex;  // of the face that stands for a duplicate
+  std::vector<std::pair<int, int>> corner_of_vertex;  // of the face that represents a duplicate
   for (int face = 0; face < mesh.n_faces; ++face) {
     if (half_edges.state(face) != FaceState::duplicate) continue;
     const int original = half_edges.original(face);
@@ -246,7 +246,7 @@ ChartDecomposition build_charts(const PolygonMesh& mesh) {
     }
     std::sort(corner_of_vertex.begin(), corner_of_vertex.end());
     for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
-      // The last of a vertex that the face has several times.
+      // The last corner of a vertex that the face has several times.
       const auto behind = std::upper_bound(corner_of_vertex.begin(), corner_of_vertex.end(),
                                            std::pair(mesh.corner_vertices[c], half_edges.n_corners()));
       result.chart_vertex_of_corner[c] = result.chart_vertex_of_corner[std::prev(behind)->second];

@@ -28,8 +28,8 @@ void for_each_selected_corner(const PolygonMesh& mesh, Visit&& visit) {
   }
 }
 
-/// The different pins of each vertex that has several, in the order of the corners. Those that are not finite are
-/// named where a chart has them.
+/// The distinct pins of each vertex with several, in the order of the corners. Non-finite pins are reported later, by
+/// chart.
 std::map<int, std::vector<Complex>> different_pins(const PolygonMesh& mesh, const CornerPins& pins) {
   struct Pin {
     int vertex;
@@ -59,13 +59,13 @@ std::map<int, std::vector<Complex>> different_pins(const PolygonMesh& mesh, cons
   return result;
 }
 
-/// Tells the copy to which each corner of a vertex goes: that whose pin is nearest to the corner's UV.
+/// Finds the copy for each corner of a vertex: the one whose pin is nearest to the corner's UV.
 class NearestCopy {
  public:
   explicit NearestCopy(const std::vector<Complex>& pins) : nearest_(pins) {}
   int of(Complex uv) {
     if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) return 0;
-    // Many corners share a UV, such as all that have none yet.
+    // Many corners may share a UV, for example all without a map.
     const auto [known, is_new] = known_.try_emplace({uv.real(), uv.imag()}, 0);
     if (is_new) known->second = nearest_.to(uv);
     return known->second;
@@ -111,7 +111,7 @@ PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : me
 }
 
 void PinSplitMesh::add_seams(const std::map<int, std::vector<Complex>>& split) {
-  // Between copies only those pairs that are sides of faces: all pairs would be too many around a pole.
+  // Connect only those copies that share a side of a face: all pairs would be too many around a pole.
   using Edge = std::array<int, 2>;
   const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
   std::set<Edge> at_copies;
@@ -162,7 +162,7 @@ Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<i
       ++counts[chart_vertex_of_corner[c]];
     }
   }
-  // Equal pins, the rule, must come back to the bit.
+  // Equal pins, the usual case, must be preserved bit for bit.
   for (auto& [vertex, sum] : sums) {
     const int count = counts[vertex];
     if (count > 1) sum /= static_cast<double>(count);

@@ -8,34 +8,35 @@
 
 namespace spectral_conformal {
 
-/// A mesh whose vertices are split where their pins differ, as Blender does: each selected corner of such a vertex goes
-/// to the copy whose pin is nearest to its UV; the first pin keeps the vertex. Seams run along all copies of an edge.
+/// A mesh whose vertices are split where their pins differ, as Blender does: each selected corner of a split vertex
+/// goes to the copy whose pin is nearest to its UV; the first pin keeps the vertex. Seams run along all copies of an
+/// edge.
 class PinSplitMesh {
  public:
-  /// The arrays of `mesh` must outlive this object. Throws InvalidMesh for arrays that do not describe a mesh, and when
-  /// the mesh has no room for the copies.
+  /// The arrays of `mesh` must outlive this object. Throws InvalidMesh for arrays that do not describe a mesh, and if
+  /// the copies exceed the size limit.
   PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins);
 
   PolygonMesh view() const;
-  /// The vertex of the mesh that vertex v of the view is, or is a copy of.
+  /// The mesh vertex of which vertex v of the view is a copy (or v itself).
   int original_vertex(int v) const {
     return v < mesh_.n_vertices ? v : copied_[static_cast<std::size_t>(v - mesh_.n_vertices)];
   }
 
  private:
-  /// `split`: the different pins of the vertices that are split.
+  /// `split`: the distinct pins of the split vertices.
   void add_seams(const std::map<int, std::vector<Complex>>& split);
 
   PolygonMesh mesh_;
   std::vector<int> copied_;
-  // Empty where nothing was split.
+  // Empty if nothing was split.
   std::vector<double> positions_;
   std::vector<int> corner_vertices_;
   std::vector<std::array<int, 2>> seam_edges_;
 };
 
-/// The pins of a chart: the mean over the pinned corners of each of its vertices. `mesh` is a PinSplitMesh's
-/// view, `chart_vertex_of_corner` that of its ChartDecomposition. Throws InvalidMesh when a pinned UV is not finite.
+/// The pins of a chart: the mean over the pinned corners of each of its vertices. `mesh` is a PinSplitMesh's view,
+/// `chart_vertex_of_corner` that of its ChartDecomposition. Throws InvalidMesh if a pinned UV is not finite.
 Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<int>& chart_vertex_of_corner,
                 const CornerPins& pins);
 

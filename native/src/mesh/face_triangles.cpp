@@ -42,7 +42,7 @@ class FaceSplitter {
     return Eigen::Map<const Eigen::Vector3d>(mesh_.positions +
                                              3 * static_cast<std::size_t>(mesh_.corner_vertices[corner]));
   }
-  /// The other two corners lie on the same side of it.
+  /// Whether the other two corners lie on the same side of the first diagonal.
   bool first_diagonal_is_outside(int first) const {
     const Eigen::Vector3d diagonal = point(first + 2) - point(first);
     const Eigen::Vector3d one = (point(first + 1) - point(first)).cross(diagonal);

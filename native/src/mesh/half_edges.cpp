@@ -9,7 +9,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Fewer than three different vertices, or a vertex twice in a row.
+/// Fewer than three distinct vertices, or a vertex twice in a row.
 bool is_degenerate(const int* vertices, int size, std::vector<int>& sorted) {
   if (size < 3) return true;
   for (int i = 0; i < size; ++i) {
@@ -21,7 +21,7 @@ bool is_degenerate(const int* vertices, int size, std::vector<int>& sorted) {
   return std::unique(sorted.begin(), sorted.end()) - sorted.begin() < 3;
 }
 
-/// The half-edges of used faces, and the seams, of every edge, grouped by the edge's smaller vertex.
+/// The half-edges of used faces and the seams, edge by edge, grouped by the edge's smaller vertex.
 class EdgeTable {
  public:
   struct Entry {
@@ -95,7 +95,7 @@ void HalfEdges::classify_faces() {
 }
 
 void HalfEdges::find_twins() {
-  // Twice where there are duplicates: without them their edges have fewer faces.
+  // Repeat if there are duplicates: without them their edges have fewer faces.
   for (int pass = 0; pass < 2; ++pass) {
     twin_.assign(face_of_corner_.size(), -1);
     non_manifold_edges_ = 0;
@@ -131,7 +131,7 @@ void HalfEdges::find_twins() {
   }
 }
 
-/// Marks every face but the first of those with the same set of vertices among the candidates.
+/// Marks, among the candidates with the same vertex set, every face but the first.
 void HalfEdges::mark_duplicates(std::vector<int> candidates) {
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());

@@ -6,17 +6,17 @@
 
 namespace spectral_conformal {
 
-/// What becomes of a face of a mesh.
+/// The role of a face of a mesh.
 enum class FaceState : char {
   unselected,
   used,
-  degenerate,  ///< fewer than three different vertices, or one twice in a row
+  degenerate,  ///< fewer than three distinct vertices, or one twice in a row
   duplicate    ///< a face of lower index has the same vertices
 };
 
 /// The half-edges of the selected faces of a polygon mesh. Half-edge c runs from the vertex of corner c to that of the
-/// next corner of the same face. Its twin is the half-edge on the other side of an edge of exactly two used faces that
-/// is no seam; where faces are wound inconsistently, twins may run in the same direction.
+/// next corner of the same face. Its twin is the half-edge on the other side of a non-seam edge of exactly two used
+/// faces; if faces are wound inconsistently, twins may run in the same direction.
 class HalfEdges {
  public:
   /// The arrays of `mesh` must outlive this object. Precondition: validate(mesh) passes.
@@ -32,12 +32,12 @@ class HalfEdges {
   int to(int corner) const { return mesh_.corner_vertices[next(corner)]; }
   /// The twin of half-edge `corner`, -1 on the boundary and outside used faces.
   int twin(int corner) const { return twin_[corner]; }
-  /// Whether a half-edge runs against its twin, as on consistently wound faces. Precondition: it has a twin.
+  /// Whether a half-edge runs opposite to its twin, as on consistently wound faces. Precondition: it has a twin.
   bool is_opposed(int corner) const { return from(corner) == to(twin_[corner]); }
 
   FaceState state(int face) const { return state_[face]; }
   bool is_used(int face) const { return state_[face] == FaceState::used; }
-  /// The used face with the vertices of a duplicate, otherwise -1.
+  /// For a duplicate, the used face with the same vertices; otherwise -1.
   int original(int face) const { return original_.empty() ? -1 : original_[face]; }
   /// Edges of three or more used faces; their half-edges have no twins.
   int non_manifold_edges() const { return non_manifold_edges_; }

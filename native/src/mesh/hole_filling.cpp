@@ -14,7 +14,7 @@ using Vector = Eigen::Vector3d;
 bool star_shaped(const Positions& corners, const Vector& centre) {
   const auto spoke = [&](Eigen::Index i) -> Vector { return corners.row(i % corners.rows()).transpose() - centre; };
   const Vector normal = polygon_normal(corners, centre);
-  // A spoke triangle below this fraction of the mean one would be a needle in the energy.
+  // A spoke triangle below this fraction of the mean would be a needle in the energy.
   constexpr double min_fraction = 1e-6;
   const double min_area = min_fraction * normal.squaredNorm() / static_cast<double>(corners.rows());
   for (Eigen::Index i = 0; i < corners.rows(); ++i) {
@@ -32,7 +32,7 @@ HoleFilling fill_holes(const std::vector<BoundaryLoop>& loops, int outer,
   PolygonTriangulation polygon;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (static_cast<int>(k) == outer || loops[k].size() < 3) continue;
-    // The chart is on the left of its loops, the hole on the other side.
+    // The chart lies to the left of its loops, the hole to the right.
     const BoundaryLoop loop(loops[k].rbegin(), loops[k].rend());
     const auto n = static_cast<Eigen::Index>(loop.size());
     Positions corners(n, 3);

@@ -12,10 +12,10 @@
 namespace spectral_conformal {
 namespace {
 
-/// Vertices around the mirror image of one, by which a spot that the tolerance does not resolve costs no more than this
-/// for each of its vertices. A pole whose faces have vertices of their own has fewer.
+/// Limits the candidates around the mirror image of a vertex, and so the cost per vertex of a cluster that the
+/// tolerance does not resolve. A pole whose faces have separate vertices has fewer.
 constexpr int max_candidates = 256;
-/// Of a polygon with more vertices that have images, only this many vote on another vertex: all say much the same.
+/// At most this many matched vertices of a polygon vote on another vertex: their votes are much the same.
 constexpr std::ptrdiff_t max_deciding = 64;
 
 /// Finds the vertices within a radius of a point, in a grid of cells of twice that radius.
@@ -31,19 +31,19 @@ class NearbyVertices {
       next_[static_cast<std::size_t>(v)] = std::exchange(first, v);
     }
   }
-  /// Those within the radius, ascending; none where they are too many to be told apart.
+  /// The vertices within the radius, ascending; none if they are too many to distinguish.
   void near(const Eigen::RowVector3d& point, std::vector<int>& result) const {
     result.clear();
     int n_seen = 0;
     const Eigen::RowVector3d reach = Eigen::RowVector3d::Constant(radius_);
     const Cell first = cell_of(point - reach);
-    const Cell last = cell_of(point + reach);  // the same or the next one
+    const Cell last = cell_of(point + reach);  // the same cell or the next
     for (std::int64_t x = first[0]; x <= last[0]; ++x) {
       for (std::int64_t y = first[1]; y <= last[1]; ++y) {
         for (std::int64_t z = first[2]; z <= last[2]; ++z) {
           const Cell cell{x, y, z};
           for (int v = first_[bucket(cell)]; v >= 0; v = next_[static_cast<std::size_t>(v)]) {
-            // Others are in the bucket by chance.
+            // Skip hash collisions.
             if (cell_of(points_.row(v)) != cell) continue;
             if (++n_seen > max_candidates) {
               result.clear();
@@ -67,7 +67,7 @@ class NearbyVertices {
     std::uint64_t key = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
                         static_cast<std::uint64_t>(cell[1]) * 19349663U ^
                         static_cast<std::uint64_t>(cell[2]) * 83492791U;
-    key *= 0x9E3779B97F4A7C15U;  // Fibonacci hashing: neighboring cells have keys that differ in few bits
+    key *= 0x9E3779B97F4A7C15U;  // Fibonacci hashing: keys of neighboring cells differ in few bits
     return static_cast<std::size_t>(key >> 32) & (first_.size() - 1);
   }
 
@@ -113,11 +113,11 @@ bool share_a_face(const VertexFaces& faces, int a, int b) {
                      [others = faces[b]](int face) { return std::binary_search(others.begin(), others.end(), face); });
 }
 
-/// Of several vertices near the mirror image of a vertex, the one whose faces have most vertices that are images of the
-/// own faces' vertices. Memory is linear in the corners, so that polygons may have any number of them.
+/// Chooses among several vertices near the mirror image of a vertex: the one whose faces contain the most images of the
+/// vertices of the original's faces. Memory is linear in the corners, for polygons of any size.
 class AmbiguousMatch {
  public:
-  /// image (V,): -1 where there is none yet.
+  /// image: (V,), -1 if there is none yet.
   AmbiguousMatch(const PolygonMesh& mesh, const VertexFaces& faces, const std::vector<int>& image)
       : mesh_(mesh),
         faces_(faces),
@@ -156,7 +156,7 @@ class AmbiguousMatch {
   }
 
  private:
-  /// Adds one to the candidates that share a face with `image`, whichever way is shorter.
+  /// Adds a vote to the candidates that share a face with `image`, by the cheaper of two searches.
   void vote(int image, const std::vector<int>& candidates) {
     std::size_t n_corners = 0;
     for (const int face : faces_[image]) {
@@ -183,13 +183,13 @@ class AmbiguousMatch {
   const VertexFaces& faces_;
   const std::vector<int>& image_;
   std::vector<int> start_;           ///< per face, into matched_
-  std::vector<int> matched_;         ///< of the vertices of each face that have an image, those that decide
-  std::vector<int> votes_;           ///< per vertex, -1 for one that is no candidate
-  std::vector<std::int64_t> voted_;  ///< per vertex, the last vote in which it was counted
+  std::vector<int> matched_;         ///< the voting matched vertices of each face
+  std::vector<int> votes_;           ///< per vertex, -1 if not a candidate
+  std::vector<std::int64_t> voted_;  ///< per vertex, the last vote that counted it
   std::int64_t vote_ = -1;
 };
 
-/// Matches the vertices across one plane. Only pairs that name each other are kept.
+/// Matches the vertices across one plane. Keeps only mutual pairs.
 void match_vertices(const PolygonMesh& mesh, const Positions& points, const std::vector<int>& used,
                     const NearbyVertices& nearby, const VertexFaces& faces, MirrorSymmetry& result) {
   std::vector<int> image(static_cast<std::size_t>(points.rows()), -1);
@@ -210,7 +210,7 @@ void match_vertices(const PolygonMesh& mesh, const Positions& points, const std:
     chosen.reserve(ambiguous.size());
     AmbiguousMatch match(mesh, faces, image);
     for (const int v : ambiguous) {
-      // Again: all of their lists would take more memory than the mesh.
+      // Search again: storing all lists would take more memory than the mesh.
       find_near(v);
       chosen.push_back(match.choose(v, near));
     }
@@ -233,7 +233,7 @@ class FacesByVertices {
     }
     std::sort(faces_.begin(), faces_.end());
   }
-  /// The face with these vertices in some order, the first of several, or -1. Sorts them.
+  /// The first face with these vertices in any order, or -1. Sorts `vertices`.
   int find(std::vector<int>& vertices) const {
     const std::uint64_t key = key_of(vertices);
     std::sort(vertices.begin(), vertices.end());
@@ -250,7 +250,7 @@ class FacesByVertices {
   std::vector<int> vertices_of(int face) const {
     return {mesh_.corner_vertices + mesh_.face_offsets[face], mesh_.corner_vertices + mesh_.face_offsets[face + 1]};
   }
-  /// Of any order of the vertices the same (SplitMix64's mixing, Steele et al. 2014).
+  /// Independent of the order of the vertices (SplitMix64's mixing, Steele et al. 2014).
   static std::uint64_t key_of(const std::vector<int>& vertices) {
     std::uint64_t key = vertices.size();
     for (const int v : vertices) {
@@ -266,7 +266,7 @@ class FacesByVertices {
   std::vector<std::pair<std::uint64_t, int>> faces_;  ///< sorted
 };
 
-/// Returns how many have an image.
+/// Returns the number of faces with an image.
 int match_faces(const PolygonMesh& mesh, const FacesByVertices& faces, MirrorSymmetry& result) {
   int matched = 0;
   std::vector<int> mirrored;
@@ -302,7 +302,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
   }
   const double extent = (high - low).maxCoeff();
   if (!(extent > 0) || !std::isfinite(extent)) return best;
-  // In units of the extent, from the center, the cells of the grid have small numbers.
+  // Relative to the center and the extent, so that grid cells have small numbers.
   Positions points = Positions::Zero(mesh.n_vertices, 3);
   for (const int v : used) points.row(v) = (given.row(v) - (low + 0.5 * (high - low))) / extent;
   const NearbyVertices nearby(points, used, tolerance * (high - low).norm() / extent);
@@ -318,7 +318,7 @@ MirrorSymmetry find_mirror_symmetry(const PolygonMesh& mesh, double tolerance) {
         matched[axis] = match_faces(mesh, faces_by_vertices, candidates[axis]);
       },
       {}, "");
-  const auto most = std::max_element(matched.begin(), matched.end());  // the first axis of equals
+  const auto most = std::max_element(matched.begin(), matched.end());  // the first of equal axes
   return *most > 0 ? std::move(candidates[most - matched.begin()]) : best;
 }
 
