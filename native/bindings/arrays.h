@@ -18,7 +18,7 @@ namespace py = pybind11;
 template <class T>
 using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-/// A mesh that refers to the arrays it was made from and keeps them alive.
+/// A mesh that refers to arrays and keeps them alive.
 struct MeshArrays {
   Array<double> vertices;
   Array<int> face_offsets;
@@ -49,7 +49,7 @@ MeshArrays triangle_mesh(const Array<double>& vertices, const Array<int>& triang
 /// (V, 2)
 py::array_t<double> real_view(const ComplexVector& z);
 py::array_t<double> copy(const Eigen::VectorXd& values);
-/// The values themselves, not a copy: their memory is released with the array.
+/// Wraps the values without a copy; their memory is freed with the array.
 py::array_t<double> moved(Eigen::VectorXd&& values);
 py::array_t<int> copy(const std::vector<int>& values);
 py::array_t<bool> copy(const std::vector<bool>& values);

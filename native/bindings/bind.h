@@ -4,8 +4,8 @@
 
 namespace spectral_conformal::python {
 
-// One function per area of the module; bind_<area>.cpp defines it. They convert arguments and results and nothing else:
-// validation and its messages are in the Python facade (native/python), the rest in the library.
+// One function per area of the module; bind_<area>.cpp defines it. They only convert arguments and results: validation
+// and its messages are in the Python facade (native/python), everything else in the library.
 void bind_errors(pybind11::module_& module);
 void bind_build(pybind11::module_& module);
 void bind_parameterize(pybind11::module_& module);

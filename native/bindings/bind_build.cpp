@@ -17,7 +17,7 @@ py::dict info() {
                   py::arg("kernel") = build.kernel);
 }
 
-/// What a call of a function costs, which the benchmarks' tests hold speed to; no part of the Python interface.
+/// The cost of a function call in operations, which tests bound. Not part of the Python interface.
 py::dict counted_work(const py::function& call) {
   const WorkCounter counter;
   call();

@@ -15,7 +15,7 @@ void bind_errors(pybind11::module_& module) {
   // Local to this module: a bundled copy and an installed one may be loaded side by side.
   pybind11::register_local_exception<InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
   static PyObject* const invalid_mesh = module.attr("InvalidMeshError").ptr();
-  // The class that SolveFailure is raised as, with its step, and what puts the step of an InvalidMesh into words.
+  // The Python class for SolveFailure, which carries its step, and the function that words the step of an InvalidMesh.
   static PyObject* solve_error = PyExc_RuntimeError;
   static PyObject* describe = nullptr;
   module.def("put_errors_into_words", [](py::object type, py::object words) {
@@ -23,7 +23,7 @@ void bind_errors(pybind11::module_& module) {
     describe = words.release().ptr();
   });
   pybind11::register_local_exception<Cancelled>(module, "Cancelled", PyExc_Exception);
-  // pybind11 would make it a MemoryError that says "std::bad_alloc".
+  // pybind11 would raise a MemoryError saying "std::bad_alloc".
   pybind11::register_local_exception_translator([](std::exception_ptr problem) {
     try {
       if (problem) std::rethrow_exception(problem);

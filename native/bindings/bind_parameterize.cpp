@@ -18,7 +18,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-/// A Solver on a mesh's one patch, which several threads of Python may share.
+/// A Solver for the one patch of a mesh; Python threads may share it.
 class PatchSolver {
  public:
   PatchSolver(const Array<double>& vertices, const Array<int>& triangles, const std::optional<Array<double>>& metric,

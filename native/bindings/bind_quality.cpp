@@ -43,7 +43,7 @@ py::dict distortion(const Array<double>& vertices, const Array<int>& triangles, 
 py::dict map_defects(const Array<int>& face_offsets, const Array<int>& corner_vertices, const Array<double>& corner_uv,
                      const std::optional<Array<bool>>& selected_faces, bool between_islands) {
   PolygonMesh mesh;
-  // Positions are not looked at; as many as the corners need.
+  // Positions are not read; provide as many as the corners need.
   const auto n_corners = static_cast<std::ptrdiff_t>(corner_vertices.size());
   const int* const last = std::max_element(corner_vertices.data(), corner_vertices.data() + n_corners);
   mesh.n_vertices = n_corners == 0 ? 0 : std::min(*last, std::numeric_limits<int>::max() - 1) + 1;
@@ -65,7 +65,7 @@ MeshArrays polygon_mesh(const Array<double>& vertices, const Array<int>& face_of
   return {vertices, face_offsets, corner_vertices, std::nullopt, selected_faces};
 }
 
-/// Real is the type of the UVs: those of Blender's maps are read as they are.
+/// Real is the type of the UVs: Blender's are read without conversion.
 template <class Real>
 py::dict face_distortion(const Array<double>& vertices, const Array<int>& face_offsets,
                          const Array<int>& corner_vertices, const Array<Real>& corner_uv,

@@ -16,7 +16,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-/// Returns the edges, where each cut begins in them, and the message.
+/// Returns the edges, the offset of each cut in them, and the message.
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
                   std::optional<Array<double>> vertex_preference, const py::object& given_options,
@@ -38,7 +38,7 @@ py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets,
   return py::make_tuple(edges, copy(suggestion.cut_offsets), suggestion.message);
 }
 
-/// A RuntimeWarning where a public function was called: beyond that function and what checks its options.
+/// Issues a RuntimeWarning at the caller of the public function, skipping that function and its option check.
 void warn(const std::string& message) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, message.c_str(), 3) != 0) throw py::error_already_set();
 }

@@ -9,7 +9,7 @@ namespace spectral_conformal::python {
 
 void bind_threads(pybind11::module_& module) {
   module.def("limit_threads", &ThreadLimit::exchange);
-  // For tests; no part of the Python interface.
+  // For tests; not part of the Python interface.
   module.def("exchange_listening_interval", &exchange_listening_interval);
   module.def("take_longest_silence", &take_longest_silence);
   module.def("pretend_cores", &ThreadBudget::exchange_cores);

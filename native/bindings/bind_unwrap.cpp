@@ -34,7 +34,7 @@ py::dict result_of(Unwrap&& unwrapped) {
                   py::arg("charts") = chart_records(std::move(unwrapped.charts)));
 }
 
-/// A mesh to unwrap, its pins, metric and options, and the arrays that they refer to.
+/// A mesh to unwrap with its pins, metric and options, and the arrays to which they refer.
 struct UnwrapArguments {
   MeshArrays arrays;
   std::optional<Array<bool>> pinned_corners;
@@ -50,7 +50,7 @@ struct UnwrapArguments {
         pinned_corners(std::move(pinned)),
         corner_uv(std::move(uv)) {
     if (face_metric) {
-      // A metric (F, 2, 2) comes with triangles only.
+      // A metric (F, 2, 2) requires triangles.
       const bool in_space = face_metric->shape(1) == 3;
       metric = space_metric(
           vertices, in_space ? corner_vertices : Array<int>(Array<int>(corner_vertices).reshape({-1, 3})), face_metric);
@@ -61,13 +61,13 @@ struct UnwrapArguments {
     options.vertex_pins = pins_of(pins);
     if (pinned_corners && corner_uv) options.corner_pins = {pinned_corners->data(), corner_uv->data()};
   }
-  // `options` points into the rest.
+  // `options` points into the other members.
   UnwrapArguments(const UnwrapArguments&) = delete;
   UnwrapArguments& operator=(const UnwrapArguments&) = delete;
 };
 
-/// Kept maps for one unwrap at a time; others that are made meanwhile do without. Never waits: a progress function,
-/// too, may call it. Its pointer is guarded by the GIL.
+/// Kept maps for one unwrap at a time; concurrent unwraps do without. Never waits, since a progress function may call
+/// it. The GIL guards its pointer.
 class SharedKeptMaps {
   struct Store {
     std::mutex mutex;
@@ -79,7 +79,7 @@ class SharedKeptMaps {
  public:
   explicit SharedKeptMaps(std::size_t max_bytes) : max_bytes_(max_bytes) { clear(); }
 
-  /// Holds the maps as long as it lives, where they are free; made with the GIL.
+  /// Holds the maps while it lives, if they are free; constructed with the GIL held.
   class Hold {
    public:
     explicit Hold(const SharedKeptMaps* shared) {
@@ -96,12 +96,12 @@ class SharedKeptMaps {
 
    private:
     std::shared_ptr<Store> store_;
-    std::unique_lock<std::mutex> lock_;  // after what it locks, so that it ends before
+    std::unique_lock<std::mutex> lock_;  // after what it locks, so that it is destroyed first
   };
 
-  /// A call that uses the maps goes on with them.
+  /// A running call keeps using the old maps.
   void clear() { store_ = std::make_shared<Store>(max_bytes_); }
-  /// As after the last call that has ended.
+  /// As of the end of the last completed call.
   std::size_t size() const { return store_->size; }
 
  private:

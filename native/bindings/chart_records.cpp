@@ -13,7 +13,7 @@ namespace spectral_conformal::python {
 
 namespace {
 
-/// A chart but for its faces and what is said of it, under the names that Python has for them.
+/// A chart except its faces and texts, under Python's field names.
 struct Row {
   double eigenvalue;
   double residual;

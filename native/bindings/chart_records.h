@@ -8,13 +8,13 @@
 
 namespace spectral_conformal::python {
 
-/// What spectral_conformal.Charts is made of: the rows of a structured array, one per chart, which takes a hundred
-/// bytes where a Python object would take thousands; the faces of all charts, one chart after the other, of which each
-/// row has the number; and what there is to say of a chart, UnwrappedChart::problem and steps_of, by its number. What
-/// is used up of the charts is given back on the way.
+/// The content of spectral_conformal.Charts: a structured array with one row per chart, of a hundred bytes where a
+/// Python object takes thousands; the faces of all charts, one chart after another, with their number in each row; and
+/// the remarks on charts (UnwrappedChart::problem and steps_of), by chart number. Frees the memory of the charts on the
+/// way.
 pybind11::tuple chart_records(std::vector<UnwrappedChart>&& charts);
 
-/// Adds the names of the rows' fields and codes to the module.
+/// Adds the names of the row fields and codes to the module.
 void bind_chart_records(pybind11::module_& module);
 
 }  // namespace spectral_conformal::python

@@ -88,7 +88,7 @@ constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
                                             {"rigidity", Constraint::rigidity},
                                             {"extenders_and_rigidity", Constraint::extenders_and_rigidity}};
 
-/// The value that an option, a string, names.
+/// The value of an option given as a string.
 template <class T, std::size_t N>
 T named(const py::object& options, const char* option, const Name<T> (&names)[N]) {
   const auto given = options.attr(option).cast<std::string>();

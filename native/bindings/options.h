@@ -21,23 +21,23 @@ using ExtenderList = std::vector<std::tuple<int, int, double>>;
 Pins pins_of(const PinList& list);
 std::vector<VertexExtender> extenders_of(const ExtenderList& list);
 
-/// From a spectral_conformal.Options, which has checked its values.
+/// From a spectral_conformal.Options, whose values are already checked.
 PatchOptions patch_options_of(const pybind11::object& options);
 /// Likewise, without extenders.
 SolveOptions solve_options_of(const pybind11::object& options);
 /// From a spectral_conformal.SeamOptions, likewise.
 SeamSuggestionOptions seam_options_of(const pybind11::object& options);
 
-/// The names of a record's values by the names of its fields, each at the place that code_of gives.
+/// For each field of a record, the names of its values, each at the index given by code_of.
 pybind11::dict names_of_codes();
-/// From 0 on.
+/// Codes start at 0.
 unsigned char code_of(Method method);
 unsigned char code_of(Weights weights);
 unsigned char code_of(BoundaryMeasure boundary);
 unsigned char code_of(EigenvalueOf eigenvalue_of);
-/// 0, whose name is None, for Fallback::none.
+/// 0, named None, for Fallback::none.
 unsigned char code_of(Fallback fallback);
-/// 0, whose name is None, where there was no relaxation.
+/// 0, named None, without relaxation.
 unsigned char code_of(std::optional<RelaxationStatus> relaxation);
 
 const char* name_of(Method method);
@@ -46,10 +46,10 @@ const char* name_of(BoundaryMeasure boundary);
 const char* name_of(EigenvalueOf eigenvalue_of);
 /// None for Fallback::none.
 pybind11::object name_of(Fallback fallback);
-/// None where there was no relaxation.
+/// None without relaxation.
 pybind11::object name_of(std::optional<RelaxationStatus> relaxation);
 
-/// For each the fields of a spectral_conformal.Step, in their order.
+/// For each step the fields of a spectral_conformal.Step, in order.
 pybind11::tuple steps_of(const std::vector<Step>& steps);
 
 }  // namespace spectral_conformal::python

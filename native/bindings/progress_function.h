@@ -7,16 +7,16 @@
 
 namespace spectral_conformal::python {
 
-/// Calls a Python function, or nothing where it is None, with the GIL held; None and anything true go on. Python's
-/// exceptions pass through, and Ctrl-C is noticed even where there is nothing to call. `callable` must outlive the
-/// result.
+/// Calls a Python function with the GIL held, or nothing if `callable` is None. The work continues if the function
+/// returns None or a true value. Python exceptions pass through, and Ctrl-C is noticed even without a function.
+/// `callable` must outlive the result.
 Progress progress_of(const pybind11::object& callable);
 
-/// Work of a call without the GIL: while it lives, the call's long work is heard by a progress function, or, with None,
-/// by Ctrl-C alone.
+/// Long work without the GIL: while it lives, a progress function, or with None only Ctrl-C, can cancel the work of a
+/// call.
 class HeardWork {
  public:
-  /// A handle, as an object that is made for the call ends after it, without the GIL.
+  /// A handle, since an object created for the call would be destroyed after it, without the GIL.
   explicit HeardWork(const char* phase, pybind11::handle callable = Py_None)
       : callable_(pybind11::reinterpret_borrow<pybind11::object>(callable)),
         progress_(progress_of(callable_)),
@@ -26,7 +26,7 @@ class HeardWork {
   pybind11::object callable_;
   Progress progress_;
   Listening listening_;
-  pybind11::gil_scoped_release unlocked_;  ///< last, so that the GIL is held again before the others end
+  pybind11::gil_scoped_release unlocked_;  ///< last, so that the GIL is held again before the others are destroyed
 };
 
 }  // namespace spectral_conformal::python

@@ -7,7 +7,7 @@
 
 namespace spectral_conformal::python {
 
-/// The fields of a record, by their names in Python.
+/// The fields of a record, by their Python names.
 inline pybind11::dict solve_record(const SolveRecord& result) {
   pybind11::dict record;
   record["steps"] = steps_of(result.steps);

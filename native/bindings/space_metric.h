@@ -14,7 +14,7 @@ namespace spectral_conformal::python {
 Eigen::Vector3d corner(const Array<double>& vertices, const Array<int>& triangles, py::ssize_t t, int k);
 Eigen::Matrix<double, 2, 3> frame_of(const Array<double>& vertices, const Array<int>& triangles, py::ssize_t t);
 
-/// Tensors of space from a metric (F, 2, 2) in the frames of the triangles' first sides, or (n, 3, 3) as it is.
+/// Tensors in 3D from a metric (F, 2, 2) in the frames of the triangles' first sides, or (n, 3, 3) unchanged.
 std::vector<SpaceMetric> space_metric(const Array<double>& vertices, const Array<int>& triangles,
                                       const std::optional<Array<double>>& metric);
 

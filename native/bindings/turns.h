@@ -9,8 +9,8 @@
 
 namespace spectral_conformal::python {
 
-/// A factor has work space of its own, so threads take turns. Waits without the GIL; the thread whose turn it is must
-/// not come again (from its progress function).
+/// A factor has its own work space, so threads take turns. Waits without the GIL; the thread whose turn it is must not
+/// reenter (from its progress function).
 class Turns {
  public:
   class Turn {

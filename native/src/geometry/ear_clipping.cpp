@@ -87,7 +87,7 @@ class EarClipping {
     constexpr double rounding = 1e-12;
     const double along = dot(back, on);
     const double between = std::abs(cross(back, on));
-    // Distance of the shorter edge's end from the other edge.
+    // between / longer: the distance of the shorter edge's end from the other edge.
     const double longer = std::max(std::abs(back), std::abs(on));
     return between <= rounding * along || (along > 0 && between <= tolerance_ * longer);
   }

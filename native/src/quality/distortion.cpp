@@ -21,7 +21,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// Value at a fraction of the sorted values, linearly interpolated as NumPy's percentile does. Reorders the values.
+/// The value at a fraction of the sorted values, linearly interpolated as by NumPy's percentile. Reorders the values.
 double percentile(std::vector<double>& values, double fraction) {
   const double position = fraction * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(position);
@@ -43,7 +43,7 @@ std::vector<TriangleShape> frames_of(const Eigen::Ref<const Positions>& position
   return result;
 }
 
-/// Everything that is measured triangle by triangle.
+/// All measures per triangle.
 Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std::vector<std::array<int, 3>>& triangles,
                              const ComplexVector& z) {
   const auto n = static_cast<Eigen::Index>(triangles.size());
@@ -64,7 +64,7 @@ Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std
   return result;
 }
 
-/// Fills in the numbers of the whole map, from those of the triangles in `triangulation`.
+/// Sets the numbers of the whole map from those of the triangles in `triangulation`.
 void summarize(Distortion& d) {
   if (d.triangulation.empty()) return;
   std::vector<double> qc;
@@ -96,7 +96,7 @@ void summarize(Distortion& d) {
   }
 }
 
-/// A mesh and a map in units of their own.
+/// A mesh and a map, each in its own unit.
 struct InUnits {
   Positions positions;
   ComplexVector z;
@@ -113,7 +113,7 @@ struct InUnits {
     positions *= unit.scaled(1);
     z *= image_unit.scaled(1);
   }
-  /// Takes what was measured in these units to those of the input.
+  /// Converts measures from these units to those of the input.
   void restore(Distortion& d) const {
     for (Eigen::Index t = 0; t < d.area.size(); ++t) {
       if (d.area[t] > 0) d.log2_scale[t] += image_unit.exponent() - unit.exponent();
@@ -123,7 +123,7 @@ struct InUnits {
   }
 };
 
-/// The map of a chart's own vertices.
+/// The map of the vertices of a chart.
 ComplexVector chart_map(const Chart& chart, const ComplexVector& z) {
   ComplexVector own(chart.n_vertices());
   for (int v = 0; v < chart.n_vertices(); ++v) own[v] = z[chart.vertices[v]];

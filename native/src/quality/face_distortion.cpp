@@ -16,20 +16,20 @@
 namespace spectral_conformal {
 namespace {
 
-/// Squares of lengths between these bounds, whose squares neither overflow nor vanish, need no unit.
+/// Squared lengths between these bounds need no unit: their squares neither overflow nor underflow.
 constexpr double min_square = 0x1p-400;
 constexpr double max_square = 0x1p400;
 
-/// Whether lengths can be calculated with as they are, given a sum of their squares.
+/// Whether lengths can be used without a unit, given a sum of their squares.
 bool is_moderate(double square) { return square > min_square && square < max_square; }
 
-/// What the triangles of a face add up to.
+/// Sums over the triangles of a face.
 struct FaceSums {
   double area = 0;
   double image_area = 0;
   double qc = 0;
 
-  /// The corners of a triangle in 3D and in the map; one without area in 3D does not count.
+  /// Adds a triangle, given its corners in 3D and in the map; one without area in 3D does not count.
   void add(const std::array<Eigen::Vector3d, 3>& p, const std::array<Complex, 3>& z) {
     const TriangleShape shape = local_isometric_frame(p[0], p[1], p[2]);
     if (shape.clamped) return;
@@ -39,15 +39,15 @@ struct FaceSums {
   }
 };
 
-/// The units in which a face is measured: those of the coordinates, or a face's own, in which squares neither overflow
-/// nor vanish.
+/// The units in which a face is measured: those of the coordinates, or its own, in which squares neither overflow nor
+/// underflow.
 struct Units {
   BinaryUnit position;
   BinaryUnit image;
   bool are_own = false;
 };
 
-/// One face after the other; Real is the type of the UVs.
+/// Measures one face after another; Real is the type of the UVs.
 template <class Real>
 class FaceMeasure {
  public:
@@ -75,7 +75,7 @@ class FaceMeasure {
   }
 
  private:
-  /// What can be done with a face: `none` where a coordinate is not finite.
+  /// How a face can be measured; `none` if a coordinate is not finite.
   enum class Fit { as_it_is, in_units_only, none };
 
   const double* coordinates(int corner) const {
@@ -101,8 +101,8 @@ class FaceMeasure {
     return units;
   }
 
-  /// Tells what can be done with a face given sums of the squares of its lengths and of those in the map; they are not
-  /// finite where a coordinate is not, nor where one is too large.
+  /// How a face can be measured, given the sums of its squared lengths in 3D and in the map. These are not finite if a
+  /// coordinate is not finite, or is too large.
   Fit fit_of(int face, double square, double image_square) const {
     if (is_moderate(square) && is_moderate(image_square)) return Fit::as_it_is;
     const int first = mesh_.face_offsets[face];
@@ -115,19 +115,19 @@ class FaceMeasure {
     return units_.are_own || (is_moderate(square) && is_point) ? Fit::as_it_is : Fit::in_units_only;
   }
 
-  /// Adds what a face has in the units that are set.
+  /// Adds a face, in the current units.
   Fit add(int face, int n) {
     sums_ = FaceSums();
-    // Large meshes have hardly anything but triangles and quads; a triangle needs no triangulation.
+    // Large meshes consist almost entirely of triangles and quads; a triangle needs no triangulation.
     return n == 3 ? add_triangle(face) : add_polygon(face, n);
   }
 
-  /// Adds a face of three corners, its image mirrored if that is wound clockwise.
+  /// Adds a face of three corners; mirrors its image if that is clockwise.
   Fit add_triangle(int face) {
     const int first = mesh_.face_offsets[face];
     const std::array<Eigen::Vector3d, 3> p = {position(first), position(first + 1), position(first + 2)};
     std::array<Complex, 3> z = {image(first), image(first + 1), image(first + 2)};
-    // A sum, unlike a maximum, is not finite if one of them is not.
+    // Unlike a maximum, a sum is not finite if one of them is not.
     const double square = (p[1] - p[0]).squaredNorm() + (p[2] - p[0]).squaredNorm();
     const Fit fit = fit_of(face, square, std::norm(z[1] - z[0]) + std::norm(z[2] - z[0]));
     if (fit != Fit::as_it_is) return fit;
@@ -137,7 +137,7 @@ class FaceMeasure {
     return fit;
   }
 
-  /// Adds a face of more corners, likewise.
+  /// Likewise for a face of more corners.
   Fit add_polygon(int face, int n) {
     const Fit fit = read(face, n);
     if (fit != Fit::as_it_is) return fit;
@@ -152,7 +152,7 @@ class FaceMeasure {
     return fit;
   }
 
-  /// The face in 3D, and its image, mirrored if it is wound clockwise.
+  /// Reads the face in 3D and its image, mirrored if clockwise.
   Fit read(int face, int n) {
     if (corners_.rows() != n) {
       corners_ = Positions(n, 3);

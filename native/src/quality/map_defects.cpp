@@ -18,11 +18,11 @@
 namespace spectral_conformal {
 namespace {
 
-/// UVs are stored in single precision: a coordinate is off by up to 2^-24 = 6e-8 of itself. Two points, each off in
-/// both directions of the plane, move a height by up to 1.7e-7; this leaves half as much again.
+/// UVs are stored in single precision, with a relative error of up to 2^-24 = 6e-8 per coordinate. Errors in both
+/// coordinates of two points change a height by up to 1.7e-7; this adds a margin of half as much.
 constexpr double resolution = 2.5e-7;
 
-/// The mesh in the plane of its map: its vertices are the different images that mesh vertices have.
+/// The mesh in the plane of its map: its vertices are the distinct images of mesh vertices.
 class MapMesh {
  public:
   MapMesh(const PolygonMesh& mesh, const double* corner_uv) : mesh_(mesh) {
@@ -51,7 +51,7 @@ class MapMesh {
         vertex_of_corner_[image->corner] = n_vertices() - 1;
       }
     });
-    // Corners that are not selected refer to a vertex too.
+    // Unselected corners refer to a vertex too.
     if (positions_.empty()) positions_.assign(3, 0.0);
   }
 
@@ -66,7 +66,7 @@ class MapMesh {
   }
 
  private:
-  /// Of one mesh vertex.
+  /// An image of one mesh vertex.
   struct Image {
     double u;
     double v;
@@ -86,7 +86,7 @@ class MapMesh {
   std::vector<int> vertex_of_corner_;
 };
 
-/// The map of an island, by its own vertices.
+/// The map of an island, indexed by its own vertices.
 ComplexVector map_of(const Chart& island, const PolygonMesh& mesh) {
   ComplexVector z(island.n_vertices());
   for (int v = 0; v < island.n_vertices(); ++v) {
@@ -101,7 +101,7 @@ int face_of(const Chart& island, int triangle) {
   return island.faces[static_cast<std::size_t>(island.triangle_face[static_cast<std::size_t>(triangle)])];
 }
 
-/// Adds an island to a map of several. `oriented`: its map or that mirrored, positively oriented.
+/// Adds an island to a map of several. `oriented`: its map, mirrored if necessary to be positively oriented.
 void add_island(const Chart& island, const ComplexVector& z, const ComplexVector& oriented, MapOfCharts& map) {
   const std::vector<int> chosen = mapped_triangulation(island.triangles, island.triangle_weights, oriented);
   std::vector<int> faces;

@@ -21,7 +21,7 @@ struct BoundaryEdge {
   int loop;
 };
 
-/// Whether two boundary edges have no point in common but the vertex that neighbors share.
+/// Whether two boundary edges are disjoint except for the shared vertex of neighbors.
 bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const ComplexVector& z) {
   const auto doubles_back = [&](int before, int shared, int after) {
     if (orientation(z[before], z[shared], z[after]) != 0) return false;
@@ -42,21 +42,21 @@ bool are_apart(const BoundaryEdge& first, const BoundaryEdge& second, const Comp
 /// The images of all boundary edges. The map must outlive this object.
 class Boundary {
  public:
-  /// Loops of two vertices are the two banks of a slit, which lie on each other, and are left out.
+  /// Omits loops of two vertices: they are the two coincident banks of a slit.
   Boundary(const std::vector<BoundaryLoop>& loops, const ComplexVector& z)
       : z_(z), edges_(edges_of(loops)), boxes_(boxes_of(edges_, z)), tree_(boxes_) {}
 
   std::size_t n_edges() const { return edges_.size(); }
 
-  /// Whether no edge has a point in common with another but for those that neighbors share. Takes those that it looks
-  /// at from `most`, and returns false where none is left.
+  /// Whether all edges are disjoint except for the shared vertices of neighbors. Subtracts the edges visited from
+  /// `most`, and returns false when it is used up.
   bool is_simple(std::size_t& most) const {
     bool simple = true;
     for (int i = 0; simple && i < static_cast<int>(edges_.size()); ++i) {
       tree_.for_each_meeting(box(i), [&](int other) {
         if (most == 0) return simple = false;
         --most;
-        // Each pair once.
+        // Visit each pair once.
         if (other <= i) return true;
         simple = are_apart(edge(i), edge(other), z_);
         return simple;
@@ -70,7 +70,7 @@ class Boundary {
     return is_simple(most);
   }
 
-  /// Whether the inside of a counter-clockwise triangle is surely free of the boundary.
+  /// Whether the interior of a counterclockwise triangle is certainly free of the boundary.
   bool is_off(const std::array<int, 3>& triangle) const {
     bool off = true;
     tree_.for_each_meeting(PlaneBox::of({z_[triangle[0]], z_[triangle[1]], z_[triangle[2]]}), [&](int i) {
@@ -80,15 +80,15 @@ class Boundary {
     return off;
   }
 
-  /// The sum of the winding numbers of all loops about a point that none of them meets.
+  /// The sum of the winding numbers of all loops about a point on none of them.
   int winding_number(Complex p) const {
     std::size_t most = no_limit;
     return winding_number(p, -1, most);
   }
-  /// The same of all but one. Takes the edges that it looks at from `most`; no number where none is left.
+  /// The same for all loops but one. Subtracts the edges visited from `most`; empty when it is used up.
   int winding_number(Complex p, int left_out, std::size_t& most) const {
     int result = 0;
-    // Where a ray to the right crosses them.
+    // Count the crossings of a ray to the right.
     const PlaneBox ray{{p.real(), p.imag()}, {std::numeric_limits<double>::infinity(), p.imag()}};
     tree_.for_each_meeting(ray, [&](int i) {
       if (most == 0) return false;
@@ -124,13 +124,13 @@ class Boundary {
   const BoundaryEdge& edge(int i) const { return edges_[static_cast<std::size_t>(i)]; }
   const PlaneBox& box(int i) const { return boxes_[static_cast<std::size_t>(i)]; }
 
-  /// Of an edge whose box meets that of the triangle.
+  /// The same for an edge whose box meets that of the triangle.
   bool is_off(const std::array<int, 3>& triangle, const BoundaryEdge& edge) const {
     const auto has = [&](int v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); };
     const bool from = has(edge.from);
     if (from && has(edge.to)) return true;
     if (!from && !has(edge.to)) return false;
-    // From a common corner it goes into the triangle or away from it.
+    // From a common corner the edge enters the triangle or leaves it.
     const auto k = static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), from ? edge.from : edge.to) -
                                             triangle.begin());
     const Complex corner = z_[triangle[k]];
@@ -145,8 +145,8 @@ class Boundary {
   BoxTree tree_;
 };
 
-/// The orientation of a simple loop: that of the corner at its lowest vertex in lexicographic order, which is convex. 0
-/// only for a loop that is not simple.
+/// The orientation of a simple loop: that of the corner at its lexicographically smallest vertex, which is convex. 0
+/// only for a non-simple loop.
 int orientation_of_simple(const BoundaryLoop& loop, const ComplexVector& z) {
   const auto before = [&](int a, int b) {
     return z[a].real() != z[b].real() ? z[a].real() < z[b].real() : z[a].imag() < z[b].imag();
@@ -156,7 +156,7 @@ int orientation_of_simple(const BoundaryLoop& loop, const ComplexVector& z) {
   return orientation(z[loop[(lowest + n - 1) % n]], z[loop[lowest]], z[loop[(lowest + 1) % n]]);
 }
 
-/// Whether exactly one of the loops runs counter-clockwise, if they are simple.
+/// Whether exactly one of the loops, if simple, runs counterclockwise.
 bool has_one_outer_loop(const std::vector<BoundaryLoop>& loops, const ComplexVector& z) {
   int counter_clockwise = 0;
   for (const BoundaryLoop& loop : loops) {
@@ -168,7 +168,7 @@ bool has_one_outer_loop(const std::vector<BoundaryLoop>& loops, const ComplexVec
   return counter_clockwise == 1;
 }
 
-/// Whether the boundary leaves the degree above 1 possible over each of some triangles, or proves it not to be.
+/// Tests for each of some triangles whether the boundary permits a degree above 1 over it.
 class DegreeTest {
  public:
   DegreeTest(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
@@ -183,11 +183,10 @@ class DegreeTest {
     }
   }
 
-  /// Those over which it may be, ascending.
+  /// The triangles over which the degree may be above 1, ascending.
   std::vector<int> higher() {
     find_triangles_off_the_boundary();
-    // The degree is the same over triangles that share an inner vertex. In between there is no boundary: the vertex
-    // would have to lie on it.
+    // Triangles that share an inner vertex have the same degree: a boundary between them would pass through the vertex.
     DisjointSets joined(static_cast<int>(on_boundary_.size()));
     for_each_heard(triangles_.size(), [&](std::size_t t) {
       const int first = is_off_[t] != 0 ? inner_vertex(t) : -1;
@@ -228,7 +227,7 @@ class DegreeTest {
     }
     const auto& [a, b, c] = triangles_[t];
     const Complex centre = z_[a] / 3.0 + z_[b] / 3.0 + z_[c] / 3.0;
-    // Rounding puts the center of a thin triangle anywhere.
+    // Rounding may move the center of a thin triangle outside.
     const bool inside = orientation(z_[a], z_[b], centre) > 0 && orientation(z_[b], z_[c], centre) > 0 &&
                         orientation(z_[c], z_[a], centre) > 0;
     return inside ? boundary_.winding_number(centre) : std::numeric_limits<int>::max();
@@ -238,7 +237,7 @@ class DegreeTest {
   const Boundary& boundary_;
   const ComplexVector& z_;
   std::vector<char> on_boundary_;  ///< per vertex
-  std::vector<char> is_off_;       ///< per triangle: counter-clockwise, and free of the boundary
+  std::vector<char> is_off_;       ///< per triangle: counterclockwise and free of the boundary
 };
 
 }  // namespace
@@ -253,12 +252,12 @@ bool have_degree_at_most_one(const std::vector<BoundaryLoop>& loops, const Compl
   for (const BoundaryLoop& loop : loops) {
     for (const int v : loop) box.include(PlaneBox::of({z[v]}));
   }
-  // The rays by which winding numbers are counted run to the right: along the shorter side they meet fewer of many
-  // islands in a row. A quarter turn is exact.
+  // The rays for winding numbers run to the right. Along the shorter side they meet fewer of many islands in a row, so
+  // turn the map if it is wide. A quarter turn is exact.
   const bool is_wide = box.high[0] - box.low[0] > box.high[1] - box.low[1];
   const ComplexVector turned = is_wide ? ComplexVector(z * Complex(0, 1)) : z;
   const Boundary boundary(loops, turned);
-  // As many as a search for overlaps without this proof takes.
+  // As many as a search for overlaps takes without this proof.
   std::size_t most = 100 * boundary.n_edges();
   if (!boundary.is_simple(most)) return false;
   for (std::size_t k = 0; k < loops.size(); ++k) {

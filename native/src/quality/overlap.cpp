@@ -23,23 +23,23 @@
 namespace spectral_conformal {
 namespace {
 
-/// Pairs of meeting boxes that are looked at for each triangle before a sweep takes over, which costs about as much.
+/// Pairs of intersecting boxes visited per triangle before a sweep, of about the same cost, takes over.
 constexpr std::size_t pairs_of_each = 100;
 
-/// Whether `t` tests the pair that it makes with `other`, which does so otherwise. Of many triangles at one place each
-/// has about as many to test, in whatever order they come: one soon finds another that it overlaps.
+/// Whether `t` tests its pair with `other`; if not, `other` does. Among many stacked triangles each has about equally
+/// many to test, in any order, so it soon finds another that it overlaps.
 bool tests_pair(std::size_t t, std::size_t other) { return (t + other) % 2 == 0 ? t < other : t > other; }
 bool any_pair(std::size_t, std::size_t) { return true; }
 
-/// The triangles of a map, and which of them were found to overlap others. Threads share the triangles; which pairs are
-/// tested depends on them where triangles overlap several others, what is found does not.
+/// The triangles of a map, and which of them were found to overlap others. Threads share the triangles. If triangles
+/// overlap several others, the pairs tested depend on the threads; the result does not.
 class OverlapTest {
  public:
   OverlapTest(const std::vector<std::array<int, 3>>& triangles, const ComplexVector& map, const std::vector<int>& face,
               double resolution)
       : triangles_(triangles), face_(face), resolution_(resolution), overlapping_(triangles.size()) {
-    // Products of coordinates must neither overflow nor vanish, whatever the unit. A power of two keeps points on
-    // lines.
+    // Products of coordinates must neither overflow nor underflow, whatever the unit. A power of two preserves
+    // collinearity.
     double extent = 0;
     for_each_heard(triangles.size(), [&](std::size_t t) {
       for (const int v : triangles[t]) extent = std::max({extent, std::abs(map[v].real()), std::abs(map[v].imag())});
@@ -49,20 +49,20 @@ class OverlapTest {
     z_ = map * std::ldexp(1.0, -exponent / 2) * std::ldexp(1.0, exponent / 2 - exponent);
   }
 
-  /// A triangle that overlaps another tests no more pairs, so that faces which are stacked a thousandfold do not cost a
-  /// million.
+  /// A triangle known to overlap tests no more pairs, so that a stack of a thousand faces does not cost a million
+  /// tests.
   std::vector<bool> among_all() {
     if (z_.size() == 0) return result();
     const Subset all = subset(one_of_each_stack(those_left()));
     bool is_done = for_each_triangle(
         [&](std::size_t t) { return overlaps(t) ? std::size_t{0} : find_overlaps(t, all, tests_pair, true); });
-    // What overlaps none of those whose pairs it tested may overlap one that tested no more.
+    // A triangle without an overlap so far may overlap one that stopped testing.
     if (is_done) is_done = test_with(subset(without_others(all.triangles, true)), true);
     if (!is_done) sweep(all.triangles);
     return result();
   }
 
-  /// Tests pairs with one of these only, unless that takes too many.
+  /// Tests only pairs with one of these triangles, unless there are too many.
   std::vector<bool> with(const std::vector<int>& some) {
     if (z_.size() == 0) return result();
     if (!test_those_with(one_of_each_stack(some))) sweep(subset(one_of_each_stack(those_left())).triangles);
@@ -78,7 +78,7 @@ class OverlapTest {
     BoxTree tree;
   };
 
-  /// Without those that cover nothing.
+  /// Omits triangles that cover nothing.
   Subset subset(const std::vector<int>& triangles) {
     std::vector<int> covering;
     std::vector<PlaneTriangle> placed;
@@ -112,15 +112,15 @@ class OverlapTest {
     numbers.erase(std::remove_if(numbers.begin(), numbers.end(), is_out), numbers.end());
     return numbers;
   }
-  /// Those of some triangles that were found to overlap, or that were not.
+  /// Those of the given triangles that were found to overlap, or those that were not.
   std::vector<int> without_others(std::vector<int> some, bool overlapping) const {
     const auto is_other = [&](int t) { return overlaps(static_cast<std::size_t>(t)) != overlapping; };
     some.erase(std::remove_if(some.begin(), some.end(), is_other), some.end());
     return some;
   }
 
-  /// Leaves out those that lie exactly on another one, of which many may, in its order of corners: what is found of one
-  /// holds for all. Two stay where the faces differ, since pairs of one face do not count.
+  /// Keeps one triangle of each stack of coincident triangles with the same order of corners: its result holds for all.
+  /// Keeps two if the faces differ, since pairs of one face do not count.
   std::vector<int> one_of_each_stack(const std::vector<int>& some) {
     const auto place_of = [this](int t) {
       const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
@@ -158,15 +158,15 @@ class OverlapTest {
   bool overlaps(std::size_t t) const { return overlapping_[t].load(std::memory_order_relaxed); }
   void mark(std::size_t t) { overlapping_[t].store(true, std::memory_order_relaxed); }
   std::vector<bool> result() {
-    // What was left out last may have stood for others.
+    // A triangle removed late may represent others: go backward.
     for (auto pair = stacked_.rbegin(); pair != stacked_.rend(); ++pair) {
       if (overlaps(static_cast<std::size_t>(pair->first))) mark(static_cast<std::size_t>(pair->second));
     }
     return {overlapping_.begin(), overlapping_.end()};
   }
 
-  /// Calls work(t), which returns how many pairs it looked at, for every triangle, until there were too many. Whether
-  /// it called all.
+  /// Calls work(t), which returns the number of pairs visited, for every triangle, until there are too many. Returns
+  /// whether it reached all.
   template <class Work>
   bool for_each_triangle(const Work& work, std::size_t most = pairs_of_each) const {
     const std::size_t limit = most == no_limit ? no_limit : most * triangles_.size();
@@ -182,7 +182,7 @@ class OverlapTest {
     return pairs.load(std::memory_order_relaxed) <= limit;
   }
 
-  /// Asks every triangle, or with `one_is_enough` those not found yet, which of `some` it overlaps.
+  /// Tests every triangle, or with `one_is_enough` those not found yet, against `some`.
   bool test_with(const Subset& some, bool one_is_enough, std::size_t most = pairs_of_each) {
     if (some.triangles.empty()) return true;
     return for_each_triangle(
@@ -192,13 +192,13 @@ class OverlapTest {
         most);
   }
 
-  /// Tests all pairs with one of these.
+  /// Tests all pairs with one of these triangles.
   bool test_those_with(const std::vector<int>& some, std::size_t most = pairs_of_each) {
-    // Of these, what overlaps none of them may overlap others, which had found another of them first.
+    // One of these without an overlap among them may overlap others, which had found another of these first.
     return test_with(subset(some), true, most) && test_with(subset(without_others(some, false)), false, most);
   }
 
-  /// Marks a triangle and those of `some` that it overlaps, all or one. How many boxes it met.
+  /// Marks a triangle and those of `some` that it overlaps, all or one. Returns the number of boxes met.
   template <class Tested>
   std::size_t find_overlaps(std::size_t t, const Subset& some, const Tested& is_tested, bool one_is_enough) {
     std::optional<PlaneTriangle> own;
@@ -220,17 +220,17 @@ class OverlapTest {
     return met;
   }
 
-  /// Finds the overlaps of some triangles, which are all but those left out, where too many boxes meet. Each round
-  /// moves a line over those that do not overlap and over as many others as do not meet either; of two that meet, one
-  /// is left for the next round. Then it tests as many pairs of what is left as cost as much.
+  /// Finds the overlaps of the given triangles (all but those omitted) if too many boxes meet. Each round sweeps a line
+  /// over the triangles without overlap and over as many others as do not meet them; of two that meet, one waits for
+  /// the next round. Then it tests pairs of the waiting triangles, at about the same cost.
   void sweep(std::vector<int> others) {
     const ComplexVector merged = merged_within_tolerance();
-    std::vector<int> apart;   // not found to overlap; meet none of each other
-    std::vector<int> barely;  // met another less deep than counts, or of its own face: to be tested pair by pair
+    std::vector<int> apart;   // not found to overlap, pairwise disjoint
+    std::vector<int> barely;  // met another not deeply enough to count, or of its own face: test pair by pair
     while (!others.empty()) {
       others = sweep_once(merged, apart, others, barely);
       if (apart.empty()) break;
-      // All others are known to overlap, and those that are not among them any more meet none of these.
+      // All others are known to overlap, and the triangles no longer among them meet none of these.
       std::vector<char> waits(triangles_.size(), 0);
       for (const int t : apart) waits[static_cast<std::size_t>(t)] = 1;
       const Subset left = subset(others);
@@ -246,8 +246,8 @@ class OverlapTest {
     test_those_with(barely, no_limit);
   }
 
-  /// Moves a line over triangles `apart` and others. Returns those others that meet another; makes `apart` those that
-  /// meet none and were not found to overlap, of both.
+  /// Sweeps a line over the triangles `apart` and `others`. Returns those of `others` that meet another. Sets `apart`
+  /// to the triangles of both that meet none and were not found to overlap.
   std::vector<int> sweep_once(const ComplexVector& merged, std::vector<int>& apart, const std::vector<int>& others,
                               std::vector<int>& barely) {
     const auto n_apart = static_cast<int>(apart.size());
@@ -268,7 +268,7 @@ class OverlapTest {
         mark(second);
       }
       const bool is_known_apart = std::min(i, k) < n_apart;
-      // What reaches farther finds more.
+      // A triangle that extends farther finds more.
       const bool first_ends =
           right_end(corners[static_cast<std::size_t>(i)]) < right_end(corners[static_cast<std::size_t>(k)]);
       const int out = is_known_apart ? (is_deep ? std::min(i, k) : std::max(i, k)) : (first_ends ? i : k);
@@ -290,8 +290,8 @@ class OverlapTest {
     return PlaneTriangle({z_[a], z_[b], z_[c]});
   }
 
-  /// Points less than half a tolerance apart moved together, so that islands that touch up to rounding do so exactly.
-  /// What overlaps deep enough to count still does, and nothing that covers anything turns over.
+  /// Merges points less than half a tolerance apart, so that islands touching up to rounding touch exactly. Overlaps
+  /// deep enough to count survive, and no triangle with area turns over.
   ComplexVector merged_within_tolerance() const {
     if (resolution_ == 0) return z_;
     constexpr double below_half = 0.49;
@@ -310,7 +310,7 @@ class OverlapTest {
     return std::max({corners[0].real(), corners[1].real(), corners[2].real()});
   }
 
-  /// Whether no overlap with it is deep enough to count.
+  /// Whether no overlap with this triangle can be deep enough to count.
   bool covers_nothing(const PlaneTriangle& triangle) const {
     for (std::size_t k = 0; k < 3; ++k) {
       if (triangle.inwards[k] != 0.0 && std::abs(triangle.height[k]) <= resolution_ * triangle.reach) return true;
@@ -324,7 +324,7 @@ class OverlapTest {
   }
 
   bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {
-    // Neighbors share an edge up to rounding of their heights, some 1e-16 of the coordinates; 1e-9 leaves room for
+    // Neighbors share an edge up to rounding of their heights, about 1e-16 of the coordinates; 1e-9 allows for
     // triangles a millionth of the map's extent.
     constexpr double contact = 1e-9;
     const double tolerance = std::max(contact * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
@@ -334,9 +334,9 @@ class OverlapTest {
   const std::vector<std::array<int, 3>>& triangles_;
   const std::vector<int>& face_;
   double resolution_;
-  ComplexVector z_;                           ///< empty where the map has no extent
-  std::vector<std::pair<int, int>> stacked_;  ///< a triangle, and one left out that lies on it
-  std::vector<char> is_left_out_;             ///< per triangle: it stands in a stack or covers nothing; empty for none
+  ComplexVector z_;                           ///< empty if the map has no extent
+  std::vector<std::pair<int, int>> stacked_;  ///< a triangle, and an omitted one that coincides with it
+  std::vector<char> is_left_out_;  ///< per triangle: omitted from a stack, or covers nothing; empty if there are none
   std::vector<std::atomic<bool>> overlapping_;
 };
 
@@ -399,7 +399,7 @@ std::vector<int> overlapping_faces(const Chart& chart, const ComplexVector& z, d
     face.push_back(chart.triangle_face[static_cast<std::size_t>(mapped[i])]);
   });
   std::vector<bool> overlapping;
-  // Without a consistent orientation the edges within the chart do not cancel.
+  // Without a consistent orientation interior edges do not cancel.
   if (chart.orientable) {
     const std::vector<int> suspects = overlap_suspects(triangles, chart.boundary_loops, z);
     if (suspects.empty()) return {};

@@ -9,7 +9,7 @@ namespace spectral_conformal {
 
 int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3>>& triangles,
                    const std::vector<TriangleWeight>& triangle_weights, const ComplexVector& map) {
-  // Products of coordinates must neither overflow nor vanish, whatever the unit.
+  // Products of coordinates must neither overflow nor underflow, whatever the unit.
   double extent = 0;
   for (const Complex p : map) extent = std::max({extent, std::abs(p.real()), std::abs(p.imag())});
   if (!(extent > 0)) return 0;
@@ -32,7 +32,7 @@ int turning_number(const BoundaryLoop& loop, const std::vector<std::array<int, 3
   }
   still_working(20 * static_cast<double>(triangles.size()));
   double turning = 0;
-  Complex last = 0;  // the last edge with a length
+  Complex last = 0;  // the last edge of nonzero length
   for (std::size_t i = loop.size(); i-- > 0 && last == 0.0;) last = z[loop[(i + 1) % loop.size()]] - z[loop[i]];
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Complex edge = z[loop[(i + 1) % loop.size()]] - z[loop[i]];
