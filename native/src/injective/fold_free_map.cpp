@@ -90,7 +90,7 @@ class FoldFree {
     if (is_one_to_one(z)) {
       map.z = z;
       map.covers_itself = false;
-      // Towards an isometry they moved farther than they had to.
+      // The relaxation toward an isometry moved them farther than necessary.
       relax_angles_apart(part(progress_, 0.92, 1), z);
       if (is_one_to_one(z)) map.z = std::move(z);
       return;
@@ -118,7 +118,7 @@ class FoldFree {
     return turning_number(patch_.loops.front(), single_, whole, z);
   }
 
-  /// Whether the triangles go round every inner vertex once, and the outer loop round the map.
+  /// Whether the triangles wind once round every inner vertex, and the outer loop once round the map.
   bool goes_round_once(const ComplexVector& z) const {
     if (std::abs(turning_number_of(z)) != 1) return false;
     std::vector<double> angle(static_cast<std::size_t>(z.size()), 0);
@@ -133,7 +133,7 @@ class FoldFree {
     for (const BoundaryLoop& loop : patch_.loops) {
       for (const int v : loop) angle[v] = 0;
     }
-    // Angles sum up to multiples of 2 pi, but for rounding: half-way between once and twice.
+    // Angle sums are multiples of 2 pi up to rounding: test halfway between once and twice.
     return std::none_of(angle.begin(), angle.end(), [](double sum) { return sum > 3 * pi; });
   }
 
@@ -142,7 +142,7 @@ class FoldFree {
     result.z = embedding(part(progress, 0, 0.4));
     if (result.z.size() == 0) return result;
     const std::vector<DistortionElement> clamped = clamped_elements();
-    // The first need not converge as far as the second, which is what is seen.
+    // The first descent need not converge as far as the second, whose result is visible.
     relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress, 0.4, 0.7),
           result.z);
     result.relaxation = relax_angles(clamped, part(progress, 0.7, 1), result.z);
@@ -150,8 +150,8 @@ class FoldFree {
     return result;
   }
 
-  /// An embedding relaxed without its boundary touching itself. Contacts hold it up, so that it takes more steps, each
-  /// of which gains little.
+  /// An embedding relaxed without letting its boundary touch itself. Contacts slow it down, so it takes more steps,
+  /// each with little gain.
   FoldFreeMap embed_apart(const Progress& progress) {
     FoldFreeMap result;
     result.z = embedding(part(progress, 0, 0.2));
@@ -163,7 +163,7 @@ class FoldFree {
     return result;
   }
 
-  /// Empty where there is none.
+  /// An embedding, or an empty vector.
   ComplexVector embedding(const Progress& progress) const {
     ComplexVector z =
         tutte_embedding(single_, patch_.loops, 0, patch_.positions, patch_.backend, part(progress, 0, 0.7));
@@ -172,7 +172,7 @@ class FoldFree {
       unfold_locally(clamped, {}, patch_.backend, z, part(progress, 0.7, 0.9));
     }
     if (z.size() == 0 || count_flipped(clamped, z, unplaced) > 0) {
-      // Limbs shrink below what double precision resolves.
+      // Limbs shrink below double precision.
       ComplexVector drawn =
           grid_embedding(single_, patch_.loops, 0, static_cast<int>(patch_.positions.rows()), part(progress, 0.9, 1));
       if (drawn.size() > 0) z = std::move(drawn);
@@ -186,10 +186,11 @@ class FoldFree {
     embedded.is_locally_injective = embedded.flipped == 0 && goes_round_once(embedded.z);
   }
 
-  /// The elements with a barrier each. Degenerate triangles otherwise keep their vertices together and have no
-  /// orientation; here their height and size are clamped so that they have one: the embedding must not flip anywhere.
+  /// The elements, each with a barrier. Degenerate triangles usually keep their vertices together and have no
+  /// orientation. Here their height and size are clamped to give them one, since the embedding must not flip anywhere.
   std::vector<DistortionElement> clamped_elements() const {
-    // Relative to the longest side, and to the side of a mean triangle: thin enough not to show, QC of the order 1e3.
+    // Relative to the longest side, and to the side of a mean triangle: thin enough to be invisible, with QC of order
+    // 1e3.
     constexpr double min_height = 1e-3;
     std::vector<DistortionElement> clamped = heard_copy(elements_);
     double area = 0;
@@ -201,7 +202,7 @@ class FoldFree {
       DistortionElement& element = clamped[t];
       TriangleShape& shape = element.shape;
       if (element.barrier()) {
-        // A metric may have made it thinner than its image can be in double precision.
+        // A metric may make it thinner than double precision allows for its image.
         constexpr double min_height_of_image = 1e-9;
         shape = shape.clamped_to(min_height_of_image);
         return;
@@ -211,7 +212,7 @@ class FoldFree {
       const double height = shape.relative_height();
       shape = shape.clamped_to(min_height);
       const double side = std::sqrt(shape.area());
-      // Without extent, local_isometric_frame made it equilateral, of side 1.
+      // If it has no extent, local_isometric_frame made it equilateral, with side 1.
       const bool is_point = shape.clamped && height > 0.5;
       const double scale = is_point || side < min_side ? min_side / side : 1;
       shape.x1 *= scale;
@@ -232,7 +233,7 @@ class FoldFree {
                  Boundary::apart);
   }
 
-  /// Lowers the distortion without a new fold. None where that failed and z stays as it was.
+  /// Lowers the distortion without new folds. Empty if that failed; z is then unchanged.
   std::optional<Descent> relax(const std::vector<DistortionElement>& given, DescentOptions options,
                                const Progress& progress, ComplexVector& z, Boundary kept = Boundary::free) const {
     std::vector<DistortionElement> elements = heard_copy(given);
@@ -248,15 +249,15 @@ class FoldFree {
     return descent;
   }
 
-  /// Three times the default of a descent: an embedding begins far from its minimum.
+  /// Three times the default of a descent, since an embedding starts far from its minimum.
   static constexpr int max_factorizations = 60;
-  /// Where contacts of the boundary hold the descent up.
+  /// For descents slowed down by boundary contacts.
   static constexpr int more_factorizations = 5 * max_factorizations;
 
   const FoldFreePatch& patch_;
   const Progress& progress_;
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<std::array<int, 3>> single_;   ///< of a quad one split only
+  std::vector<std::array<int, 3>> single_;   ///< one split per quad
   std::vector<DistortionElement> elements_;  ///< of triangles_
 };
 

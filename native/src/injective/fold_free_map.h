@@ -11,46 +11,45 @@
 
 namespace spectral_conformal {
 
-/// A chart as fold_free_map needs it. Virtual vertices and triangles of the energy are not used.
+/// The input of fold_free_map for a chart. Virtual vertices and triangles of the energy are not used.
 struct FoldFreePatch {
   const ConformalEnergy& energy;
   Eigen::Ref<const Positions> positions;   ///< (V, 3)
   const std::vector<BoundaryLoop>& loops;  ///< the outer one first
-  const std::vector<char>& held;           ///< (V,) or empty: vertices that must stay
+  const std::vector<char>& held;           ///< (V,) or empty: vertices that must not move
   FactorizationBackend backend = FactorizationBackend::automatic;
-  bool relaxes = false;      ///< whether an unfolded map is relaxed as a whole, as an embedding is
-  bool moves_apart = false;  ///< whether parts that lie on each other are to come apart, too
+  bool relaxes = false;      ///< whether to relax an unfolded map as a whole, like an embedding
+  bool moves_apart = false;  ///< whether to separate overlapping parts too
 };
 
 struct FoldFreeMap {
   ComplexVector z;            ///< (V,)
   int flipped_before = 0;     ///< triangles without positive image area in the given map
   int flipped = 0;            ///< the same of z
-  bool is_embedding = false;  ///< whether the given map had to be given up for an embedding
-  /// Of an embedding, or a map that is relaxed as a whole: how the last descent, of its conformal distortion, ended.
-  /// None where there was no such descent, or its result was rejected.
+  bool is_embedding = false;  ///< whether an embedding replaced the given map
+  /// For an embedding, or a map relaxed as a whole: the outcome of the last descent, on the conformal distortion. Empty
+  /// if there was none, or its result was rejected.
   std::optional<Descent> relaxation;
-  /// z has no flipped triangle, its triangles go round every inner vertex once, and the outer loop round the map once:
-  /// it is locally one-to-one.
+  /// Whether z is locally one-to-one: no flipped triangle, and winding number 1 of the triangles round every inner
+  /// vertex and of the outer loop.
   bool is_locally_injective = false;
   int turning_number = 0;            ///< of the outer loop, by one split of each quad
-  bool covered_itself = false;       ///< whether it was so, and yet had parts that lay on each other; if asked
-  bool covers_itself = false;        ///< whether z still has such parts
-  bool came_apart_embedded = false;  ///< whether they came apart only in an embedding
+  bool covered_itself = false;       ///< whether it was locally one-to-one and yet overlapped itself; if requested
+  bool covers_itself = false;        ///< whether z still overlaps itself
+  bool came_apart_embedded = false;  ///< whether only an embedding separated the parts
 };
 
-/// A map without folds, as near to a conformal one as it can be brought. Flipped triangles of the given map are
-/// unfolded where they are (local_unfolding.h). Where that leaves some, or where there is no map or one whose boundary
-/// winds round more than once, an embedding of the chart (tutte_embedding.h, or grid_embedding.h where limbs shrink in
-/// it below double precision) is relaxed, first towards an isometry, then towards the least conformal distortion,
-/// without a step that folds a triangle (descent.h); not with `held` vertices. Of a quad's two splits the first is kept
-/// unfolded (the second where the diagonal of the first is an edge), the other where there is room. Degenerate
-/// triangles have no fold. Where the map is then locally one-to-one and yet has parts that lie on each other, it is
-/// relaxed towards an isometry, where that was asked for, only as far as these come apart; where they do not, an
-/// embedding is relaxed whose boundary does not touch itself either (boundary_barrier.h). Where that fails, too, the
-/// map stays.
+/// A map without folds, as close to conformal as possible. Flipped triangles of the given map are unfolded locally
+/// (local_unfolding.h). If some remain, or if there is no map or its boundary winds round more than once, an embedding
+/// of the chart replaces it (tutte_embedding.h, or grid_embedding.h if limbs shrink below double precision); not with
+/// `held` vertices. The embedding is relaxed first toward an isometry, then toward the least conformal distortion,
+/// without folding a triangle (descent.h). The first split of a quad is kept unfolded (the second if the diagonal of
+/// the first is an edge), the other if there is room. Degenerate triangles cannot fold. If the resulting map is locally
+/// one-to-one but overlaps itself, and separation is requested, it is relaxed toward an isometry until the parts
+/// separate. If they do not, an embedding is relaxed without letting its boundary touch itself (boundary_barrier.h). If
+/// that fails too, the map is kept.
 ///
-/// z (V,) mostly counter-clockwise, or empty for none. Throws Cancelled, SolveFailure and what Factorization throws.
+/// z: (V,), mostly counterclockwise, or empty for none. Throws Cancelled, SolveFailure, and as Factorization does.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});
 
 }  // namespace spectral_conformal

@@ -10,8 +10,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// The neighbors of each vertex, counter-clockwise: of a vertex of the outer loop from the next one of the loop to the
-/// one before it.
+/// The neighbors of each vertex, counterclockwise; for a vertex of the outer loop from its successor to its predecessor
+/// in the loop.
 class Rotations {
  public:
   Rotations(const std::vector<std::array<int, 3>>& triangles, int n)
@@ -20,7 +20,7 @@ class Rotations {
             for (int k = 0; k < 3; ++k) visit(triangle[k], Corner{triangle[(k + 1) % 3], triangle[(k + 2) % 3]});
           }
         }) {
-    // Of every directed edge there is one triangle to its left.
+    // Every directed edge has one triangle to its left.
     for (int v = 0; v < n; ++v) {
       const auto [first, last] = corners_[v];
       std::sort(first, last);
@@ -30,7 +30,7 @@ class Rotations {
   }
 
   bool is_simple() const { return is_simple_; }
-  /// The neighbor of v that follows `w` counter-clockwise; -1 where no triangle lies between them.
+  /// The neighbor of v that follows `w` counterclockwise; -1 if no triangle lies between them.
   int next(int v, int w) const {
     const auto [first, last] = corners_[v];
     const Corner* const found = std::lower_bound(first, last, Corner{w, -1});
@@ -42,7 +42,7 @@ class Rotations {
   }
 
  private:
-  /// Of a triangle at a vertex: its other vertices.
+  /// A triangle at a vertex, by its other vertices.
   struct Corner {
     int from;
     int to;
@@ -52,17 +52,17 @@ class Rotations {
   bool is_simple_ = true;
 };
 
-/// A canonical order (de Fraysseix, Pach and Pollack 1990), found from its end: every vertex is taken from the border
-/// of what is left, where it is the end of no edge that is a chord of it.
+/// A canonical order (de Fraysseix, Pach and Pollack 1990), found from its end: each vertex is removed from the border
+/// of the remaining graph, where no edge at it may be a chord of the border.
 class CanonicalOrder {
  public:
-  /// A vertex, and the border below it from left to right: its neighbors among the vertices before it.
+  /// A vertex, and the border below it from left to right: its neighbors among the earlier vertices.
   struct Step {
     int vertex;
     std::vector<int> below;
   };
 
-  /// The loop's first edge is the base and stays.
+  /// The first edge of the loop is the base and stays.
   CanonicalOrder(const Rotations& rotations, const BoundaryLoop& loop, int n)
       : rotations_(rotations),
         first_(loop[0]),
@@ -84,11 +84,11 @@ class CanonicalOrder {
     for (const int v : loop) offer(v);
   }
 
-  /// The steps from the last to the first; fewer than there are vertices besides the base where there is no such order.
+  /// The steps from last to first; if there is no canonical order, fewer than the vertices other than the base.
   std::vector<Step> steps(const Progress& progress) {
     constexpr std::size_t between_reports = 4096;
     std::vector<Step> result;
-    // First come, first taken: from all sides inwards.
+    // First in, first out: from all sides inward.
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (i % between_reports == 0) report(progress, 0, "embedding");
       const int v = open_[i];
@@ -104,13 +104,13 @@ class CanonicalOrder {
  private:
   static constexpr char within = 0;
   static constexpr char border = 1;
-  static constexpr char just_exposed = 2;  ///< on the border since this step
+  static constexpr char just_exposed = 2;  ///< joined the border in this step
   static constexpr char taken = 3;
 
   void offer(int v) {
     if (n_chords_[v] == 0 && v != first_ && v != second_) open_.push_back(v);
   }
-  /// Of two neighbors on the border.
+  /// Whether the edge of two border vertices is a chord.
   bool is_chord(int v, int w) const {
     const bool is_base = (v == first_ && w == second_) || (v == second_ && w == first_);
     const bool is_on_border = state_[w] == border || state_[w] == just_exposed;
@@ -133,7 +133,7 @@ class CanonicalOrder {
       left_[below[i + 1]] = below[i];
     }
     if (below.size() == 2) {
-      // What was a chord is now an edge of the border.
+      // Former chords may now be edges of the border.
       for (const int v : below) {
         --n_chords_[v];
         offer(v);
@@ -159,7 +159,7 @@ class CanonicalOrder {
   const Rotations& rotations_;
   int first_;
   int second_;
-  std::vector<int> left_;  ///< on the border, seen from the base; -1 at its end
+  std::vector<int> left_;  ///< left neighbor on the border, seen from the base; -1 at its end
   std::vector<int> right_;
   std::vector<int> n_chords_;  ///< of each vertex of the border
   std::vector<char> state_;
@@ -176,7 +176,7 @@ ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, c
   int n_closed = n;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (static_cast<int>(k) == outer || loops[k].size() < 3) continue;
-    // The chart is on the left of its loops, the hole on the other side.
+    // The chart lies to the left of its loops, the hole to the right.
     for (std::size_t i = 0; i < loops[k].size(); ++i) {
       closed.push_back({loops[k][(i + 1) % loops[k].size()], loops[k][i], n_closed});
     }
@@ -188,8 +188,8 @@ ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, c
   if (static_cast<int>(steps.size()) != n_closed - 2) return {};
   std::reverse(steps.begin(), steps.end());
 
-  // From the base upwards. Of each vertex of the border the distance from its left neighbor, and of one that came to
-  // lie below a vertex that from this one, or from the neighbor that came to lie below together with it.
+  // From the base upward. The offset of a border vertex is measured from its left neighbor; that of a covered vertex
+  // from the vertex that covers it, or from the neighbor covered together with it.
   std::vector<std::int64_t> offset(static_cast<std::size_t>(n_closed), 0);
   std::vector<std::int64_t> x(offset);
   std::vector<std::int64_t> y(offset);
@@ -205,7 +205,7 @@ ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, c
     offset[right] = width - offset[v];
     if (below.size() > 2) offset[below[1]] -= offset[v];
   }
-  // The last border, and then downwards what each vertex covered.
+  // The last border, and then downward the vertices that each vertex covers.
   x[loop[0]] = 0;
   for (std::size_t i = loop.size() - 1; i >= 1; --i) x[loop[i]] = x[loop[(i + 1) % loop.size()]] + offset[loop[i]];
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {

@@ -8,15 +8,15 @@
 
 namespace spectral_conformal {
 
-/// A drawing of a disk, holes allowed, with straight edges, all vertices at points of an integer grid of 2 V by V: no
-/// triangle is flipped, whatever the length of its limbs, and double precision holds it exactly. By the shift method
-/// (de Fraysseix, Pach and Pollack, How to Draw a Planar Graph on a Grid, 1990) as Chrobak and Payne count it (A
-/// Linear-Time Algorithm for Drawing a Planar Graph on a Grid, 1995), in time linear in V but for the sorting of each
-/// vertex' neighbors. The angles are as bad as the grid is large.
+/// A straight-line drawing of a disk, holes allowed, with vertices on an integer grid of 2 V by V: no triangle is
+/// flipped, however long its limbs, and double precision represents it exactly. It uses the shift method (de Fraysseix,
+/// Pach and Pollack, How to Draw a Planar Graph on a Grid, 1990) in the form of Chrobak and Payne (A Linear-Time
+/// Algorithm for Drawing a Planar Graph on a Grid, 1995), in time linear in V except for sorting the neighbors of each
+/// vertex. The larger the grid, the worse the angles.
 ///
-/// triangles (F, 3): one triangulation of the chart, counter-clockwise, of the vertices below n; loops: as in Chart,
-/// `outer` the index of the outer one. Each hole is closed by a vertex in its middle, a slit of two vertices by itself.
-/// Returns (n,), or nothing where two vertices are joined by two edges, or the triangles are no disk.
+/// triangles (F, 3): one triangulation of the chart, counterclockwise, of the vertices below n; loops: as in Chart,
+/// with `outer` the index of the outer one. A vertex in its middle closes each hole; a slit of two vertices closes by
+/// itself. Returns (n,), or an empty vector if two edges join the same vertices or the triangles do not form a disk.
 /// Throws Cancelled.
 ComplexVector grid_embedding(const std::vector<std::array<int, 3>>& triangles, const std::vector<BoundaryLoop>& loops,
                              int outer, int n, const Progress& progress = {});

@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// The vertices that are free to move, and all elements that have one of them.
+/// The free vertices, and all elements at one of them.
 struct Region {
   std::vector<int> free;
   std::vector<int> elements;
@@ -34,12 +34,12 @@ class Unfolding {
         log_scale_(vertex_log_scale()) {}
 
   int run() {
-    constexpr int max_rings = 64;  // seven rounds; beyond, the whole map is free on all but large charts
+    constexpr int max_rings = 64;  // seven rounds; by then the whole map is free on all but large charts
     for (int rings = 1; rings <= max_rings; rings *= 2) {
       done_ = std::log2(rings) / 7;
       report(progress_, done_, "unfold");
       const std::vector<Region> regions = regions_around_flips(rings);
-      if (regions.empty()) break;  // nothing is flipped, or nothing of it may move
+      if (regions.empty()) break;  // nothing is flipped, or nothing flipped may move
       for (const Region& region : regions) unfold(region);
     }
     return count_flipped(elements_, z_, unplaced);
@@ -48,8 +48,7 @@ class Unfolding {
  private:
   bool is_held(int vertex) const { return !held_.empty() && held_[vertex]; }
 
-  /// The mean of the logarithms of the scale of the unfolded elements around each vertex, passed on to the vertices
-  /// that have none.
+  /// The mean log scale of the unflipped elements around each vertex, propagated to vertices without any.
   std::vector<double> vertex_log_scale() const {
     std::vector<double> sum(static_cast<std::size_t>(z_.size()), 0);
     std::vector<double> weight(sum.size(), 0);
@@ -143,7 +142,7 @@ class Unfolding {
   }
 
   void unfold(const Region& region) {
-    // A problem of its own, with its own indices of vertices.
+    // A separate problem with its own vertex indices.
     std::vector<int> vertices;
     for (const int t : region.elements)
       vertices.insert(vertices.end(), elements_[t].corners.begin(), elements_[t].corners.end());
@@ -161,7 +160,7 @@ class Unfolding {
     for (const int t : region.elements) {
       DistortionElement element = elements_[t];
       const auto& [a, b, c] = element.corners;
-      // Its side in the map where angles are kept, in the unit of the region's mean scale.
+      // The side of its undistorted image, in units of the region's mean scale.
       const double scale = std::exp((log_scale_[a] + log_scale_[b] + log_scale_[c]) / 3 - log_scale);
       element.shape.x1 *= scale;
       element.shape.x2 *= scale;
@@ -182,7 +181,7 @@ class Unfolding {
     }
   }
 
-  /// Whether fewer elements are flipped than before.
+  /// Returns whether fewer elements are flipped than before.
   bool descend_to_unfold(std::vector<DistortionElement>& local, const std::vector<char>& fixed,
                          ComplexVector& z) const {
     const int before = count_flipped(local, z, unplaced);
@@ -191,7 +190,7 @@ class Unfolding {
     if (!z.allFinite()) return false;
     const int after = count_flipped(local, z, unplaced);
     if (after > 0) return after < before;
-    // Some elements have too little area for the descent to have raised their barrier, but are not flipped.
+    // Some unflipped elements have too little area for the descent to have raised their barrier.
     for (DistortionElement& element : local) {
       if (element.without_area()) element.regularization = 0;
     }

@@ -8,13 +8,13 @@
 
 namespace spectral_conformal {
 
-/// Unfolds the flipped triangles of a map and leaves the rest of it where it is: frees the vertices around them, ring
-/// by ring further, until a descent (descent.h) of the symmetric Dirichlet energy, at the scale of their neighborhood,
-/// finds room for them; what was freed is then relaxed to the minimum of the conformal distortion. Flipped: beyond the
-/// tolerance `unplaced` of distortion_energy.h.
+/// Unfolds the flipped triangles of a map locally. It frees the vertices around them, in growing rings, until a descent
+/// (descent.h) on the symmetric Dirichlet energy, at the scale of their neighborhood, finds room for them. The freed
+/// region is then relaxed to the minimum of the conformal distortion. Flipped is meant up to the tolerance `unplaced`
+/// of distortion_energy.h.
 ///
-/// elements as from distortion_elements, z (V,) finite, `held` (V,) or empty: vertices that must stay. Returns the
-/// number of elements that stay flipped, never more than before. Throws Cancelled, and what Factorization throws.
+/// elements: from distortion_elements; z: (V,), finite; held: (V,) or empty, vertices that must not move. Returns the
+/// number of elements still flipped, never more than before. Throws Cancelled, and as Factorization does.
 int unfold_locally(const std::vector<DistortionElement>& elements, const std::vector<char>& held,
                    FactorizationBackend backend, ComplexVector& z, const Progress& progress = {});
 

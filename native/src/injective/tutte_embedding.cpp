@@ -20,18 +20,17 @@
 namespace spectral_conformal {
 namespace {
 
-/// Edges without length count as this fraction of the mean one: their vertices must come apart, too.
+/// Edges of length 0 count as this fraction of the mean length, since their vertices must separate too.
 constexpr double min_relative_length = 1e-3;
 
 struct WeightedEdge {
   int i;
   int j;
   double length;      ///< in 3D
-  double weight = 1;  ///< positive: Tutte's equal weights to begin with
+  double weight = 1;  ///< positive; initially Tutte's equal weights
 };
 
-/// The edges of the triangles, and those from each hole's loop to a vertex in its middle; the middles are the vertices
-/// from V on.
+/// The edges of the triangles, and the edges from each hole's loop to a vertex in its middle, numbered from V on.
 std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& triangles,
                                          const std::vector<BoundaryLoop>& loops, int outer,
                                          const Eigen::Ref<const Positions>& positions) {
@@ -63,7 +62,7 @@ std::vector<WeightedEdge> weighted_edges(const std::vector<std::array<int, 3>>& 
   return edges;
 }
 
-/// Points of the unit circle, their distances in proportion to the loop's edges; equal for a loop without length.
+/// Maps the loop to the unit circle in proportion to its edge lengths; to equal arcs if its length is 0.
 void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& positions, ComplexVector& z) {
   const double length = loop_length(loop, positions);
   const double min_length = length > 0 ? min_relative_length * length / static_cast<double>(loop.size()) : 1;
@@ -75,7 +74,7 @@ void map_to_circle(const BoundaryLoop& loop, const Eigen::Ref<const Positions>& 
   for (std::size_t i = 0; i < loop.size(); ++i) z[loop[i]] = std::polar(1.0, 2 * pi * reached[i] / reached.back());
 }
 
-/// The Tutte system: each vertex that is not on the circle lies at the weighted mean of its neighbors.
+/// The Tutte system: each vertex not on the circle lies at the weighted mean of its neighbors.
 class TutteSystem {
  public:
   TutteSystem(const std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n,
@@ -90,8 +89,8 @@ class TutteSystem {
     if (count > 0) factorization_ = make_factorization(backend, count);
   }
 
-  /// Solves for all vertices of z but those on the circle, with the edges' present weights. False, and z stays, where
-  /// these span more than double precision holds.
+  /// Solves for all vertices of z not on the circle, with the current edge weights. Returns false, z unchanged, if the
+  /// range of the weights exceeds double precision.
   bool solve(ComplexVector& z) {
     if (n_unknown_ == 0) return true;
     std::vector<Eigen::Triplet<Complex>> entries;
@@ -128,9 +127,9 @@ class TutteSystem {
   bool analyzed_ = false;
 };
 
-/// The logarithm of every edge's length in the plane over that in 3D.
+/// For every edge, the logarithm of its length in the plane over its length in 3D.
 std::vector<double> log_stretch(const std::vector<WeightedEdge>& edges, const ComplexVector& z) {
-  constexpr double min_distance = 1e-15;  // rounding leaves no shorter ones in the unit circle
+  constexpr double min_distance = 1e-15;  // shorter ones in the unit circle are rounding
   std::vector<double> result;
   result.reserve(edges.size());
   for_each_heard(edges.size(), [&](std::size_t k) {
@@ -151,20 +150,20 @@ double variance(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Lowers the weights of edges that are short in the plane for their length in 3D, and raises those of the others: by
-/// the root of the stretch, since the lengths answer to the weights of whole neighborhoods.
+/// Lowers the weights of edges that are short in the plane for their length in 3D, and raises the others, by the square
+/// root of the stretch, since the lengths respond to the weights of whole neighborhoods.
 void reweight(std::vector<WeightedEdge>& edges, const std::vector<double>& log_stretch) {
-  constexpr double max_log = 23;  // the changes of one round span 1e10 at most, which double precision solves
+  constexpr double max_log = 23;  // one round changes ratios by at most 1e10, which double precision can solve
   const double centre = mean(log_stretch);
   for_each_heard(edges.size(), [&](std::size_t k) {
     edges[k].weight *= std::exp(0.5 * std::clamp(log_stretch[k] - centre, -max_log, max_log));
   });
 }
 
-/// Nearly removes the edges between vertices that are equally far from the circle: what goes round a limb then no
-/// longer contracts it, so that its rings follow each other at even distances.
+/// Nearly removes the edges between vertices equally far from the circle. Edges round a limb then no longer contract
+/// it, so its rings are evenly spaced.
 void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, Eigen::Index n) {
-  constexpr double weak = 1e-6;  // positive, as the theorem asks, and far above rounding beside 1
+  constexpr double weak = 1e-6;  // positive, as the theorem requires, and far above rounding relative to 1
   std::vector<std::array<int, 2>> ends;
   ends.reserve(edges.size());
   for (const WeightedEdge& edge : edges) ends.push_back({edge.i, edge.j});
@@ -173,12 +172,12 @@ void weaken_rings(std::vector<WeightedEdge>& edges, const BoundaryLoop& circle, 
 }
 
 struct Embedding {
-  ComplexVector z;  ///< empty where there is none
+  ComplexVector z;  ///< empty if there is none
   int flipped = std::numeric_limits<int>::max();
   double unevenness = 0;  ///< variance of log_stretch
 };
 
-/// The best of several rounds, each of which reweights the last one.
+/// The best of several rounds, each reweighting the previous one.
 Embedding reweighted_embedding(const std::vector<std::array<int, 3>>& triangles, std::vector<WeightedEdge>& edges,
                                TutteSystem& system, ComplexVector z, const Progress& progress) {
   Embedding best;

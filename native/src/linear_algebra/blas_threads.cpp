@@ -7,15 +7,16 @@
 
 #ifdef _WIN32
 #include <windows.h>
-// Macros for compilers of 16 bits, and ordinary words in the sources that are compiled together with this one.
+// Macros for 16-bit compilers, and ordinary words in the sources compiled together with this one.
 #undef near
 #undef far
 #else
 #include <dlfcn.h>
 #endif
 
-// BLAS, Fortran linkage. Its address tells which library serves CHOLMOD; on Windows without dllimport it would be that
-// of a stub in our own module. No other file may declare it without: files are compiled together.
+// BLAS, Fortran linkage. Its address identifies the library that serves CHOLMOD; on Windows without dllimport it would
+// be the address of a stub in our own module. No other file may declare it without dllimport, since files are compiled
+// together.
 #ifdef _WIN32
 extern "C" __declspec(dllimport) void zscal_(const int*, const void*, void*, const int*);
 #else
@@ -25,7 +26,7 @@ extern "C" void zscal_(const int*, const void*, void*, const int*);
 namespace spectral_conformal {
 namespace {
 
-/// The loaded library that defines zscal_. It stays loaded: CHOLMOD is linked to it.
+/// The loaded library that defines zscal_. It stays loaded, since CHOLMOD is linked to it.
 #ifdef _WIN32
 class BlasFile {
  public:
@@ -67,7 +68,7 @@ class BlasFile {
 };
 #endif
 
-/// OpenBLAS's own functions; null in any other BLAS.
+/// OpenBLAS-specific functions; null in any other BLAS.
 struct OpenBlas {
   int (*get_parallel)() = nullptr;
   int (*get_num_threads)() = nullptr;
@@ -98,19 +99,19 @@ const OpenBlas& open_blas() {
   return functions;
 }
 
-/// Who holds the process-wide setting: as much one for the process as the setting itself.
+/// The holders of the process-wide setting; one object per process, like the setting.
 struct Holders {
-  std::shared_mutex gate;  ///< shared where several may hold at once
-  std::mutex counting;     ///< for what follows
+  std::shared_mutex gate;  ///< shared if several may hold at once
+  std::mutex counting;     ///< guards the following
   int count = 0;
-  int before = 0;  ///< the setting that the first of them found
+  int before = 0;  ///< the setting found by the first holder
 };
 
-/// How many this thread holds: one within another has nothing to do.
+/// How many this thread holds; a nested one does nothing.
 thread_local int held_by_thread = 0;
 
-/// OpenBLAS takes 140 kB for each thread at its first call there (0.3.34), and where these are not to be had, the C
-/// library ends the process. Throws std::bad_alloc before it comes to that.
+/// OpenBLAS allocates 140 kB per thread at the thread's first call (0.3.34), and if that fails, the C library ends the
+/// process. Throws std::bad_alloc before that happens.
 void find_memory_for_thread() {
   thread_local bool is_found = false;
   if (is_found) return;
@@ -167,8 +168,8 @@ BlasThreads::~BlasThreads() {
 }
 
 bool BlasThreads::serves_many() {
-  // Built with OpenMP (2), the thread that sets the number has one of its own; built without threads (0), two calls at
-  // once share their buffers.
+  // With OpenMP (2), the number applies only to the thread that sets it; without threads (0), two concurrent calls
+  // share their buffers.
   constexpr int with_its_own_threads = 1;
   return open_blas().get_parallel == nullptr || open_blas().get_parallel() == with_its_own_threads;
 }

@@ -5,42 +5,41 @@
 
 namespace spectral_conformal {
 
-// The BLAS that CHOLMOD's calls are bound to, and its number of threads.
+// The BLAS to which CHOLMOD's calls are bound, and its number of threads.
 //
-// OpenBLAS keeps one number of threads for the whole process, and sums in another order with another number. So that no
-// result depends on a setting of the user, of NumPy or of another add-on, each call into CHOLMOD or BLAS is made under
-// a BlasThreads, which fixes the number for the length of that call and then puts the process's own back. For that
-// moment other users of the same OpenBLAS run with our number as well. (Its setter for one thread alone,
-// openblas_set_num_threads_local, is in neither Debian 12's 0.3.21 nor the 0.3.34 of scipy-openblas32.) NumPy's wheels
-// bring an OpenBLAS of their own, which is not touched.
+// OpenBLAS has one number of threads for the whole process, and its order of summation depends on it. So that no result
+// depends on a setting of the user, of NumPy or of another add-on, each call into CHOLMOD or BLAS is made under a
+// BlasThreads, which fixes the number during that call and then restores it. Meanwhile other users of the same OpenBLAS
+// run with our number too. (The setter for a single thread, openblas_set_num_threads_local, is missing from Debian 12's
+// 0.3.21 and from the 0.3.34 of scipy-openblas32.) NumPy's wheels bring their own OpenBLAS, which is not affected.
 
-/// The number of threads that the process has set for OpenBLAS; none with another BLAS, or where none is linked.
+/// The number of threads set for OpenBLAS in this process; empty with another BLAS, or without any.
 std::optional<int> blas_thread_setting();
-/// Changes it, for the whole process; without effect where there is none.
+/// Changes that number for the whole process; no effect if there is none.
 void set_blas_thread_setting(int threads);
 
-/// Fixes OpenBLAS's number of threads at one while the object lives, and puts the process's own number back when the
-/// last of them ends, however it ends; a number that somebody else set in between is kept. May be held by several
-/// threads at once, which wait for each other unless the BLAS serves many. A thread may hold several.
-/// Without effect with another BLAS. A second thread of the BLAS itself would spin while it waits and stall where the
-/// other core is busy; a factorization works on several subtrees at once instead (supernodal_factor.h).
+/// Fixes OpenBLAS's number of threads at one while the object lives. The end of the last object, also by an exception,
+/// restores the process's number, unless somebody else set another in between. Several threads may hold objects at
+/// once; they wait for each other unless the BLAS serves many. A thread may hold several. No effect with another BLAS.
+/// Why one: a second BLAS thread would spin while waiting, and stall if the other core is busy. A factorization
+/// processes several subtrees in parallel instead (supernodal_factor.h).
 class BlasThreads {
  public:
   BlasThreads();
   ~BlasThreads();
   BlasThreads(const BlasThreads&) = delete;
   BlasThreads& operator=(const BlasThreads&) = delete;
-  /// Whether the BLAS keeps one setting for all threads of the process, and may be called by several of them at once.
+  /// Whether the BLAS has one setting for all threads of the process and may be called by several at once.
   static bool serves_many();
 
  private:
-  [[maybe_unused]] bool is_alone_;  ///< holds the lock alone
+  [[maybe_unused]] bool is_alone_;  ///< holds the lock exclusively
 };
 
-/// The file of the BLAS that the factorization's calls are bound to and what it says of itself, or "" without CHOLMOD.
+/// The file and self-description of the BLAS to which the factorization's calls are bound, or "" without CHOLMOD.
 std::string blas_library();
-/// The kernels that OpenBLAS runs, by the processor that they are written for, such as "SkylakeX" for AVX-512; "" with
-/// another BLAS. Releases older than a processor may run those of a much older one.
+/// OpenBLAS's kernels, named by their target processor, such as "SkylakeX" for AVX-512; "" with another BLAS. Releases
+/// older than a processor may select the kernels of a much older one.
 std::string blas_kernel();
 
 }  // namespace spectral_conformal

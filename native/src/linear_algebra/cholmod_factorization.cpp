@@ -26,7 +26,7 @@
 namespace spectral_conformal {
 namespace {
 
-/// CHOLMOD's workspace and settings, of one thread.
+/// CHOLMOD's workspace and settings for one thread.
 class Workspace {
  public:
   Workspace() {
@@ -73,7 +73,7 @@ cholmod_sparse view_of(const HermitianMatrix& matrix) {
   return lower_pattern(static_cast<int>(matrix.rows()), matrix.outerIndexPtr(), matrix.innerIndexPtr());
 }
 
-/// CHOLMOD's User Guide, section "The cholmod_factor object".
+/// See CHOLMOD's User Guide, section "The cholmod_factor object".
 SupernodalStructure structure_of(const cholmod_factor& symbolic) {
   const auto* const order = static_cast<const int*>(symbolic.Perm);
   const auto* const first_column = static_cast<const int*>(symbolic.super);
@@ -85,7 +85,7 @@ SupernodalStructure structure_of(const cholmod_factor& symbolic) {
           {rows, rows + first_row[symbolic.nsuper]}};
 }
 
-/// An ordering, and what a factor in it is like.
+/// An ordering, with the structure and cost of its factor.
 struct CholmodAnalysis {
   SupernodalStructure structure;
   double multiplications = 0;  ///< of real numbers
@@ -102,7 +102,7 @@ CholmodAnalysis analyze_pattern(cholmod_sparse& pattern, int* order, Workspace& 
   return {structure_of(*symbolic), workspace->fl};
 }
 
-/// From this many rows on CHOLMOD tries METIS, too, where AMD seems poor; it takes ten times as long and saves memory
+/// From this many rows on, CHOLMOD also tries METIS if AMD seems poor; that takes ten times as long and saves memory
 /// (0.71 instead of 1.08 GB).
 constexpr Eigen::Index compare_from = 600000;
 
@@ -114,7 +114,7 @@ CholmodAnalysis by_minimum_degree(const HermitianMatrix& matrix) {
   return analyze_pattern(view, nullptr, workspace);
 }
 
-/// Orders the nodes of leaves by AMD, several leaves in each thread.
+/// Orders the nodes of the leaves by AMD, several leaves per thread.
 class LeafOrdering {
  public:
   LeafOrdering(const Adjacency& graph, NestedDissection& dissection)
@@ -150,7 +150,7 @@ class LeafOrdering {
   static constexpr double nanoseconds_per_leaf = 1e6;
   const Adjacency& graph_;
   NestedDissection& dissection_;
-  std::vector<int> place_;  ///< of each node in the order as given
+  std::vector<int> place_;  ///< position of each node in the given order
 };
 
 CholmodAnalysis by_dissection(const HermitianMatrix& matrix, const Adjacency& graph, const Positions& positions) {
@@ -163,19 +163,19 @@ CholmodAnalysis by_dissection(const HermitianMatrix& matrix, const Adjacency& gr
   return analyze_pattern(view, dissection.order.data(), workspace);
 }
 
-/// Large matrices whose rows lie in space are dissected. A plane cuts a surface that is wound up in space in many
-/// lines, which shows in the multiplications: there minimum degree is tried, too.
+/// Large matrices with positions are dissected. A plane cuts a surface coiled up in space along many lines, which
+/// raises the multiplications; minimum degree is then tried too.
 CholmodAnalysis analyze_in_best_order(const HermitianMatrix& matrix, const Adjacency& graph,
                                       const Positions* positions) {
   const auto n = static_cast<double>(matrix.rows());
-  // With quads, both of whose diagonals are edges, AMD takes a third of the time.
+  // With quads, whose two diagonals are both edges, AMD takes a third of the time.
   constexpr double max_entries_of_triangles = 4.25;
   const bool has_quads = static_cast<double>(matrix.nonZeros()) > max_entries_of_triangles * n;
   // With fewer rows, minimum degree alone is faster on most scanned shapes.
   const Eigen::Index dissect_from = has_quads ? 200000 : 100000;
   if (positions == nullptr || matrix.rows() < dissect_from) return by_minimum_degree(matrix);
   CholmodAnalysis dissected = by_dissection(matrix, graph, *positions);
-  // Over n^(3/2): triangles of a grid take 10 to 18, quads 20 to 29.
+  // Relative to n^(3/2): triangle grids take 10 to 18, quad grids 20 to 29.
   constexpr double many = 30;
   if (dissected.multiplications <= many * n * std::sqrt(n)) return dissected;
   CholmodAnalysis other = by_minimum_degree(matrix);

@@ -24,16 +24,16 @@ void zgemv_(const char*, const int*, const int*, const void*, const void*, const
 namespace spectral_conformal {
 namespace {
 
-// Arguments of the BLAS: a stride, and factors.
+// BLAS arguments: a stride, and factors.
 constexpr int one = 1;
 constexpr double real_unit = 1;
 constexpr double real_minus = -1;
 constexpr double zero = 0;
 const Complex unit = 1;
 const Complex minus = -1;
-/// A block of no more multiplications, width times height squared, takes less time here than calls do.
+/// Up to this many multiplications (width times height squared), a block is faster here than by BLAS calls.
 constexpr double max_small_elimination = 8000;
-/// The same of the columns in a solve.
+/// The same for the columns in a solve.
 constexpr int max_small_width = 24;
 
 template <class Scalar>
@@ -138,9 +138,9 @@ void multiply_below(const DenseBlock<Complex>& block, Complex* c) {
   zherk_("L", "N", &below, &block.width, &real_minus, block.values + block.width, &block.height, &zero, c, &below);
 }
 
-// Solves with a real block and a complex vector. BLAS has them for real vectors only and would read the block twice.
+// Solves with a real block and a complex vector. BLAS has only real vectors for these and would read the block twice.
 
-/// Four columns at a time, so that c is read and written a quarter as often.
+/// Four columns at a time: a quarter of the reads and writes of c.
 void solve_lower(const DenseBlock<double>& block, Complex* b, Complex* c) {
   const int n = block.width;
   const int m = block.below();
@@ -176,7 +176,7 @@ void solve_lower(const DenseBlock<Complex>& block, Complex* b, Complex* c) {
   zgemv_("N", &below, &block.width, &minus, block.values + block.width, &block.height, b, &one, &unit, c, &one);
 }
 
-/// Four columns at a time, whose sums do not wait for each other.
+/// Four columns at a time, with independent sums.
 void solve_upper(const DenseBlock<double>& block, Complex* b, const Complex* c) {
   const int n = block.width;
   const int m = block.below();

@@ -6,8 +6,8 @@
 
 namespace spectral_conformal {
 
-/// A block of columns of a Cholesky factor as one dense matrix, column by column: L, (width, width) lower, and B, the
-/// rows below it. Scalar is double or Complex.
+/// A block of columns of a Cholesky factor as one dense column-major matrix: L, (width, width) lower, and B, the rows
+/// below it. Scalar is double or Complex.
 template <class Scalar>
 struct DenseBlock {
   int width;
@@ -18,11 +18,10 @@ struct DenseBlock {
   Scalar* column(int j) const { return values + static_cast<std::ptrdiff_t>(j) * height; }
 };
 
-// The three steps of an elimination, by BLAS and LAPACK. Small blocks have them here: OpenBLAS locks a mutex of the
-// process in each call, at which threads that factorize small matrices wait for each other; on two cores they were no
-// faster than one.
+// The three steps of an elimination, by BLAS and LAPACK. Small blocks use our own loops: OpenBLAS locks a process-wide
+// mutex in each call, and threads that factorize small matrices wait for it; two cores were no faster than one.
 
-/// A = L L^H in place. Of a small block, also the next step. False when A is not positive definite.
+/// A = L L^H in place; for a small block also the next step. Returns false if A is not positive definite.
 bool eliminate_columns(const DenseBlock<double>& block);
 bool eliminate_columns(const DenseBlock<Complex>& block);
 

@@ -9,13 +9,13 @@
 namespace spectral_conformal {
 namespace {
 
-/// Tells the size of the factor, which Eigen counts with ints, before there is one.
+/// Exposes the size of the factor, which Eigen counts in ints, before the factorization.
 class SimplicialLdlt : public Eigen::SimplicialLDLT<HermitianMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
  public:
   double planned_nonzeros() const {
     double sum = 0;
     const auto* start = m_matrix.outerIndexPtr();
-    // The starts of a factor that is too large have wrapped round; their differences have not.
+    // If the factor is too large, the column starts have wrapped around; their differences have not.
     for (Eigen::Index k = 0; k < m_matrix.outerSize(); ++k) {
       sum += static_cast<unsigned>(start[k + 1]) - static_cast<unsigned>(start[k]);
     }
@@ -36,7 +36,7 @@ class EigenFactorization final : public Factorization {
   bool factorize(const HermitianMatrix& matrix) override {
     count_factorization(0);
     call_while_listening(100 * planned_nonzeros_, [&] { ldlt_.factorize(matrix); });
-    // L D L^H also exists for some indefinite matrices: positive definite means positive pivots.
+    // L D L^H also exists for some indefinite matrices; positive definite means positive pivots.
     return ldlt_.info() == Eigen::Success && (ldlt_.vectorD().real().array() > 0).all();
   }
 

@@ -20,14 +20,14 @@ HermitianMatrix lower_triangle(Eigen::Index n, const std::vector<Eigen::Triplet<
 }
 
 void check_factor_size(double nonzeros) {
-  // Both libraries number the entries of a factor with ints here.
+  // Both libraries index the entries of a factor by int here.
   constexpr int limit = std::numeric_limits<int>::max();
   if (nonzeros <= limit) return;
   throw SolveFailure(rejected(Rejection::too_large, limit));
 }
 
 std::unique_ptr<Factorization> make_factorization(FactorizationBackend backend, Eigen::Index n) {
-  // Setting CHOLMOD up takes longer than Eigen takes for a smaller matrix.
+  // For a smaller matrix, Eigen is faster than CHOLMOD's setup.
   constexpr Eigen::Index cholmod_from = 300;
   const bool is_better = has_cholmod() && n >= cholmod_from;
   if (backend == FactorizationBackend::cholmod || (backend == FactorizationBackend::automatic && is_better)) {

@@ -9,7 +9,7 @@ namespace {
 
 #ifdef MADV_HUGEPAGE
 constexpr std::size_t page = std::size_t{1} << 21;
-/// Of less there is little to gain.
+/// Smaller arrays gain little.
 constexpr std::size_t min_size = 2 * page;
 #endif
 
@@ -19,7 +19,7 @@ void* allocate_pages(std::size_t size) {
 #ifdef MADV_HUGEPAGE
   if (size >= min_size) {
     void* const memory = ::operator new(size, std::align_val_t(page));
-    // A wish: where it is not granted, pages are small.
+    // Only a hint: if it is not granted, pages are small.
     madvise(memory, size / page * page, MADV_HUGEPAGE);
     return memory;
   }

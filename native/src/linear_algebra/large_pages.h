@@ -7,14 +7,14 @@
 
 namespace spectral_conformal {
 
-/// Memory for arrays; large ones ask for large pages where the system has them (Linux). A factor of a gigabyte
-/// otherwise takes a quarter of a million page faults. Throws std::bad_alloc.
+/// Allocates memory for arrays; large ones request large pages where available (Linux). Otherwise a factor of a
+/// gigabyte takes a quarter of a million page faults. Throws std::bad_alloc.
 void* allocate_pages(std::size_t size);
-/// size: as it was asked for.
+/// size: as requested.
 void free_pages(void* memory, std::size_t size) noexcept;
 
-/// An allocator on them. Numbers without a value of their own are left unset, so that the thread that writes them
-/// first touches their pages.
+/// An allocator based on these functions. Default-constructed numbers stay uninitialized, so that the thread that
+/// writes them first touches their pages.
 template <class T>
 struct LargePages {
   using value_type = T;

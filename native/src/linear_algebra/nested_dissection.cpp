@@ -14,15 +14,15 @@
 namespace spectral_conformal {
 namespace {
 
-/// A part of this many nodes or fewer is a leaf: minimum degree orders it nearly as well, in less time.
+/// A part with at most this many nodes is a leaf: minimum degree orders it nearly as well, in less time.
 constexpr int max_leaf_size = 2000;
-/// Tried all round, and how often the best is turned by half of what it was before.
+/// Directions tried, and the number of times that the best is refined by half the previous angle.
 constexpr int n_directions = 8;
 constexpr int n_halvings = 4;
-/// How many edges a separator may lie from the plane: with 535,000 vertices and triangles, 0, 3 and 12
-/// give 7.4e9, 7.0e9 and 6.7e9 multiplications, in 0.02, 0.14 and 0.68 s.
+/// Largest distance of a separator from the plane, in edges: on triangles with 535,000 vertices, 0, 3 and 12 give
+/// 7.4e9, 7.0e9 and 6.7e9 multiplications, in 0.02, 0.14 and 0.68 s.
 constexpr int max_distance = 3;
-/// Not in any part.
+/// The number of no part.
 constexpr int no_part = -1;
 
 class Dissector {
@@ -48,14 +48,15 @@ class Dissector {
     int number;
     int size() const { return end - begin; }
   };
-  /// Where the two halves of a part end; the rest is its separator.
+  /// The ends of the two halves of a part; the rest is its separator.
   struct Halves {
     int first_end = none;
     int second_end = none;
   };
   static constexpr int none = -1;
 
-  /// Cuts the parts and returns theirs. Threads read of other parts only `part_of_`, which does not change meanwhile.
+  /// Cuts the parts and returns their parts. Of other parts, threads read only `part_of_`, which does not change
+  /// meanwhile.
   std::vector<Part> dissect(const std::vector<Part>& parts) {
     std::vector<Halves> halves(parts.size());
     run_in_parallel(
@@ -84,7 +85,7 @@ class Dissector {
     for (int i = begin; i < end; ++i) part_of_[result_.order[i]] = last_number_;
   }
 
-  /// Orders the part's nodes by their side.
+  /// Orders the nodes of a part by side.
   Halves cut(const Part& part) {
     const Plane plane = this->plane(part);
     still_working(1e6);
@@ -115,7 +116,7 @@ class Dissector {
     double height;
   };
 
-  /// Halves a sample of the part's nodes and cuts few of them.
+  /// A plane that halves a sample of the part's nodes and cuts few of them.
   Plane plane(const Part& part) const {
     const int n_samples = std::min(part.size(), std::min(128 + part.size() / 128, 2000));
     std::vector<int> sample;
@@ -131,7 +132,7 @@ class Dissector {
       const Eigen::RowVector3d offset = positions_.row(node) - mean;
       covariance += offset.transpose() * offset;
     }
-    // Planes along the direction of least extent cut a surface in its shortest lines.
+    // Planes along the direction of least extent cut a surface along its shortest lines.
     const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
     const Eigen::Matrix<double, 3, 2> across = axes.rightCols<2>();
     std::vector<Eigen::RowVector2d> places;
@@ -157,7 +158,7 @@ class Dissector {
       const double low = sorted[sorted.size() / 3];
       const double high = sorted[sorted.size() - 1 - sorted.size() / 3];
       if (!(high > low)) return false;
-      // How many of the sample, on average, a plane in the middle third parts from a neighbor above it.
+      // The mean number of sample nodes that a plane in the middle third separates from a neighbor above it.
       double n_cut = 0;
       for (std::size_t i = 0; i < places.size(); ++i) {
         if (height[i] < low || height[i] > high) continue;
@@ -178,7 +179,7 @@ class Dissector {
     for (int k = 0; k < n_directions; ++k) {
       if (try_angle(k * step)) best_angle = k * step;
     }
-    // A plane along the rows of a grid cuts fewer than one that is turned by a few degrees.
+    // A plane along the rows of a grid cuts fewer nodes than one rotated by a few degrees.
     for (int halving = 0; halving < n_halvings; ++halving) {
       step /= 2;
       const double angle = best_angle;
@@ -189,7 +190,7 @@ class Dissector {
     return best;
   }
 
-  /// Takes a smallest separator from the nodes near the cut, where they are few enough.
+  /// Finds a smallest separator among the nodes near the cut, if these are few enough.
   void separate(const Part& part) {
     const std::vector<int> near = near_cut(part);
     std::vector<char> is_source(near.size(), 0);
@@ -216,8 +217,8 @@ class Dissector {
     }
   }
 
-  /// The part's nodes with a neighbor on the other side, and those at most so many edges from them that they are not
-  /// too many. Gives them their place.
+  /// The part's nodes with a neighbor on the other side, and the nodes within some edges of them, as long as these are
+  /// not too many. Sets their index in place_.
   std::vector<int> near_cut(const Part& part) {
     std::vector<int> near;
     const auto add = [&](int node) {
@@ -251,7 +252,7 @@ class Dissector {
   NestedDissection result_;
   std::vector<int> part_of_;
   std::vector<SeparatorSide> side_;
-  std::vector<int> place_;  ///< among those near the cut, of a part that is being cut
+  std::vector<int> place_;  ///< index among the nodes near the cut of the current part
   int last_number_ = 0;
 };
 

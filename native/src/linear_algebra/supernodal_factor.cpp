@@ -14,14 +14,15 @@
 namespace spectral_conformal {
 namespace {
 
-/// Multiplications that take a tenth of a second or more: a caller with a listener leaves the front to another thread.
+/// This many multiplications take a tenth of a second or more: a caller with a listener leaves the front to another
+/// thread.
 constexpr double long_front = 3e8;
-/// Of a multiplication in large fronts, and of what else a small one costs for each of its supernode's entries.
+/// Time of a multiplication in large fronts, and of the remaining cost of small ones per entry of the supernode.
 constexpr double nanoseconds_of_multiplication = 0.2;
 constexpr double nanoseconds_of_entry = 5;
 constexpr double nanoseconds_of_solve = 2;
 
-/// still_working. Not where the BLAS is held alone: a listener may wait for a thread that waits for the BLAS.
+/// Calls still_working, unless the BLAS is held exclusively: a listener may wait for a thread that waits for the BLAS.
 void listen(double nanoseconds) {
   if (BlasThreads::serves_many()) still_working(nanoseconds);
 }
@@ -35,7 +36,7 @@ Scalar part_of(const Complex& value) {
   }
 }
 
-/// Frees the memory, too.
+/// Frees the memory too.
 void give_up(LargeVector<double>& values) { LargeVector<double>().swap(values); }
 
 }  // namespace
@@ -142,7 +143,7 @@ bool SupernodalFactor::eliminate(int k, const HermitianMatrix& matrix) {
   return true;
 }
 
-/// Calls visit(child, what it passes on), which is complex only where the parent is.
+/// Calls visit(child, block that it passes on), which is complex only if the parent is.
 template <class Scalar, class Visit>
 void SupernodalFactor::for_each_child(int k, const Visit& visit) {
   for (const int child : symbolic_.children(k)) {
@@ -157,7 +158,7 @@ void SupernodalFactor::for_each_child(int k, const Visit& visit) {
   }
 }
 
-/// To the columns of the parent.
+/// Adds to the columns of the parent.
 template <class Scalar, class OfChild>
 void SupernodalFactor::add_to_columns(int child, const OfChild* from, const DenseBlock<Scalar>& own) const {
   const int* const index = symbolic_.index_in_parent(child) + symbolic_.columns(child);
@@ -169,7 +170,7 @@ void SupernodalFactor::add_to_columns(int child, const OfChild* from, const Dens
   }
 }
 
-/// To what the parent passes on itself.
+/// Adds to the block that the parent passes on.
 template <class Scalar, class OfChild>
 void SupernodalFactor::add_below(int child, const OfChild* from, const DenseBlock<Scalar>& own, Scalar* passed) const {
   const int* const index = symbolic_.index_in_parent(child) + symbolic_.columns(child);

@@ -10,12 +10,11 @@
 
 namespace spectral_conformal {
 
-/// L L^H of a Hermitian positive definite matrix by the multifrontal method (Duff and Reid 1983; Liu 1992), and the
-/// solves with it. Each supernode sums up what its children pass on, eliminates its columns by BLAS and passes the rest
-/// on to its parent; subtrees do not know of each other and are factorized by as many threads as the ThreadBudget
-/// allows. What a supernode does never depends on the number of threads, so neither does any bit of the result. Blocks
-/// are real as long as no imaginary part has reached them: in the conformal energy with uniform weights only the
-/// boundary's edges have one (Eq. 3).
+/// L L^H of a Hermitian positive definite matrix by the multifrontal method (Duff and Reid 1983; Liu 1992), and solves
+/// with it. Each supernode sums its children's update matrices, eliminates its columns by BLAS and passes the remainder
+/// to its parent. Subtrees are independent and factorized in as many threads as the ThreadBudget allows. The work of a
+/// supernode does not depend on the number of threads, so results are equal to the bit. Blocks stay real until an
+/// imaginary part reaches them: in the conformal energy with uniform weights only boundary edges have one (Eq. 3).
 class SupernodalFactor {
  public:
   /// max_threads: 0 for as many as the ThreadBudget allows.
@@ -23,9 +22,9 @@ class SupernodalFactor {
 
   void analyze(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
   const SymbolicFactor& symbolic() const { return symbolic_; }
-  /// Factorizes a matrix of the analyzed pattern. Returns false when it is not positive definite in double precision.
+  /// Factorizes a matrix of the analyzed pattern. Returns false if it is not positive definite in double precision.
   bool factorize(const HermitianMatrix& matrix);
-  /// What the last factor takes: one for an entry of a real block, two of a complex one.
+  /// The size of the last factor: one double per entry of a real block, two for a complex one.
   double n_doubles() const { return static_cast<double>(offset_.back()); }
 
   /// work <- L^-1 work, (n,) in the factor's order, over the path; zero elsewhere.
@@ -54,9 +53,9 @@ class SupernodalFactor {
   SymbolicFactor symbolic_;
   std::vector<char> is_real_;
   std::vector<std::ptrdiff_t> offset_;       ///< (supernodes + 1,) into values_, in doubles
-  LargeVector<double> values_;               ///< not set before a block is begun
-  std::vector<LargeVector<double>> passed_;  ///< lower triangle that a supernode passes on, until it is taken
-  ComplexVector below_;                      ///< what each supernode passes on in a solve, beside its rows
+  LargeVector<double> values_;               ///< unset until a block is begun
+  std::vector<LargeVector<double>> passed_;  ///< lower triangle that a supernode passes on, until consumed
+  ComplexVector below_;                      ///< what each supernode passes on in a solve, aligned with its rows
 };
 
 }  // namespace spectral_conformal

@@ -30,7 +30,7 @@ SymbolicFactor::SymbolicFactor(const HermitianMatrix& matrix, const Adjacency& g
   for_each_supernode([&](int k) {
     const double width = columns(k);
     const double height = rows(k);
-    // Multiplications, and what the calls and the passing on of small blocks cost beside.
+    // Multiplications, plus the overhead of calls and of passing on small blocks.
     cost[k] = width * height * height + 20 * height * height + 5000;
     for (int column = first_column(k); column < first_column(k + 1); ++column) {
       ++first_entry_[k + 1];

@@ -10,7 +10,7 @@
 
 namespace spectral_conformal {
 
-/// Where a Cholesky factor may have entries: its columns in groups, the supernodes, of which each is a dense block.
+/// The structure of a Cholesky factor: its columns in groups, the supernodes, each a dense block.
 struct SupernodalStructure {
   std::vector<int> order;                 ///< (n,) the row of the matrix at each index of the factor
   std::vector<int> first_column;          ///< (supernodes + 1,)
@@ -18,16 +18,16 @@ struct SupernodalStructure {
   std::vector<int> rows;                  ///< of each supernode, ascending: its own columns, then those below
 };
 
-/// What a factorization needs to know before it has numbers: the supernodes as a forest, where each entry of the matrix
-/// goes, and the order in which threads work.
+/// The symbolic part of a factorization: the supernodes as a forest, the target of each matrix entry, and the schedule
+/// of the threads.
 class SymbolicFactor {
  public:
   /// An entry of the matrix's lower triangle on its way into a block.
   struct Entry {
-    int source;  ///< index of the value, or its complement where the conjugate is meant
+    int source;  ///< index of the value, or its complement for the conjugate
     int target;  ///< row + column * rows of the block
   };
-  /// Supernodes that a solve passes through, closed under parents.
+  /// The supernodes that a solve visits, closed under parents.
   class Path {
    public:
     const std::vector<int>& supernodes() const { return supernodes_; }  ///< ascending
@@ -42,15 +42,15 @@ class SymbolicFactor {
   };
 
   SymbolicFactor() = default;
-  /// The structure is that of the factors of matrices of this pattern. graph: of the matrix (graph_of).
+  /// structure: of the factors of matrices with this pattern. graph: of the matrix (graph_of).
   SymbolicFactor(const HermitianMatrix& matrix, const Adjacency& graph, SupernodalStructure structure);
 
   int n() const { return static_cast<int>(structure_.order.size()); }
   const std::vector<int>& order() const { return structure_.order; }
   int n_supernodes() const { return static_cast<int>(parent_.size()); }
-  /// Of all supernodes, at the end of each other.
+  /// The rows of all supernodes, concatenated.
   std::size_t n_rows() const { return structure_.rows.size(); }
-  double nonzeros() const;  ///< entries of the factor as stored, some zeros among them
+  double nonzeros() const;                                      ///< stored entries of the factor, including some zeros
   const ForestSchedule& schedule() const { return schedule_; }  ///< costs in multiplications
 
   // Of a supernode:
@@ -61,14 +61,14 @@ class SymbolicFactor {
   const int* row_indices(int k) const { return structure_.rows.data() + structure_.first_row[k]; }
   int parent(int k) const { return parent_[k]; }  ///< -1 for a root
   Grouped<int>::Range<const int*> children(int k) const { return children_[k]; }
-  /// Of each row below its columns, the index in the block of its parent.
+  /// For each row below its columns, the index in the block of its parent.
   const int* index_in_parent(int k) const { return index_in_parent_.data() + structure_.first_row[k]; }
   Grouped<Entry>::Range<const Entry*> entries(int k) const {
     return {entries_.data() + first_entry_[k], entries_.data() + first_entry_[k + 1]};
   }
 
   Path whole() const;
-  /// The supernodes that these columns lie in, and all above.
+  /// The supernodes of these columns, and all their ancestors.
   Path above(const std::vector<int>& columns) const;
 
  private:
