@@ -17,9 +17,9 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
-/// Packs the boxes, in the given order, into a strip; returns the side of the square that holds them.
+/// Packs the boxes into a strip in the given order; returns the side of the square that holds them.
 double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes) {
-  // From this many segments on, a tree takes less time.
+  // From this many segments on, a tree is faster.
   constexpr std::size_t many = 100;
   Skyline skyline(width);
   std::optional<SkylineTree> tree;
@@ -37,7 +37,7 @@ double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes
   return side;
 }
 
-/// The best packing so far, and what it was made of.
+/// The best packing so far, with its order and width.
 class PackingSearch {
  public:
   explicit PackingSearch(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {
@@ -51,12 +51,12 @@ class PackingSearch {
 
   double side() const { return side_; }
   const std::vector<PackedBox>& boxes() const { return best_; }
-  /// Nothing smaller can be found.
+  /// Whether no smaller packing is possible.
   bool is_done() const { return !(side_ > least_ * (1 + rounding)); }
 
-  /// Tries strips of all widths that may make a smaller square.
+  /// Tries strips of all widths that may yield a smaller square.
   void try_order(const Order& order) {
-    // From the least that can hold all in a square up to the best side so far.
+    // From the smallest possible square up to the best side so far.
     constexpr double step = 1.01;
     for (double width = least_; width < side_ && !is_done(); width *= step) {
       attempt(order, width);
@@ -64,9 +64,9 @@ class PackingSearch {
     }
   }
 
-  /// Exchanges boxes in the best order, by chance that is always the same, so often.
+  /// Swaps pseudo-random boxes, the same in each run, in the best order; this many attempts.
   void improve(std::size_t attempts) {
-    // What is tried must fit into a square so much smaller.
+    // A trial must fit into a square smaller by this factor.
     constexpr double smaller = 0.999;
     std::mt19937 chance;
     const auto n = static_cast<std::uint32_t>(order_.size());
@@ -103,7 +103,7 @@ class PackingSearch {
   double least_ = 0;
 };
 
-/// The boxes by falling keys.
+/// The boxes in the order of decreasing keys.
 template <class Key>
 Order by(const std::vector<PackedBox>& boxes, const Key& key) {
   Order order(boxes.size());
@@ -117,7 +117,7 @@ Order by(const std::vector<PackedBox>& boxes, const Key& key) {
 
 double pack_boxes(std::vector<PackedBox>& boxes) {
   if (boxes.empty()) return 0;
-  // All that is tried together takes some milliseconds.
+  // All trials together take a few milliseconds.
   constexpr std::size_t max_boxes_in_orders = 400;
   constexpr std::size_t exchanged_boxes = 50000;
   constexpr std::size_t max_exchanges = 10000;

@@ -85,7 +85,7 @@ SkylineTree::Run SkylineTree::lowest_run(double width) {
     const double begin = segment(first).x;
     const double end = segment(along_.next_above(i, y)).x;
     if (begin + width <= std::min(end, strip)) return {first, y};
-    // Nothing wider fits either; what does is above this bound in spite of rounding.
+    // Nothing wider fits either. Anything that fits exceeds this bound despite rounding.
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     by_height_.set_value(i, std::min(width, end - begin + rounding * strip));
   }

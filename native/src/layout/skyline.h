@@ -9,9 +9,9 @@
 
 namespace spectral_conformal {
 
-/// The upper border of the boxes that are packed in a strip [0, width] from below (Jylanki, "A Thousand Ways to Pack
-/// the Bin", 2010, section 4). A box is put where its top is lowest, and there farthest left. Each box looks along the
-/// whole border: for few boxes.
+/// The upper border of the boxes packed from below in a strip [0, width] (Jylanki, "A Thousand Ways to Pack the Bin",
+/// 2010, section 4). Each box goes to the position with the lowest top, and among these to the leftmost. Each insertion
+/// scans the whole border, which suits few boxes.
 class Skyline {
  public:
   explicit Skyline(double width) : width_(width), segments_{{0, 0, width}} {}
@@ -29,7 +29,7 @@ class Skyline {
   const std::vector<Segment>& segments() const { return segments_; }
 
  private:
-  /// The largest height from where segment i begins on, as far as the width.
+  /// The largest height over the given width from the start of segment i.
   double height_over(std::size_t i, double width) const {
     const double end = segments_[i].x + width;
     double y = segments_[i].y;
@@ -42,16 +42,16 @@ class Skyline {
   std::vector<Segment> segments_;
 };
 
-/// The same for many boxes, which are put in the same places, bit for bit.
+/// The same for many boxes; positions are equal bit for bit.
 ///
-/// The level run of a segment is the longest piece of the border around it that is nowhere higher. The lowest place for
-/// a box is the beginning of a level run, since it can be moved left from anywhere else in it: of the lowest segment
-/// whose run is wide enough. Runs only shrink, so that the width found when one was last too narrow bounds it; segments
-/// in the order of their heights, with these bounds, are searched in O(log n), and so are the ends of a run. n log n in
-/// all where few runs shrink between two searches that try them.
+/// The level run of a segment is the longest piece of the border around it that is nowhere higher. The lowest position
+/// of a box is at the start of a run, since elsewhere the box could move left: the run of the lowest segment whose run
+/// is wide enough. Runs only shrink, so the width of a run last found too narrow bounds it from above. A search over
+/// the segments by height, with these bounds, takes O(log n), and so does finding the ends of a run. The total is O(n
+/// log n) if few runs shrink between two searches that try them.
 class SkylineTree {
  public:
-  /// Begins with what is packed there.
+  /// Starts from the boxes packed there.
   explicit SkylineTree(const Skyline& skyline);
 
   /// Sets the box's x and y.
@@ -72,15 +72,15 @@ class SkylineTree {
     int first = MaxTreap::none;  ///< segment
     double y = 0;
   };
-  /// The lowest run, and of these the farthest left, that is wide enough.
+  /// The lowest run that is wide enough; the leftmost of equally low ones.
   Run lowest_run(double width);
   void insert_before(int at, double x, double y, double end);
   void erase(int i);
   void raise(int first, const PackedBox& box);
 
-  static constexpr int left_end = 0;   ///< infinitely high, as the right end
+  static constexpr int left_end = 0;   ///< infinitely high, like the right end
   static constexpr int right_end = 1;  ///< begins at the strip's width
-  std::vector<Segment> segments_;      ///< also those that are no more
+  std::vector<Segment> segments_;      ///< including removed ones
   MaxTreap along_;                     ///< from left to right; values: heights
   MaxTreap by_height_;  ///< from low to high, then from left to right; values: bounds of the runs' widths
 };

@@ -18,35 +18,35 @@ namespace {
 
 constexpr Complex up(0, 1);
 
-// Rectangles within 1 % of the smallest count as equally small: the sides of a square then lean by 0.3 degrees at most.
+// Rectangles within 1 % of the smallest count as equally small: the sides of a square then lean by at most 0.3 degrees.
 constexpr double equal_area = 0.01;
-// A coordinate is weak beside another that grows four times as fast in the map: a roof of less than 14 degrees is seen
-// from above.
+// A coordinate is weak if another grows four times as fast in the map: a roof of less than 14 degrees is seen from
+// above.
 constexpr double weak = 0.25;
-// Gradients below this fraction of the steepest possible are rounding: positions come in single precision, 6e-8, and
-// the eigenvector's error is about as large.
+// Gradients below this fraction of the steepest possible are rounding: positions are in single precision, 6e-8, and the
+// eigenvector's error is about as large.
 constexpr double no_gradient = 1e-4;
-// In radians, about one degree: quarter turns that are equally near in a model made by hand.
+// In radians, about one degree: quarter turns that count as equally near in a handmade model.
 constexpr double equally_near = 0.02;
 constexpr double rounding = 1e-6;  // in radians
-// Odd moments of a shape that is its own mirror image are 0: 1e-16 on Blender's monkey, 1e-5 on a rectangle that is
-// triangulated without symmetry, but 9e-4 on a rectangle of 2 by 1 that lacks a corner of legs 0.02.
+// Odd moments of a mirror-symmetric shape vanish: 1e-16 on Blender's monkey, 1e-5 on an asymmetrically triangulated
+// rectangle, but 9e-4 on a 2 by 1 rectangle without a corner of legs 0.02.
 constexpr double odd_moment = 3e-4;
-// A moment above this tells where an axis is; with odd_moment, to 0.6 degrees at least.
+// A moment above this locates an axis; given odd_moment, to within 0.6 degrees.
 constexpr double clear_harmonic = 0.03;
 constexpr double same_axis = 0.02;  // in radians
-// An outline is straight where this fraction of it runs within 3 degrees along its smallest rectangle: of a circle 7 %
-// does, of a regular octagon half; no regular outline is at the limit.
+// An outline is straight if this fraction of it runs along its smallest rectangle within 3 degrees: 7 % for a circle,
+// half for a regular octagon; no regular outline is near the limit.
 constexpr double straight_fraction = 0.18;
-// The sine and cosine of just below 3 degrees, at which regular outlines have edges.
+// The sine and cosine of slightly less than 3 degrees, since regular outlines have edges at 3 degrees.
 constexpr double straight_sine = 0.0523;
 constexpr double straight_cosine = 0.998631418;
-// Of a regular octagon, half runs along two of its sides and across.
+// For a regular octagon this fraction is half, along two of its sides and across.
 constexpr double main_fraction = 0.55;
-// Of an outline that is not, how much larger its box may get to be exactly upright.
+// For an outline that is not straight: the allowed relative growth of its box for being exactly upright.
 constexpr double larger_box = 0.1;
 
-/// A third of the area of its triangles in the map, per vertex, the sum scaled to 1.
+/// Per vertex a third of the area of its triangles in the map, scaled to sum 1.
 Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(z.size());
   const auto& triangles = energy.triangles();
@@ -59,9 +59,9 @@ Eigen::VectorXd masses(const ComplexVector& z, const ConformalEnergy& energy) {
   return mass / mass.sum();
 }
 
-/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the region that an outline encloses, moved
-/// and scaled to E[w] = 0 and E[|w|^2] = 1, each over a bound of E[|w|^(p + q)]: a mirror image has the conjugates, a
-/// turn by t multiplies by exp(i (p - q) t).
+/// The moments c(p, q) = E[w^p conj(w)^q] with p > q and 2 <= p + q <= 5 of the region enclosed by an outline, moved
+/// and scaled to E[w] = 0 and E[|w|^2] = 1, each divided by a bound of E[|w|^(p + q)]. A mirror image has the conjugate
+/// moments; a turn by t multiplies by exp(i (p - q) t).
 struct Moment {
   int harmonic = 0;  ///< p - q
   Complex value;
@@ -69,13 +69,14 @@ struct Moment {
 
 constexpr int max_order = 6;
 
-/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline: those over the triangles between
-/// the center, from which w is taken, and the edges. There w is s times a point of the edge, 0 <= s <= 1, so that each
-/// is the mean of w^p conj(w)^q along the edge times cross(start, end) / (p + q + 2). The Gauss rule is exact for it.
+/// The integrals of w^p conj(w)^q, p >= q, over the region to the left of an outline, as sums over the triangles
+/// between the center, the origin of w, and the edges. In a triangle w is s times a point of the edge, 0 <= s <= 1, so
+/// its integral is the mean of w^p conj(w)^q along the edge times cross(start, end) / (p + q + 2). The Gauss rule is
+/// exact for this mean.
 class RegionIntegrals {
  public:
   RegionIntegrals(const std::vector<Complex>& outline, Complex centre) {
-    // Exact to the degree 7.
+    // Exact up to degree 7.
     constexpr std::array<double, 4> nodes{0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
                                           0.9305681557970263};
     constexpr std::array<double, 4> weights{0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
@@ -103,7 +104,7 @@ class RegionIntegrals {
   std::array<std::array<Complex, max_order / 2 + 1>, max_order> sums_{};
 };
 
-/// The area of that region, and its first moment.
+/// The area of that region and its first moment.
 std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) {
   double area = 0;
   Complex moment = 0;
@@ -116,15 +117,15 @@ std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) 
   return {area, moment};
 }
 
-/// Of the region within an outline, counter-clockwise, so that they do not depend on how the inside is triangulated.
-/// None where it runs round as much backwards.
+/// The moments of the region within a counterclockwise outline, so that they do not depend on the inner triangulation.
+/// Empty if the outline encloses as much area clockwise.
 std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   constexpr std::array<std::array<int, 2>, 8> exponents = {
       {{2, 0}, {2, 1}, {3, 0}, {3, 1}, {4, 0}, {3, 2}, {4, 1}, {5, 0}}};
   const auto [area, moment] = area_and_moment(outline);
   if (!(area > 0)) return {};
   const RegionIntegrals integrals(outline, moment / area);
-  // E[|w|^n], for odd n a bound by those beside it.
+  // E[|w|^n]; for odd n a bound from the neighboring even ones.
   std::array<double, max_order + 1> size{};
   for (int n = 2; n <= max_order; n += 2) {
     size[static_cast<std::size_t>(n)] = integrals(n / 2, n / 2).real() / area;
@@ -147,7 +148,7 @@ std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
     if (std::abs(clear.value) < clear_harmonic) continue;
     for (int k = 0; k < clear.harmonic; ++k) {
       const Complex axis = std::polar(1.0, (std::arg(clear.value) + k * pi) / clear.harmonic);
-      // conj(axis)^harmonic; std::pow would take a logarithm for each.
+      // conj(axis)^harmonic; std::pow would compute a logarithm for each.
       std::array<Complex, 6> power{1};
       for (std::size_t n = 1; n < power.size(); ++n) power[n] = power[n - 1] * std::conj(axis);
       const auto is_odd = [&](const Moment& m) {
@@ -161,19 +162,19 @@ std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
   return axes;
 }
 
-/// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that fits `values`
-/// best.
+/// The gradient, u + i v, of the linear function of the map w (moved and scaled as for its moments) that best fits
+/// `values`.
 Complex gradient_of_fit(const ComplexVector& w, const Eigen::VectorXd& mass, const Eigen::VectorXd& values) {
   const Complex along = (w.array() * (mass.array() * values.array())).sum();
   const Complex shape = (w.array().square() * mass.array()).sum();
-  // A map that is a line has no gradient across.
+  // A map that degenerates to a line has no gradient across it.
   const double spread = 1 - std::norm(shape);
   return spread > 1e-12 ? 2.0 * (along - shape * std::conj(along)) / spread : along;
 }
 
 double area_of(const Rectangle& r) { return r.width * r.height; }
 
-/// How much of an outline runs along a direction, asked of as many directions as a round outline has edges.
+/// The length of an outline along a direction, for many queries: a round outline has as many directions as edges.
 class OutlineDirections {
  public:
   /// Of a closed polygon.
@@ -192,12 +193,12 @@ class OutlineDirections {
       lengths_.push_back(lengths_.back() + length);
     }
   }
-  /// Whether enough of it runs along the sides of the rectangle for an eye to see it lean.
+  /// Whether enough of the outline runs along the sides of the rectangle to make a tilt visible.
   bool is_straight(const Rectangle& rectangle) const {
     return length_along(rectangle.direction) >= straight_fraction * lengths_.back();
   }
-  /// Of directions along and across which clearly more of it runs than in all others together, as of a cross or of a
-  /// letter L, that of most; none for most outlines.
+  /// The main direction: more of the outline clearly runs along and across it than in all others together, as for a
+  /// cross or a letter L. The one with the most, if there are several; empty for most outlines.
   std::optional<Complex> main_direction() const {
     double most = 0;
     Complex main = 0;
@@ -213,7 +214,8 @@ class OutlineDirections {
   }
 
  private:
-  /// Of a line modulo a quarter turn, 0 to 1 as its angle: an angle itself would take an arc tangent for each edge.
+  /// Maps a line modulo a quarter turn to 0 to 1, monotonic in its angle; the angle itself would take an arctangent per
+  /// edge.
   static double side(Complex line) {
     double x = line.real();
     double y = line.imag();
@@ -221,12 +223,12 @@ class OutlineDirections {
     if (x <= 0) std::tie(x, y) = std::pair(y, -x);
     return y / (x + y);
   }
-  /// Of the edges that run within 3 degrees of a direction or across.
+  /// The length of the edges within 3 degrees of a direction or across it.
   double length_along(Complex direction) const {
     constexpr Complex turn(straight_cosine, straight_sine);
     const double first = side(direction * std::conj(turn));
     const double last = side(direction * turn);
-    // Those beyond either end of the quarter turn are at the other one.
+    // Edges beyond one end of the quarter turn are at the other end.
     return first <= last ? length_between(first, last) : length_between(first, 1) + length_between(0, last);
   }
   double length_between(double first, double last) const {
@@ -237,10 +239,10 @@ class OutlineDirections {
   }
 
   std::vector<double> sides_;         ///< of the edges, ascending
-  std::vector<double> lengths_{0.0};  ///< of all edges before each, and of all
+  std::vector<double> lengths_{0.0};  ///< prefix sums over the edges
 };
 
-/// Whether clearly more of an outline runs along a direction and across than in all others together.
+/// Whether clearly more of an outline runs along and across a direction than in all others together.
 bool is_main_direction(const std::vector<Complex>& outline, Complex direction) {
   double along = 0;
   double all = 0;
@@ -265,10 +267,10 @@ void keep_nearest(std::vector<Complex>& turns, Complex direction, double toleran
   turns.erase(std::remove_if(turns.begin(), turns.end(), is_farther), turns.end());
 }
 
-/// The directions of the map that are to point up, the first ones before the others.
+/// The directions of the map that should point up, in decreasing priority.
 struct Preferences {
   std::vector<Complex> directions;
-  bool has_height = false;  ///< the first is that in which the third coordinate grows
+  bool has_height = false;  ///< the first is the direction in which the third coordinate grows
 };
 
 Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
@@ -289,12 +291,12 @@ Preferences preferences(const ComplexVector& w, const Eigen::VectorXd& mass,
   const auto add = [&](Complex direction, double limit) {
     if (std::abs(direction) >= limit && std::abs(direction) > least) result.directions.push_back(direction);
   };
-  // x to the right is i x up.
+  // x to the right means i x up.
   add(z, weak * steepest);
   result.has_height = !result.directions.empty();
   add(y, weak * steepest);
   add(up * x, weak * steepest);
-  // Whatever gradient there is tells all four quarter turns apart, by where it goes up and where to the right.
+  // Any gradient distinguishes all four quarter turns, by pointing up or to the right.
   for (const Complex direction : {z, y, up * x, x, up * y, up * z}) add(direction, 0);
   return result;
 }
@@ -314,8 +316,8 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   const std::vector<Moment> moments = moments_of(boundary);
   Preferences preferred = preferences(w, mass, positions);
 
-  // Where most of the outline runs along one direction and across, that is upright: not an axis, as of a cross,
-  // between.
+  // If most of the outline runs along and across one direction, that is upright, not an axis in between, as for a
+  // cross.
   std::vector<Complex> axes = mirror_axes(moments);
   const auto likely = std::find_if(axes.begin(), axes.end(), [&](Complex a) { return is_main_direction(boundary, a); });
   std::optional<OutlineDirections> outline;
@@ -362,13 +364,13 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
     const Complex lying = std::conj(rectangle.direction);
     const bool higher = rectangle.height > rectangle.width * (1 + equal_area);
     const bool wider = rectangle.width > rectangle.height * (1 + equal_area);
-    // Where nothing else tells them apart, higher than wide.
+    // If nothing else distinguishes them, prefer higher than wide.
     const bool may_lie = !stands_on_axis && (!preferred.directions.empty() || !wider);
     const bool may_stand = stands_on_axis || !preferred.directions.empty() || !higher;
     if (may_lie) turns.insert(turns.end(), {lying, -lying});
     if (may_stand) turns.insert(turns.end(), {up * lying, -up * lying});
   }
-  // The broader end is where the third moments point away from.
+  // Third moments point away from the broader end.
   for (const Moment& m : moments) {
     if (m.harmonic == 1 && std::abs(m.value) > clear_harmonic) preferred.directions.push_back(m.value);
   }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// D relative to the shortest edge: a corner of three edges that is not sharper than 15 degrees feels no force.
+/// D relative to the shortest edge: a corner of three edges of 15 degrees or more feels no force.
 constexpr double relative_reach = 0.25;
-/// Small, so that contacts hardly bend the map and do not hold it up before they must: over patches of 17 models, grown
-/// at random, 1 left mean QCs of up to 45 where this leaves 1.003.
+/// Small, so that contacts hardly deform the map and do not stop it early: on patches grown at random on 17 models, 1
+/// left mean QCs of up to 45 where this leaves 1.003.
 constexpr double weight_of_all = 1e-4;
 
 PlaneBox grown(PlaneBox box, double by) {
@@ -28,11 +28,11 @@ PlaneBox grown(PlaneBox box, double by) {
   return box;
 }
 
-/// Of an edge, seen from a point.
+/// The nearest point of an edge, seen from a given point.
 struct Nearest {
   double position;  ///< from 0 to 1
-  Complex away;     ///< from there to the point
-  double square;    ///< of its length
+  Complex away;     ///< from there to the given point
+  double square;    ///< squared distance
 };
 
 Nearest nearest_point(Complex point, Complex from, Complex to) {
@@ -43,9 +43,9 @@ Nearest nearest_point(Complex point, Complex from, Complex to) {
   return {position, away, std::norm(away)};
 }
 
-/// When a point that starts at `point` and moves by `moves` meets a segment that moves, too, within one step.
+/// The time, within one step, at which a moving point (from `point`, by `moves`) meets a moving segment.
 double time_of_contact(Complex point, Complex moves, Complex a, Complex a_moves, Complex b, Complex b_moves) {
-  // Ends count a little beyond, as rounding may put a point that meets them there.
+  // Extend the segment a little, since rounding may put a point that meets its end there.
   constexpr double beyond = 1e-9;
   const Complex side = b - a;
   const Complex side_moves = b_moves - a_moves;
@@ -111,7 +111,7 @@ double BoundaryBarrier::add(const std::vector<Pair>& pairs, const ComplexVector&
     const double excess = pair.reach / distance - 1;
     energy += weight_ * excess * excess;
     if (!(distance > 0)) continue;
-    // The nearest point's motion along the edge changes the distance in the second order only.
+    // Motion of the nearest point along the edge changes the distance only to second order.
     const Complex slope = -2 * weight_ * excess * pair.reach / (nearest.square * distance) * nearest.away;
     gradient[pair.vertex] += slope;
     gradient[pair.from] -= (1 - nearest.position) * slope;

@@ -6,17 +6,17 @@
 
 namespace spectral_conformal {
 
-/// Keeps the boundary of a map from touching itself: a map that is one-to-one stays so as long as no triangle flips and
-/// the boundary does not cross itself (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The
-/// energy is, for every boundary vertex that is nearer than D to a boundary edge which is not one of its own,
-/// w (D / distance - 1)^2 with w = 1e-4 / (number of edges). D is a quarter of the shortest of that edge and the
-/// vertex's own two, as they are in the map that the object is made with.
+/// Keeps the boundary of a map from touching itself: a one-to-one map stays so as long as no triangle flips and the
+/// boundary does not cross itself (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The
+/// energy sums w (D / distance - 1)^2 over every boundary vertex nearer than D to a boundary edge other than its own
+/// two, with w = 1e-4 / (number of edges). D is a quarter of the shortest of that edge and the vertex's own two, as
+/// measured in the initial map.
 class BoundaryBarrier {
  public:
-  /// loops: all of the chart's; z (V,) finite.
+  /// loops: all of the chart's; z: (V,), finite.
   BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
 
-  /// A boundary vertex and a boundary edge that is not one of its own.
+  /// A boundary vertex and a boundary edge other than its own two.
   struct Pair {
     int vertex;
     int from;
@@ -24,18 +24,18 @@ class BoundaryBarrier {
     double reach;  ///< D
   };
 
-  /// The pairs that may be within their reach, or touch, anywhere on the way from z to z + step.
+  /// The pairs that may be within reach, or touch, anywhere on the way from z to z + step.
   std::vector<Pair> pairs_near(const ComplexVector& z, const ComplexVector& step) const;
 
-  /// The energy at z (V,), infinite where the boundary touches itself; its gradient, that of the real (2V,) vector
-  /// u + i v, is added to `gradient`. pairs: at least those near z.
+  /// The energy at z (V,), infinite if the boundary touches itself. Adds its gradient, that of the real (2V,) vector u
+  /// + i v, to `gradient`. pairs: at least those near z.
   double add(const std::vector<Pair>& pairs, const ComplexVector& z, ComplexVector& gradient) const;
 
-  /// Adds, per vertex, an upper bound of the second derivative of the energy at z along any direction of unit length
-  /// in which only this vertex moves, twice as large, so that these bounds together bound the Hessian.
+  /// Adds, per vertex, twice an upper bound of the second derivative of the energy at z along any unit direction in
+  /// which only this vertex moves, so that these bounds together bound the Hessian.
   void add_curvature(const std::vector<Pair>& pairs, const ComplexVector& z, Eigen::VectorXd& curvature) const;
 
-  /// The part of a step from z, at most 1, at which the boundary first touches itself; infinite where it does not.
+  /// The fraction of a step from z, at most 1, at which the boundary first touches itself; infinite if it does not.
   /// pairs: at least those near the whole step.
   static double max_step(const std::vector<Pair>& pairs, const ComplexVector& z, const ComplexVector& step);
 
@@ -43,12 +43,12 @@ class BoundaryBarrier {
   struct BoundaryEdge {
     int from;
     int to;
-    double length;  ///< of the map at first
+    double length;  ///< in the initial map
   };
 
   std::vector<BoundaryEdge> edges_;  ///< each with its `from`
-  std::vector<double> reach_;        ///< per edge, of `from`: a quarter of the shorter of its two edges
-  double weight_ = 0;                ///< of a pair
+  std::vector<double> reach_;        ///< per edge, for `from`: a quarter of the shorter of its two edges
+  double weight_ = 0;                ///< per pair
 };
 
 }  // namespace spectral_conformal

@@ -12,8 +12,8 @@
 namespace spectral_conformal {
 namespace {
 
-/// The quadratic form that stands for the Hessian of the energy, one weight each for |f_z|^2 and |f_zbar|^2 per
-/// triangle.
+/// The quadratic form that approximates the Hessian of the energy: per triangle one weight each for |f_z|^2 and
+/// |f_zbar|^2.
 class QuadraticForm {
  public:
   QuadraticForm(const std::vector<DistortionElement>& elements, const std::vector<char>& fixed,
@@ -42,9 +42,8 @@ class QuadraticForm {
     factorization_->analyze(matrix_);
   }
 
-  /// Returns false when the form is not positive definite in double precision, however far its weights are clamped.
-  /// Counts its attempts.
-  /// curvature: per vertex, of what is not the elements'.
+  /// Returns false if the form is not positive definite in double precision, however far its weights are clamped.
+  /// Counts its attempts. curvature: per vertex, of other energies.
   bool factorize(const ComplexVector& z, const Eigen::VectorXd& curvature, int& attempts) {
     std::vector<DistortionStiffness> weights;
     weights.reserve(elements_.size());
@@ -53,7 +52,7 @@ class QuadraticForm {
       weights.push_back(stiffness(elements_[t], measure_, jacobian(elements_[t], z)));
       largest = std::max(largest, weights.back().antiholomorphic);
     });
-    // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the last.
+    // As for the shift of the conformal energy (shifted_factor.cpp): few attempts, each far above the previous one.
     for (; min_weight_ < 1; min_weight_ *= 100) {
       assemble(weights, curvature, min_weight_ * largest);
       ++attempts;
@@ -101,10 +100,10 @@ class QuadraticForm {
     });
     for (int v = 0; v < static_cast<int>(matrix_.cols()); ++v) {
       value[diagonal[v]] += curvature[v];
-      // Vertices without a triangle stay, too.
+      // Vertices without a triangle are fixed too.
       if (is_fixed(v) || value[diagonal[v]] == 0.0) value[diagonal[v]] = 1;
     }
-    // Holds one vertex, which fixes the constant and changes nothing else: gradients have no constant part.
+    // Hold one vertex. That only fixes the constant, since gradients have no constant part.
     if (fixed_.empty()) value[diagonal[elements_.front().corners[0]]] *= 2;
   }
 
@@ -113,14 +112,14 @@ class QuadraticForm {
   DistortionMeasure measure_;
   std::unique_ptr<Factorization> factorization_;
   HermitianMatrix matrix_;
-  std::vector<std::array<int, 3>> edge_entries_;  ///< of the edges opposite to the corners
-  /// Weights are clamped to this fraction of the largest one from below. Over a wider range rounding leaves nothing of
-  /// the small ones and breaks the factorization; clamping keeps the form a majorizer and only slows down what has the
-  /// least to gain. Raised a hundredfold, for good, where the factorization still fails.
+  std::vector<std::array<int, 3>> edge_entries_;  ///< per triangle, of the edges opposite to its corners
+  /// Weights are clamped from below to this fraction of the largest. In a wider range rounding would swallow the small
+  /// ones and break the factorization. Clamping keeps the form a majorizer and only slows down the triangles with the
+  /// least to gain. Raised a hundredfold, permanently, if the factorization still fails.
   double min_weight_ = 1e-12;
 };
 
-/// The descent on given elements, which regains the barriers of triangles that gain image area.
+/// The descent on given elements; triangles that gain image area regain their barriers.
 class Relaxation {
  public:
   Relaxation(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
@@ -132,8 +131,8 @@ class Relaxation {
         form_(elements, fixed, options.measure, z.size(), backend) {}
 
   Descent run(const Progress& progress) {
-    // Each round presses harder on triangles that the last one left flipped: the barrier's limit is approached from
-    // regularizations of their own size. The first suffices on ordinary meshes (12 of 12, relaxed to equal areas).
+    // Each round pushes harder on the triangles that the previous one left flipped, as their regularization decreases
+    // from their own size toward a barrier. The first suffices on ordinary meshes (12 of 12, relaxed to equal areas).
     constexpr double fractions[] = {1, 0.5, 0.1};
     for (const double fraction : fractions) {
       const bool first = fraction == fractions[0];
@@ -149,21 +148,21 @@ class Relaxation {
   }
 
  private:
-  /// A relative fall that says that the form is out of date, and a step that barriers have cut to nearly nothing: a
-  /// new factor costs less than the steps that it saves. Half or one and a half of the first and a tenth or ten times
-  /// the second ended at a mean QC that differs by 3 % at most, on 12 meshes relaxed to equal areas.
+  /// A relative decrease so large that the form is outdated, and a step cut to nearly nothing by barriers: a new factor
+  /// costs less than the steps that it saves. With 0.5 or 1.5 times the first, or 0.1 or 10 times the second, the mean
+  /// QC differed by at most 3 % on 12 meshes relaxed to equal areas.
   static constexpr double quick_fall = 0.6;
   static constexpr double short_step = 0.003;
-  /// Leaves each triangle a tenth of its way to a flip, and the boundary to a contact.
+  /// Leaves each triangle a tenth of its way to a flip, and the boundary a tenth of its way to a contact.
   static constexpr double fraction_of_max_step = 0.9;
 
   struct Step {
-    double length = 0;  ///< relative to the full one; 0 when none lowers the energy
+    double length = 0;  ///< relative to the full step; 0 if no step lowers the energy
     double relative_fall = 0;
-    double promised_fall = 0;  ///< relative: of the quadratic model over the full step
+    double promised_fall = 0;  ///< relative decrease of the quadratic model over the full step
   };
 
-  /// What a rejected round must leave as it was.
+  /// The state that a rejected round must restore.
   struct State {
     ComplexVector z;
     std::vector<double> regularization;
@@ -181,7 +180,7 @@ class Relaxation {
 
   void restore(const State& state) {
     z_ = state.z;
-    // A barrier that the rejected round raised would be infinite on a triangle that is flipped again.
+    // A barrier raised by the rejected round would be infinite on a triangle that is flipped again.
     for (std::size_t t = 0; t < elements_.size(); ++t) elements_[t].regularization = state.regularization[t];
     regularized_ = state.regularized;
     energy_ = state.energy;
@@ -189,7 +188,7 @@ class Relaxation {
   }
 
   DescentStatus minimize(const Progress& progress) {
-    constexpr int steps_per_factor = 10;  // together they take about as long as one factorization
+    constexpr int steps_per_factor = 10;  // together as expensive as about one factorization
     while (result_.factorizations < options_.max_factorizations) {
       const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
@@ -204,28 +203,28 @@ class Relaxation {
           const bool is_minimum = step.length >= short_step || step.promised_fall < options_.tolerance;
           return is_minimum ? DescentStatus::converged : DescentStatus::stalled;
         }
-        // A new factor takes larger steps where the energy changes quickly or barriers cut the steps short.
+        // A new factor allows larger steps if the energy changes quickly or barriers cut the steps short.
         if (small || step.relative_fall > quick_fall || step.length < short_step) break;
       }
     }
     return DescentStatus::factorization_limit;
   }
 
-  /// Of the boundary's barrier.
+  /// The curvature of the boundary barrier.
   Eigen::VectorXd curvature() const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(z_.size());
     if (options_.boundary != nullptr) options_.boundary->add_curvature(pairs_, z_, result);
     return result;
   }
 
-  /// The part of the step up to which the boundary does not touch itself, with some room.
+  /// The fraction of the step up to which the boundary does not touch itself, with a margin.
   double free_part(const ComplexVector& step) {
     if (options_.boundary == nullptr) return 1;
     pairs_ = options_.boundary->pairs_near(z_, step);
     return std::min(1.0, fraction_of_max_step * BoundaryBarrier::max_step(pairs_, z_, step));
   }
 
-  /// The boundary's barrier counts as far as pairs_ knows.
+  /// The boundary barrier includes the pairs in pairs_.
   double evaluate(const ComplexVector& z, ComplexVector& gradient) const {
     double energy = energy_and_gradient(elements_, options_.measure, z, gradient);
     if (options_.boundary != nullptr) energy += options_.boundary->add(pairs_, z, gradient);
@@ -235,16 +234,16 @@ class Relaxation {
     return energy;
   }
 
-  /// The energy above its infimum, that of an isometry or a similarity.
+  /// The energy above its infimum, attained by an isometry or a similarity.
   double excess(double energy) const {
     const double infimum = options_.measure == DistortionMeasure::conformal ? 2 : 4;
-    // The constant, an invisible distortion of 1e-4, ends the descent on developable charts, which have no excess.
+    // The constant, an invisible distortion of 1e-4, stops the descent on developable charts, which have no excess.
     return std::abs(energy - infimum) + 1e-4;
   }
 
   Step descend() {
     constexpr double sufficient = 1e-4;  // Armijo's condition, as in Nocedal and Wright (2006), Section 3.1
-    constexpr int max_halvings = 20;     // a step of 1e-6 of the full one changes nothing that is visible
+    constexpr int max_halvings = 20;     // a step of 1e-6 of the full one has no visible effect
     const auto inverse = [this](const ComplexVector& b, ComplexVector& x) { form_.solve(b, x); };
     const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
     const double slope = real_dot(gradient_, direction);
@@ -270,14 +269,15 @@ class Relaxation {
     return step;
   }
 
-  /// Regularizes the triangles without image area, in proportion to their size: as little as their surroundings bear.
+  /// Regularizes the triangles without image area, in proportion to their size: as little as their surroundings allow.
   void regularize(double fraction) {
-    constexpr double min_regularization = 1e-2;  // of collapsed ones, relative to the mean scale, which is about 1
+    constexpr double min_regularization =
+        1e-2;  // for collapsed triangles, relative to the mean scale, which is about 1
     regularized_ = 0;
     for_each_heard(elements_.size(), [&](std::size_t t) {
       DistortionElement& element = elements_[t];
       const MapJacobian j = jacobian(element, z_);
-      // Once a barrier stands, it is kept.
+      // An existing barrier is kept.
       const bool holds = options_.keep_all_barriers ? j.determinant > 0 : j.has_area();
       if (!element.without_area() && (started_ || !element.barrier() || holds)) return;
       element.regularization = fraction * std::max(j.half_square, min_regularization);
@@ -290,7 +290,7 @@ class Relaxation {
 
   /// Triangles that have gained image area keep it from now on.
   void raise_barriers() {
-    // Well above MapJacobian::min_determinant, so that the new barrier does not rule the next steps. A third of it
+    // Well above MapJacobian::min_determinant, so that the new barrier does not dominate the next steps. A third of it
     // changed the mean QC of 12 meshes by 1e-4.
     constexpr double enough = 0.03;
     if (regularized_ == 0) return;
@@ -314,11 +314,11 @@ class Relaxation {
   DescentOptions options_;
   QuadraticForm form_;
   Lbfgs lbfgs_;
-  std::vector<BoundaryBarrier::Pair> pairs_;  ///< the whole of the last step
+  std::vector<BoundaryBarrier::Pair> pairs_;  ///< for the whole last step
   double energy_ = 0;
   ComplexVector gradient_;
   int regularized_ = 0;   ///< elements
-  bool started_ = false;  ///< barriers stand
+  bool started_ = false;  ///< whether barriers were set
   Descent result_;
 };
 

@@ -11,10 +11,10 @@ namespace spectral_conformal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of an isometry.
+/// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 for an isometry.
 constexpr double isometry = 4;
 
-/// The determinant as DistortionElement::regularization changes it, and the derivative of that.
+/// The determinant regularized by DistortionElement::regularization, and its derivative.
 struct RegularizedDeterminant {
   double value;
   double slope;
@@ -31,7 +31,7 @@ struct RegularizedDeterminant {
   }
 };
 
-/// A distortion and its derivatives by half_square and the determinant.
+/// A distortion and its derivatives with respect to half_square and the determinant.
 struct Density {
   double value;
   double by_square;
@@ -61,7 +61,7 @@ MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
   j.holomorphic = element.shape.holomorphic_part(d1, d2) / (2 * double_area);
   j.antiholomorphic = element.shape.antiholomorphic_part(d1, d2) / (2 * double_area);
   j.half_square = std::norm(j.holomorphic) + std::norm(j.antiholomorphic);
-  // From the edges, not as a difference of squares: the sign is then that of the image's area.
+  // From the edges, not as a difference of squares, so that its sign is that of the image area.
   j.determinant = cross(d1, d2) / double_area;
   return j;
 }
@@ -74,8 +74,8 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
       const double both = 4 / determinant * (1 + j.half_square / determinant);
       return {both, both};
     }
-    // The second derivatives of 2 (a^2 + b^2) / (a^2 - b^2) by a = |f_z| and b = |f_zbar|. The first one vanishes for
-    // similarities; a fraction of the second, too small to slow the others down, keeps the form definite.
+    // The second derivatives of 2 (a^2 + b^2) / (a^2 - b^2) with respect to a = |f_z| and b = |f_zbar|. The first
+    // vanishes for similarities; a fraction of the second, too small to slow the others down, keeps the form definite.
     constexpr double min_fraction = 1e-3;
     const double a = std::norm(j.holomorphic);
     const double b = std::norm(j.antiholomorphic);
@@ -84,12 +84,12 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
     return {8 * b * (3 * a + b) / cube + min_fraction * antiholomorphic, antiholomorphic};
   }
   const double larger = std::abs(j.holomorphic) + std::abs(j.antiholomorphic);
-  // SLIM's weight (Rabinovich et al. 2017, Table 1): the slope of s^2 + 1 / s^2 over s - 1, halved. Of the two singular
-  // values the smaller one has the larger weight, which majorizes.
+  // SLIM's weight (Rabinovich et al. 2017, Table 1): the slope of s^2 + 1 / s^2 over s - 1, halved. The smaller
+  // singular value has the larger weight, which majorizes.
   const double inverse = larger / determinant;
   const double local_global = 1 + inverse * (1 + inverse * (1 + inverse));
-  // It aims at s = 1 in one step, which would compress the neighbors of triangles that are very small in the map until
-  // their barriers cut it short. With this weight such a triangle grows to about 1 + 1 / 0.1 times its size at once.
+  // It aims at s = 1 in one step, which would compress the neighbors of very small image triangles until their barriers
+  // cut the step short. With this weight such a triangle grows to about 1 + 1 / 0.1 times its size in one step.
   const double growth = 0.1 * (inverse * inverse) * (inverse * inverse);
   const double both = isometry * std::max(local_global, growth);
   return {both, both};
@@ -152,9 +152,9 @@ DistortionElements::DistortionElements(const std::vector<std::array<int, 3>>& tr
 }
 
 DistortionElement DistortionElements::operator[](std::size_t t) const {
-  // Enough to keep holes from turning inside out, too little for them to take part in the shape of the map.
+  // Enough to keep holes from turning inside out, too little to affect the shape of the map.
   constexpr double virtual_weight = 1e-2;
-  // Relative to the whole: of triangles with sides below 1e-9 of its extent rounding hardly leaves a shape in the map.
+  // Relative to the whole: rounding leaves hardly any shape of triangles with sides below 1e-9 of the extent.
   constexpr double min_area = 1e-18;
   const TriangleShape& shape = shapes_[t];
   const bool is_virtual = t + n_virtual_ >= size();

@@ -11,13 +11,13 @@
 
 namespace spectral_conformal {
 
-/// The distortion of a triangle by the singular values s1 and s2 of its Jacobian. Both grow without bound as a triangle
-/// loses its image area.
+/// The distortion of a triangle as a function of the singular values s1 and s2 of its Jacobian. Both measures are
+/// unbounded as a triangle loses its image area.
 enum class DistortionMeasure {
   /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2: 4 for an isometry (Smith and Schaefer, Bijective Parameterization with Free
   /// Boundaries, 2015).
   symmetric_dirichlet,
-  /// s1 / s2 + s2 / s1: 2 where angles are kept, at any scale (Hormann and Greiner, MIPS: An Efficient Global
+  /// s1 / s2 + s2 / s1: 2 for a conformal map, at any scale (Hormann and Greiner, MIPS: An Efficient Global
   /// Parametrization Method, 2000).
   conformal
 };
@@ -27,11 +27,11 @@ struct DistortionElement {
   std::array<int, 3> corners{};
   TriangleShape shape;
   double weight = 0;
-  bool measured = true;  ///< whether its distortion and its flips count; not for virtual and degenerate triangles
-  /// The determinant regularization e. 0: a barrier, the determinant stays positive. Otherwise it is replaced by
-  /// (det + sqrt(det^2 + e^2)) / 2, which is positive everywhere (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and
-  /// Sokolov, Foldover-Free Maps in 50 Lines of Code, 2021). Infinite: only s1^2 + s2^2 counts, whatever the measure,
-  /// so that degenerate triangles keep their vertices together.
+  bool measured = true;  ///< whether its distortion and flips count; false for virtual and degenerate triangles
+  /// The determinant regularization e. 0: a barrier keeps the determinant positive. Otherwise the determinant is
+  /// replaced by (det + sqrt(det^2 + e^2)) / 2, which is positive everywhere (Garanzha, Kaporin, Kudryavtseva, Protais,
+  /// Ray and Sokolov, Foldover-Free Maps in 50 Lines of Code, 2021). Infinite: only s1^2 + s2^2 counts, whatever the
+  /// measure, so that degenerate triangles keep their vertices together.
   double regularization = 0;
 
   bool barrier() const { return regularization == 0; }
@@ -41,8 +41,8 @@ struct DistortionElement {
 /// f_z and f_zbar of a triangle's image, half the squared norm |f_z|^2 + |f_zbar|^2 and the determinant
 /// |f_z|^2 - |f_zbar|^2.
 struct MapJacobian {
-  /// An image whose determinant is below this fraction of half_square (QC above about 2000), or whose scale is below
-  /// 1e-10 of the unit, counts as without area: its barrier would dominate the energy of all other triangles.
+  /// An image with a determinant below this fraction of half_square (QC above about 2000), or a scale below 1e-10 of
+  /// the unit, counts as having no area: its barrier would dominate the energy of all other triangles.
   static constexpr double min_determinant = 1e-3;
   static constexpr double min_squared_scale = 1e-20;
 
@@ -53,9 +53,9 @@ struct MapJacobian {
   bool has_area() const { return determinant > min_determinant * half_square && determinant > min_squared_scale; }
 };
 
-/// The elements of a patch, made one by one, weighted by triangle weight times area as a part of the whole. Degenerate
-/// triangles get an infinite regularization; the last `n_virtual` triangles (see hole_filling.h) a hundredth of their
-/// weight. shapes and triangle_weights per triangle; all must outlive this.
+/// The elements of a patch, made one by one, weighted by triangle weight times area as a fraction of the whole.
+/// Degenerate triangles get an infinite regularization; the last `n_virtual` triangles (see hole_filling.h) a hundredth
+/// of their weight. shapes and triangle_weights: per triangle; all must outlive this object.
 class DistortionElements {
  public:
   DistortionElements(const std::vector<std::array<int, 3>>& triangles, const std::vector<TriangleShape>& shapes,
@@ -85,29 +85,29 @@ struct DistortionStiffness {
   double antiholomorphic;
 };
 
-/// A form that stands for the Hessian of the triangle's distortion: positive definite.
+/// A positive definite form that approximates the Hessian of the triangle's distortion.
 DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j);
 
-/// The weighted sum of the elements' distortions, infinite where a barrier is crossed. The gradient is that of the real
-/// (2V,) vector, u + i v. z (V,).
+/// The weighted sum of the elements' distortions, infinite if a barrier is crossed. The gradient is that of the real
+/// (2V,) vector, u + i v. z: (V,).
 double energy_and_gradient(const std::vector<DistortionElement>& elements, DistortionMeasure measure,
                            const ComplexVector& z, ComplexVector& gradient);
 
-/// The step along `direction` at which the first triangle with image area, however little, loses it; infinite where
-/// none does.
+/// The step along `direction` at which the first triangle with image area, however little, loses it; infinite if none
+/// does.
 double max_step(const std::vector<DistortionElement>& elements, const ComplexVector& z, const ComplexVector& direction);
 
-/// The factor that gives the measured elements the mean log scale 0, or 0 when none has image area.
+/// The factor that gives the measured elements the mean log scale 0; 0 if none has image area.
 double mean_scale_factor(const std::vector<DistortionElement>& elements, const ComplexVector& z);
 
-/// For maps that are yet to be placed: turned and scaled, which rounds their coordinates. Sines of this size, a
-/// thousand times rounding, survive that.
+/// For maps not yet placed: turning and scaling will round their coordinates. Sines of this size, a thousand times
+/// rounding, survive that.
 constexpr FlipTolerance unplaced{1e-13, 0};
 
 /// Whether an element is measured and flipped or collapsed.
 bool is_flipped(const DistortionElement& element, const ComplexVector& z, const FlipTolerance& tolerance = {});
 
-/// How many are.
+/// The number of such elements.
 int count_flipped(const std::vector<DistortionElement>& elements, const ComplexVector& z,
                   const FlipTolerance& tolerance = {});
 

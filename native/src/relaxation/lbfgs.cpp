@@ -16,7 +16,7 @@ double real_dot(const ComplexVector& a, const ComplexVector& b) {
 
 void Lbfgs::add(ComplexVector step, ComplexVector gradient_change) {
   const double curvature = real_dot(step, gradient_change);
-  // Rounding decides on a smaller one.
+  // A smaller one is decided by rounding.
   constexpr double min_cosine = 1e-12;
   if (!(curvature > min_cosine * step.norm() * gradient_change.norm())) return;
   if (pairs_.size() == capacity) pairs_.pop_front();

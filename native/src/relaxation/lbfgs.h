@@ -12,14 +12,14 @@ namespace spectral_conformal {
 double real_dot(const ComplexVector& a, const ComplexVector& b);
 
 /// Descent directions by limited-memory BFGS (Liu and Nocedal 1989): the two-loop recursion (Nocedal and Wright,
-/// Numerical Optimization, 2006, Algorithm 7.4) about the inverse of a quadratic form that stands for the Hessian.
+/// Numerical Optimization, 2006, Algorithm 7.4) with the inverse of a quadratic form that approximates the Hessian.
 class Lbfgs {
  public:
-  /// From b, the form's inverse times b.
+  /// x = (inverse of the form) b.
   using Inverse = std::function<void(const ComplexVector& b, ComplexVector& x)>;
 
   void clear() { pairs_.clear(); }
-  /// Takes a step and the change of the gradient along it, unless their curvature is not positive: that would make the
+  /// Adds a step and the change of the gradient along it, unless their curvature is not positive, which would make the
   /// Hessian indefinite.
   void add(ComplexVector step, ComplexVector gradient_change);
   /// The direction, (V,) like the gradient.

@@ -15,7 +15,7 @@ namespace spectral_conformal {
 namespace {
 
 constexpr double triangle_nanoseconds = 40;
-/// More parts would have more vertices in common, and hardly more threads.
+/// More parts would share more vertices and hardly employ more threads.
 constexpr std::size_t max_parts = 32;
 
 /// f_z, f_zbar and the determinant |f_z|^2 - |f_zbar|^2 of a triangle's image.
@@ -23,15 +23,15 @@ struct Image {
   Complex holomorphic;
   Complex antiholomorphic;
   double determinant;
-  /// shape: over four times its area.
+  /// shape: scaled by 1 / (four times its area).
   Image(const TriangleShape& shape, Complex d1, Complex d2)
       : holomorphic(shape.holomorphic_part(d1, d2)),
         antiholomorphic(shape.antiholomorphic_part(d1, d2)),
-        // From the edges, not as a difference of squares: the sign is then that of the image's area.
+        // From the edges, not as a difference of squares, so that its sign is that of the image area.
         determinant(cross(d1, d2) * (4 * shape.x1 * shape.y2)) {}
 };
 
-/// The numbers that all sums over triangles are made of.
+/// The numbers per triangle that enter the sums.
 struct Distorted {
   double c;     ///< (s1 / s2 + s2 / s1) / 2
   double root;  ///< sqrt(c^2 - 1 + smoothing^2), without cancellation near similarities
@@ -173,7 +173,7 @@ double MeanDistortion::curvature(const ComplexVector& z, const ComplexVector& di
       j.determinant = image.determinant;
       const DistortionStiffness conformal = stiffness({}, DistortionMeasure::conformal, j);
       const Distorted distorted(image, 1 / image.determinant, squared_smoothing_);
-      // By the slope of the distortion over the conformal one, 2 c.
+      // Scale by the slope of this distortion over the conformal one, 2 c.
       const double slope = 0.5 * (1 + distorted.c / distorted.root);
       part.sum += triangle.weight * slope *
                   (conformal.holomorphic * std::norm(change.holomorphic) +

@@ -10,37 +10,38 @@
 
 namespace spectral_conformal {
 
-/// The mean of the quasi-conformal distortion QC = s1 / s2 of a patch's triangles, by area in 3D; s1 >= s2 are the
-/// singular values of a triangle's Jacobian. With c = (s1 / s2 + s2 / s1) / 2 it is c + sqrt(c^2 - 1), which has a kink
-/// at similarities; smoothed, c + sqrt(c^2 - 1 + smoothing^2). Filled holes count a hundredth of their area. Triangles
-/// that are flipped or slivers in the first map, or have no area in 3D, do not count.
+/// The mean quasi-conformal distortion QC = s1 / s2 of a patch's triangles, weighted by area in 3D, where s1 >= s2 are
+/// the singular values of a triangle's Jacobian. With c = (s1 / s2 + s2 / s1) / 2, QC = c + sqrt(c^2 - 1), which has a
+/// kink at similarities; it is smoothed to c + sqrt(c^2 - 1 + smoothing^2). Filled holes count a hundredth of their
+/// area. Triangles that are flipped or slivers in the first map, or have no area in 3D, do not count.
 ///
-/// Large patches are gone through in parts, in several threads at once; what comes out does not depend on how many.
+/// Large patches are processed in parts, in several threads; results do not depend on the number of threads.
 class MeanDistortion {
  public:
-  /// z (V,) finite, virtual vertices included: the first map. relative_smoothing: over the mean of sqrt(c^2 - 1) in it.
+  /// z: (V,), finite, including virtual vertices: the first map. relative_smoothing: relative to the mean of sqrt(c^2 -
+  /// 1) in it.
   MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing);
 
-  /// The mean of sqrt(c^2 - 1), half of s1 / s2 - s2 / s1, in the first map; 0 where no triangle counts.
+  /// The mean of sqrt(c^2 - 1), half of s1 / s2 - s2 / s1, in the first map; 0 if no triangle counts.
   double anisotropy() const { return anisotropy_; }
 
-  /// Infinite where a triangle that counts has no image area or is flipped; the gradient is then of no use. Otherwise
-  /// it is that of the real (2V,) vector, u + i v.
+  /// Infinite if a counted triangle has no image area or is flipped; the gradient is then meaningless. Otherwise it is
+  /// that of the real (2V,) vector, u + i v.
   double value_and_gradient(const ComplexVector& z, ComplexVector& gradient);
-  /// A second derivative along `direction` that is not negative: see DistortionMeasure::conformal, whose stiffness is
-  /// taken times the slope of this distortion over that one.
+  /// A nonnegative second derivative along `direction`: the stiffness of DistortionMeasure::conformal times the slope
+  /// of this distortion over that one.
   double curvature(const ComplexVector& z, const ComplexVector& direction);
-  /// The step along `direction`, `limit` at most, at which the first triangle with image area loses it, whether it
-  /// counts or not.
+  /// The step along `direction`, at most `limit`, at which the first triangle with image area, counted or not, loses
+  /// it.
   double max_step(const ComplexVector& z, const ComplexVector& direction, double limit);
 
  private:
   struct Triangle {
     std::array<int, 3> corners;  ///< of the part
-    double weight;               ///< 0 where it does not count
-    TriangleShape shape;         ///< over four times its area: its parts of a map are then f_z and f_zbar
+    double weight;               ///< 0 if it does not count
+    TriangleShape shape;         ///< scaled by 1 / (four times its area), so that its parts of a map are f_z and f_zbar
   };
-  /// Neighboring triangles with their own vertices, so that threads neither share what they write nor wait.
+  /// Neighboring triangles with their own vertices, so that threads share no output and never wait.
   struct Part {
     std::vector<int> vertices;
     LargeVector<Triangle> triangles;

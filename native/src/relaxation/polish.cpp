@@ -14,12 +14,12 @@ int polish(const ConformalEnergy& energy, Factorization& factor, ComplexVector& 
   constexpr double fraction_of_max_step = 0.9;  // leaves each triangle a tenth of its way to a flip
   constexpr double sufficient = 1e-4;           // Armijo's condition
   constexpr int max_halvings = 10;
-  // Relative to the mean anisotropy. On the 92 islands of tests/benchmarks/models.py it took 16 % of mean QC - 1 and
-  // added 31 % to max QC - 1; 0.3 took 18 % and added 37 %, 2 took 14 % and added 25 %.
+  // Relative to the mean anisotropy. On the 92 islands of tests/benchmarks/models.py, 1 lowered mean QC - 1 by 16 % and
+  // raised max QC - 1 by 31 %; 0.3 gave 18 % and 37 %, 2 gave 14 % and 25 %.
   constexpr double relative_smoothing = 1;
-  // Until the curvature along the first steps is known, a small fall says little.
+  // Until the curvature along the first steps is known, a small decrease says little.
   constexpr int min_steps = 3;
-  // Below this distortion nothing can be seen or gained.
+  // Below this distortion nothing visible can be gained.
   constexpr double negligible = 1e-6;
 
   MeanDistortion distortion(energy, z, relative_smoothing);
@@ -28,10 +28,10 @@ int polish(const ConformalEnergy& energy, Factorization& factor, ComplexVector& 
   ComplexVector gradient;
   double value = distortion.value_and_gradient(z, gradient);
   if (!std::isfinite(value)) return 0;
-  double scale = 0;  // of the inverse, chosen by the first step
+  double scale = 0;  // of the inverse, chosen in the first step
   const auto inverse = [&](const ComplexVector& b, ComplexVector& x) {
     factor.solve(b, x);
-    x.array() -= x.mean();  // the shifted energy hardly holds the constant
+    x.array() -= x.mean();  // the shifted energy hardly controls the constant
     if (scale > 0) x *= scale;
   };
   Lbfgs lbfgs;
