@@ -19,7 +19,7 @@ namespace spectral_conformal {
 /// metric (section 4.3) it is the quasi-conformal energy: cotangents of the stretched triangles, the same area form.
 class ConformalEnergy {
  public:
-  /// positions (V, 3) near unit scale; triangles counter-clockwise; triangle_weights per triangle. The last `n_virtual`
+  /// positions (V, 3) near unit scale; triangles counterclockwise; triangle_weights per triangle. The last `n_virtual`
   /// triangles (filled holes) enter the energy but no measure of the surface. Nearly degenerate triangles are clamped
   /// as by local_isometric_frame and counted in clamped_triangles().
   ConformalEnergy(const Eigen::Ref<const Positions>& positions, SharedVector<std::array<int, 3>> triangles,

@@ -177,7 +177,7 @@ class EarClipping {
   std::vector<std::array<int, 3>> triangles_;
 };
 
-/// Whether all of `other` lies beyond one side of a counter-clockwise triangle.
+/// Whether all of `other` lies beyond one side of a counterclockwise triangle.
 bool is_beyond_a_side(const std::array<Complex, 3>& triangle, const std::array<Complex, 3>& other, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Complex side = triangle[(k + 1) % 3] - triangle[k];

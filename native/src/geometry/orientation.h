@@ -10,7 +10,7 @@ namespace spectral_conformal {
 /// SolveFailure for coordinates that are not finite.
 int exact_orientation(Complex a, Complex b, Complex c);
 
-/// The orientation of the triangle a b c: 1 counter-clockwise, -1 clockwise, 0 where the points lie on one line. Exact,
+/// The orientation of the triangle a b c: 1 counterclockwise, -1 clockwise, 0 where the points lie on one line. Exact,
 /// regardless of rounding. Throws SolveFailure for coordinates that are not finite.
 inline int orientation(Complex a, Complex b, Complex c) {
   // Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997), bound A:

@@ -7,7 +7,7 @@
 
 namespace spectral_conformal {
 
-/// A triangle in its local isometric frame: corners 0, x1 > 0 and x2 + i y2 with y2 > 0, counter-clockwise.
+/// A triangle in its local isometric frame: corners 0, x1 > 0 and x2 + i y2 with y2 > 0, counterclockwise.
 struct TriangleShape {
   double x1 = 1;
   double x2 = 0;

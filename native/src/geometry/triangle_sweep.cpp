@@ -27,7 +27,7 @@ SweptTriangle swept(std::array<Complex, 3> corners) {
   return {corners[0], corners[1], corners[2], orientation(corners[0], corners[2], corners[1]) > 0};
 }
 
-/// Whether the interiors of two counter-clockwise triangles meet: no side of either separates them.
+/// Whether the interiors of two counterclockwise triangles meet: no side of either separates them.
 bool interiors_meet(const std::array<Complex, 3>& a, const std::array<Complex, 3>& b) {
   const auto has_side_between = [](const std::array<Complex, 3>& triangle, const std::array<Complex, 3>& other) {
     for (std::size_t k = 0; k < 3; ++k) {

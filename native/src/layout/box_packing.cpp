@@ -37,7 +37,7 @@ double pack_into(double width, const Order& order, std::vector<PackedBox>& boxes
   return side;
 }
 
-/// The best packing so far, with its order and width.
+/// The best packing so far, with its order.
 class PackingSearch {
  public:
   explicit PackingSearch(const std::vector<PackedBox>& boxes) : best_(boxes), tried_(boxes) {

@@ -13,7 +13,7 @@ namespace spectral_conformal {
 struct Chart {
   std::vector<int> faces;                         ///< in the mesh, ascending
   std::vector<int> vertices;                      ///< the mesh vertex of each chart vertex, ascending
-  SharedVector<std::array<int, 3>> triangles;     ///< chart vertices, counter-clockwise
+  SharedVector<std::array<int, 3>> triangles;     ///< chart vertices, counterclockwise
   SharedVector<TriangleWeight> triangle_weights;  ///< per triangle: 1, or 1/2 for four in a row, see quad_splits
   std::vector<int> triangle_face;                 ///< per triangle: index into `faces`
   std::vector<BoundaryLoop> boundary_loops;       ///< chart vertices; unordered

@@ -19,7 +19,7 @@ struct NormalizedPatch {
   double scale = 1;     ///< input units per unit of `positions`
   BoundaryLoop outer;   ///< the longest loop in 3D
   std::vector<BoundaryLoop> inner;
-  SharedVector<std::array<int, 3>> triangles;     ///< counter-clockwise; the chart's, then those in filled holes
+  SharedVector<std::array<int, 3>> triangles;     ///< counterclockwise; the chart's, then those in filled holes
   SharedVector<TriangleWeight> triangle_weights;  ///< per triangle, see Chart
   std::size_t n_virtual = 0;                      ///< triangles in filled holes
 

@@ -13,7 +13,7 @@ namespace spectral_conformal {
 // triangles over it. N+ - N- is the degree of the map at p. It equals the sum of the winding numbers of the boundary
 // loops about p, because the interior edges cancel (Lipman 2014, "Bijective mappings of meshes with boundary and the
 // degree in mesh processing", SIAM J. Imaging Sci. 7). A simple polygon has winding number 0 outside and, inside, 1 if
-// it runs counter-clockwise and -1 if it runs clockwise. Hence:
+// it runs counterclockwise and -1 if it runs clockwise. Hence:
 //  - If the boundary loops are simple polygons and exactly one of them runs counterclockwise, N+ - N- <= 1. More than
 //    one triangle lies over p only if a clockwise one does: every overlap involves a clockwise triangle.
 //  - If, moreover, no triangle is clockwise, N+ <= 1: nothing overlaps, and the map is injective.

@@ -32,7 +32,7 @@ PlaneBox grown(PlaneBox box, double by) {
 struct Nearest {
   double position;  ///< from 0 to 1
   Complex away;     ///< from there to the given point
-  double square;    ///< squared distance
+  double square;    ///< squared length of the edge
 };
 
 Nearest nearest_point(Complex point, Complex from, Complex to) {
