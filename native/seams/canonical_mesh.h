@@ -7,11 +7,10 @@
 
 namespace spectral_conformal {
 
-/// The selected faces of a mesh, and the vertices that they use, in an order that their shape alone decides, so that
-/// what is computed from them does not depend on how the caller's arrays number them. Vertices are in the order of
-/// their coordinates (x, then y, then z), those at one position in the order of the faces around them, refined until
-/// nothing tells them apart any more (color refinement; Weisfeiler and Leman 1968). Faces begin with their first
-/// vertex, keep their winding, and are in the order of their vertices.
+/// The selected faces of a mesh and their vertices, in an order determined by shape alone, so that results do not
+/// depend on the numbering in the caller's arrays. Vertices are sorted by coordinates (x, then y, then z); coincident
+/// ones by the faces around them, refined as far as these distinguish them (color refinement; Weisfeiler and Leman
+/// 1968). Faces start at their first vertex, keep their winding and are sorted by their vertices.
 class CanonicalMesh {
  public:
   /// Coordinates that are not finite come last. Throws InvalidMesh as validate does.

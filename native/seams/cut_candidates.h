@@ -11,9 +11,8 @@
 
 namespace spectral_conformal {
 
-/// Cuts that may lower the distortion of the maps of a piece's charts, or part what overlaps in them; whether they do
-/// is for a solve to tell. Cuts come with their mirror images where the piece has any (see PieceSeams), and may be
-/// empty.
+/// Cuts that may lower the distortion of the maps of a piece's charts, or separate their overlaps; a solve tells
+/// whether they do. Cuts include their mirror images if the piece has any (see PieceSeams), and may be empty.
 class CutCandidates {
  public:
   struct Region : DistortedRegion {

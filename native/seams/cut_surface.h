@@ -9,14 +9,14 @@
 
 namespace spectral_conformal {
 
-/// How many independent closed curves of a chart do not separate it, twice the genus: 0 exactly for a sphere, and for a
-/// disk with or without holes. Of a non-orientable chart it is an upper bound, above 0.
+/// The number of independent closed curves that do not separate a chart, twice the genus: 0 exactly for a sphere, and
+/// for a disk with or without holes. For a non-orientable chart it is an upper bound, above 0.
 int handle_curves(const Chart& chart);
 
-/// A connected polygonal surface that is cut open edge by edge. Each cut updates the Euler characteristic and the
-/// number of boundary loops by walks around the cut's vertices and along the boundary that it joins; a search across
-/// the cut tells whether the surface is still connected. What is far from a cut is not visited, except where the
-/// surface is not orientable: then every cut has to find out whether it is now.
+/// A connected polygonal surface, cut open edge by edge. Each cut updates the Euler characteristic and the number of
+/// boundary loops by walks around its vertices and along the boundary that it joins; a search across the cut tells
+/// whether the surface is still connected. Distant parts are not visited, except on a non-orientable surface, where
+/// every cut must test whether it is orientable now.
 class CutSurface {
  public:
   /// `chart` is the only one of `mesh`, and `graph` is that of `mesh`. The arrays of `mesh` must outlive this object.

@@ -17,10 +17,10 @@
 
 namespace spectral_conformal {
 
-/// The greedy search for the cuts of one piece: what CutCandidates proposes is solved, and taken if the maps gain
-/// enough for the length of the cut. Each step makes the cuts whose gain for their length is highest. When the maps are
-/// good enough, or no cut gains any more, charts that cover themselves or have flipped faces are parted, until none
-/// does. In the end seams that the maps can do without are sewn up again.
+/// The greedy search for the cuts of one piece. It solves the proposals of CutCandidates and takes a cut if the maps
+/// gain enough for its length; each step makes the cuts with the highest gain per length. When the maps are good
+/// enough, or no cut gains any more, it splits charts that overlap themselves or have flipped faces, until none are
+/// left. In the end it sews up seams that the maps can do without.
 class Cutter {
  public:
   /// A trial of a large mesh takes hundreds of megabytes.

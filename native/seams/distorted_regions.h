@@ -13,15 +13,15 @@ struct DistortedRegion {
   double volume;  ///< how much distortion there is around, weighted by area
 };
 
-/// The prominent extrema of the scale's logarithm about the median (see field_extrema.h) that are not on the outer
-/// loop: minima, and inside the chart maxima. `mesh` is the one that the chart was built from.
+/// The prominent extrema of the log scale about its median (see field_extrema.h) away from the outer loop: minima, and
+/// maxima inside the chart. mesh: the one from which the chart was built.
 std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialMap& mapped, double median_log2_scale);
 
-/// Vertices, not on the outer loop, whose faces have more QC in excess of 1 than those of their neighbors.
+/// Vertices away from the outer loop whose faces exceed QC 1 by more than those of their neighbors.
 std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped);
 
-/// Vertices inside the chart, and not on seams, around which the angles of the faces are far from a full turn; the
-/// volume is the difference, in radians.
+/// Vertices inside the chart and not on seams whose angle sum is far from a full turn; the volume is the difference, in
+/// radians.
 std::vector<DistortedRegion> sharp_cones(const PolygonMesh& mesh, const TrialMap& mapped);
 
 }  // namespace spectral_conformal

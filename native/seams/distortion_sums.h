@@ -6,16 +6,16 @@
 
 namespace spectral_conformal {
 
-/// What a map all but collapses counts as much as this: the binary logarithm of a scale is within plus and minus it.
+/// Bound for nearly collapsed faces: the binary logarithm of a scale is clamped to plus or minus this.
 constexpr double max_log2_scale = 16;
 
-/// Symmetric Dirichlet energy s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 of singular values, as the ratio and the product of
-/// these tell it: shear * bounded_cosh(2 ln 2 times the difference of the scale's binary logarithm to that of a unit).
-/// 2 cosh t, and beyond t = ln 4 the parabola that continues it smoothly.
+/// The symmetric Dirichlet energy s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 in terms of the ratio and the product of the
+/// singular values: shear * bounded_cosh(2 ln 2 times the difference between the binary logarithms of the scale and of
+/// a unit). 2 cosh t, and beyond t = ln 4 the parabola that continues it smoothly.
 double bounded_cosh(double t);
 
-/// What map_quality needs of the faces of one chart, summed up in the order of their scale, so that it takes a few
-/// look-ups whatever scale the distortion is about.
+/// The sums of map_quality over the faces of one chart, as prefix sums in the order of their scale, so that a few
+/// look-ups evaluate it about any scale.
 class DistortionSums {
  public:
   DistortionSums() = default;

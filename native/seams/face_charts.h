@@ -5,7 +5,7 @@
 
 namespace spectral_conformal {
 
-/// The charts that the faces of a piece are in.
+/// The charts of the faces of a piece.
 class FaceCharts {
  public:
   /// chart_of_face (F,): -1 where a face is in none. Not explicit: it is the same, looked at from both sides.

@@ -8,7 +8,7 @@
 
 namespace spectral_conformal {
 
-/// Maps of charts of one piece, found by their charts in constant time.
+/// The maps of the charts of one piece, looked up by chart in constant time.
 class KnownMaps {
  public:
   KnownMaps() = default;

@@ -15,8 +15,8 @@ namespace spectral_conformal {
 /// Edges of a SeamGraph, by number.
 using SeamEdges = std::vector<int>;
 
-/// The new seams of a piece, and the cuts that extend them. Where the piece is its own mirror image, every cut comes
-/// with its image and keeps to one half, so that both together enclose nothing.
+/// The new seams of a piece, and the cuts that extend them. If the piece is its own mirror image, every cut includes
+/// its image and stays in one half, so that the two together enclose nothing.
 class PieceSeams {
  public:
   /// The piece must outlive this object; `index` is its number. Coordinates must be finite.

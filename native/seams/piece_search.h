@@ -15,7 +15,7 @@
 
 namespace spectral_conformal {
 
-/// What the searches of all pieces look at; nothing of it changes.
+/// The constant data shared by the searches of all pieces.
 struct SearchedMesh {
   /// All must outlive this object. Of the pieces' vertices, `given_vertices` are those that options.vertex_preference
   /// is of.
@@ -29,9 +29,9 @@ struct SearchedMesh {
   double area = 0;                       ///< of the finite pieces together; 0 where options.qc_gain is and none asks
 };
 
-/// The search for the seams of one piece, which looks at no other: on coarse copies of a large one first, each of which
-/// has the seams of the coarser one to begin with. In the end the seams by which the piece unfolds rigidly take their
-/// place, where seam_functional judges them better.
+/// The search for the seams of one piece, independent of the others. A large piece is first searched on coarse copies,
+/// each starting from the seams of the coarser one. In the end the seams of the rigid unfolding replace the result if
+/// seam_functional rates them better.
 class PieceSearch {
  public:
   struct Cut {

@@ -8,7 +8,7 @@
 
 namespace spectral_conformal {
 
-/// One chart as a mesh of its own, whose vertices are the chart's: what was cut around it is its border.
+/// One chart as a separate mesh with the chart's vertices: the cuts around it are its border.
 struct Piece {
   Positions positions;               ///< (V, 3)
   std::vector<int> face_offsets{0};  ///< (F + 1,)
@@ -25,21 +25,21 @@ struct Piece {
   double area() const;                ///< of its faces, as their vector areas
 };
 
-/// The pieces of a mesh, one per chart, in the charts' order.
+/// The pieces of a mesh, one per chart, in the order of the charts.
 std::vector<Piece> split_into_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition);
 
-/// What a mirror symmetry of the mesh does to a piece.
+/// The action of a mirror symmetry of the mesh on a piece.
 struct PieceMirror {
   int image = -1;           ///< the piece that it is mapped onto, itself perhaps; -1: none, and the rest is empty
   std::vector<int> vertex;  ///< (V,) vertex of the image
   std::vector<int> face;    ///< (F,) face of the image
 };
 
-/// Per piece. The image is one piece with the same cuts, or there is none.
+/// Per piece. The image is one piece with the same cuts, or missing.
 std::vector<PieceMirror> mirror_pieces(const PolygonMesh& mesh, const ChartDecomposition& decomposition,
                                        const std::vector<Piece>& pieces, const MirrorSymmetry& symmetry);
 
-/// The pieces of a mesh, and what the plane that mirrors most of it does to them.
+/// The pieces of a mesh, and the action on them of the plane that mirrors most of it.
 struct MirroredPieces {
   explicit MirroredPieces(const PolygonMesh& mesh);
 

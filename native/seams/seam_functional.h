@@ -7,16 +7,15 @@
 
 namespace spectral_conformal {
 
-/// What a choice of seams in a piece is judged by, less being better:
+/// The functional that rates a choice of seams in a piece; lower is better:
 ///
 ///     F = |E - 4| / (E_max - 4) + sum of p_e l_e / sqrt(A) + n / 20
 ///
-/// |E - 4| is the 4-norm, a mean over the area A of the piece, of the faces' symmetric Dirichlet energies above that of
-/// an isometry (MapQuality::energy says how these are bounded): between their mean and the worst of them. E_max is
-/// SeamSuggestionOptions::energy_limit, the rate at which distortion is exchanged for seams: as much as is allowed
-/// costs what a seam of the length sqrt(A) does. p_e l_e are the prices and lengths of the new seams' edges
-/// (seam_price.h), n is the number of islands: each costs a twentieth of such a seam. Flips and overlaps are for the
-/// caller to exclude.
+/// |E - 4| is the 4-norm, as a mean over the area A of the piece, of the faces' symmetric Dirichlet energies above that
+/// of an isometry (bounded as in MapQuality::energy). It lies between their mean and their maximum. E_max is
+/// SeamSuggestionOptions::energy_limit, the exchange rate between distortion and seams: the allowed distortion costs as
+/// much as a seam of length sqrt(A). p_e and l_e are the prices and lengths of the new seam edges (seam_price.h). n is
+/// the number of islands; each costs a twentieth of such a seam. The caller excludes flips and overlaps.
 class SeamFunctional {
  public:
   /// price per edge of the graph, which must outlive this object.

@@ -9,8 +9,8 @@
 
 namespace spectral_conformal {
 
-/// The edges of a polygon mesh as paths that a seam can take. Edges between two faces are free unless they are seams;
-/// all others are cut already.
+/// The edges of a polygon mesh as a graph of possible seam paths. Edges between two faces are free unless they are
+/// seams; all others are cut already.
 class SeamGraph {
  public:
   struct Edge {

@@ -7,9 +7,9 @@
 
 namespace spectral_conformal {
 
-/// Factors of the costs of a piece's edges, per edge of its graph, above 0: what the options say about where seams are
-/// wanted, not what they bring. See SeamSuggestionOptions::front and vertex_preference. mesh_vertices: per vertex of
-/// the piece, the one that vertex_preference is of.
+/// Positive cost factors per edge of a piece's graph: where the options want seams, regardless of their benefit. See
+/// SeamSuggestionOptions::front and vertex_preference. mesh_vertices: per vertex of the piece, its index in
+/// vertex_preference.
 std::vector<double> cost_factors(const SeamSuggestionOptions& options, const SeamGraph& graph,
                                  const std::vector<int>& mesh_vertices);
 

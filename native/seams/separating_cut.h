@@ -8,8 +8,8 @@
 
 namespace spectral_conformal {
 
-/// The faces among which a cut is looked for, a chart of the graph's mesh, and their dual graph. What is below numbers
-/// them by their index in `faces`.
+/// The faces of the cut search, a chart of the graph's mesh, and their dual graph. The functions below number them by
+/// their index in `faces`.
 struct SeparableFaces {
   /// All arrays of the same length; the faces ascending. The graph must outlive this object and not change.
   SeparableFaces(const SeamGraph& graph, std::vector<int> faces, std::vector<double> area,
@@ -26,17 +26,16 @@ struct SeparableFaces {
   Adjacency dual;  ///< the faces as nodes, joined over the edges that are not cut, with the numbers of these
 };
 
-/// Distance of every face from the nearest source over the centers of neighboring faces; infinite where there is no
-/// path.
+/// The distance of every face from the nearest source, along the centers of neighboring faces; infinite without a path.
 std::vector<double> face_distances(const SeparableFaces& faces, const std::vector<int>& sources);
 
-/// The connected parts of some of the faces, the one with the largest area first.
+/// The connected parts of some of the faces, largest area first.
 std::vector<std::vector<int>> connected_parts(const SeparableFaces& faces, const std::vector<int>& some);
 
-/// The source's side of a short cut that parts two sets of faces, such as a neck between them: per face, 1 on that
-/// side. Of the level sets of (distance from the sources - distance from the sinks) the one with the lowest cost
-/// relative to the root of the smaller side's area is taken, and then moved to the cheapest cut nearby (minimum cut of
-/// the dual graph). All 0 where no level leaves `min_fraction` of the area on both sides.
+/// The source side of a short cut that separates two sets of faces, such as a neck between them: per face, 1 on that
+/// side. Among the level sets of (distance from the sources - distance from the sinks), it takes the one with the
+/// lowest cost relative to the square root of the smaller side's area, and then moves it to the cheapest cut nearby
+/// (minimum cut of the dual graph). All 0 if no level leaves `min_fraction` of the area on both sides.
 std::vector<char> separating_side(const SeparableFaces& faces, const std::vector<int>& sources,
                                   const std::vector<int>& sinks, double min_fraction);
 

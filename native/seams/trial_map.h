@@ -10,7 +10,7 @@
 
 namespace spectral_conformal {
 
-/// A chart with its spectral map and the distortion of each of its faces. Not solved: no distortion.
+/// A chart with its spectral map and the distortion of each face; no distortion if not solved.
 struct TrialMap {
   Chart chart;
   bool solved = false;
@@ -22,19 +22,19 @@ struct TrialMap {
   DistortionSums sums;             ///< of area, log2_scale and qc
 };
 
-/// Solves a chart of `mesh`, with `fallbacks` as in SolveOptions: a map that has to be replaced asks for a cut, and
-/// takes long. Where the chart cannot be solved, `solved` is false. Throws Cancelled.
+/// Solves a chart of `mesh`, with `fallbacks` as in SolveOptions: a map that needs replacement calls for a cut, and
+/// takes long. If the chart cannot be solved, `solved` is false. Throws Cancelled.
 TrialMap solve_trial_map(const PolygonMesh& mesh, Chart chart, const PatchOptions& options, bool fallbacks,
                          const Progress& progress);
 
-/// The faces that no texture can do without a cut: flipped, or covering part of another one. Indices into the chart's
-/// faces, ascending; none where the chart is not solved.
+/// The faces that must be cut before texturing: flipped, or covering part of another face. Indices into the chart's
+/// faces, ascending; empty if the chart is not solved.
 std::vector<int> defective_faces(const TrialMap& mapped);
 
-/// Maps of the charts of a mesh, shared by the trials in which a chart stays as it is.
+/// The maps of the charts of a mesh, shared by the trials that leave a chart unchanged.
 using TrialMaps = std::vector<std::shared_ptr<const TrialMap>>;
 
-/// Distortion of several charts together.
+/// The distortion of several charts together.
 struct MapQuality {
   bool solved = true;            ///< all charts are
   double median_log2_scale = 0;  ///< weighted by area
