@@ -46,7 +46,7 @@ enum class StepKind {
   blended_little,        ///< the area blend took the spread of scale (log2) from before to after; relaxation
   embedded,              ///< replaced by a relaxed embedding; mean QC before (NaN: no map) -> after
   unfolded,              ///< count: triangles no longer flipped; mean QC before -> after
-  moved_apart,           ///< overlapping parts; mean QC before -> after
+  moved_apart,           ///< overlapping parts separated; mean QC before -> after
   moved_apart_embedded,  ///< likewise, in an embedding
   covers_itself,         ///< overlapping parts remain
   still_flipped,         ///< count: triangles; constraint

@@ -144,7 +144,7 @@ class TriangleSweep {
   const std::vector<std::array<Complex, 3>>& triangles_;
   const std::function<int(int first, int second)>& leave_out_;
   std::vector<SweptTriangle> swept_;
-  int begun_ = -1;                      ///< the last one
+  int begun_ = -1;                      ///< the last triangle that began
   Line line_;                           ///< triangles that meet the line, from below
   std::vector<Line::iterator> places_;  ///< per triangle; end() if not on the line
   bool is_ended_ = false;

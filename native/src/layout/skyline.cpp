@@ -23,7 +23,7 @@ void Skyline::put(PackedBox& box) {
       best_y = y;
     }
   }
-  // A box as wide as the strip but for rounding.
+  // A box as wide as the strip, up to rounding.
   if (best == segments_.size()) {
     best = 0;
     best_y = height_over(0, box.width);
@@ -61,7 +61,7 @@ SkylineTree::SkylineTree(const Skyline& skyline)
 void SkylineTree::put(PackedBox& box) {
   Run run = lowest_run(box.width);
   if (run.first == MaxTreap::none) {
-    // A box as wide as the strip but for rounding.
+    // A box as wide as the strip, up to rounding.
     run.first = segment(left_end).behind;
     run.y = segment(run.first).y;
     const double end = segment(run.first).x + box.width;
