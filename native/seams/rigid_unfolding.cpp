@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "concurrency/work_counter.h"
+#include "concurrency/listening.h"
 #include "geometry/box_tree.h"
 #include "geometry/plane_triangle.h"
 #include "geometry/polygon_normal.h"
@@ -237,6 +237,7 @@ class Unfolder {
       }
     }
   }
+  Complex& at_corner(int corner) { return z_[static_cast<std::size_t>(corner)]; }
   int vertex(int corner) const { return piece_.corner_vertices[static_cast<std::size_t>(corner)]; }
 
   void lay_facets() {
@@ -290,7 +291,7 @@ class Unfolder {
       for (int i = 0; i < corners.rows(); ++i) {
         const Eigen::Vector3d from_origin = (corners.row(i) - origin).transpose();
         const Complex at(from_origin.dot(x), from_origin.dot(y));
-        z_[static_cast<std::size_t>(first + i)] = at;
+        at_corner(first + i) = at;
       }
       if (corners.rows() < 3) continue;
       PolygonTriangulation split;
@@ -299,9 +300,8 @@ class Unfolder {
       const std::size_t n = std::min(split.triangles.size(), static_cast<std::size_t>(corners.rows() - 2));
       for (std::size_t t = 0; t < n; ++t) {
         const auto& [a, b, c] = split.triangles[t];
-        triangles.emplace_back(std::array<Complex, 3>{z_[static_cast<std::size_t>(first + a)],
-                                                      z_[static_cast<std::size_t>(first + b)],
-                                                      z_[static_cast<std::size_t>(first + c)]});
+        triangles.emplace_back(
+            std::array<Complex, 3>{at_corner(first + a), at_corner(first + b), at_corner(first + c)});
         result.area +=
             0.5 * triangles.back().height[0] * std::abs(triangles.back().corners[1] - triangles.back().corners[0]);
       }
