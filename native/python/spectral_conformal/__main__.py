@@ -1,6 +1,6 @@
-"""Mesh files without Blender's window: python -m spectral_conformal mesh.obj [--out FILE] [--seams suggest].
+"""Unwrap mesh files on the command line: python -m spectral_conformal mesh.obj [--out FILE] [--seams suggest].
 
-`python -m spectral_conformal batch` unwraps many, `python -m spectral_conformal report` measures the maps of files.
+`python -m spectral_conformal batch` unwraps many files, `python -m spectral_conformal report` measures their maps.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from ._results import Unwrap
 from .assets.report import Requirement, RequirementError, map_report
 from .assets.unwrapping import Cutting, Layout, cut, laid_out, unwrapped
 
-# Of the texture that stands for one of any size here.
+# Side of the texture; here its size does not matter.
 _PIXELS = 1000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Unwrap the file that is named, print what became of each island, and return the exit code.
+    """Unwrap a file, print the result for each island, and return the exit code.
 
-    0: every island has a map; 1: the file cannot be read or written, or an island has none. Arguments that cannot be
-    understood exit with 2.
+    0: every island has a map; 1: the file cannot be read or written, or an island has no map. Invalid arguments exit
+    with 2.
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if arguments[:1] == ["report"]:
@@ -67,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _report(arguments: Sequence[str]) -> int:
-    """Print what the maps of files are like; return 1 if one cannot be read or does not meet what is required."""
+    """Print measures of the maps of files; return 1 if a file cannot be read or violates the requirement."""
     from .batch import files
     from .batch.settings import BatchSettings
 
@@ -133,7 +133,7 @@ def _table(result: Unwrap) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    """Return the parser; its options of maps and seams are the fields of the records, with their documentation."""
+    """Return the parser; its options for maps and seams are the fields of the records, with their documentation."""
     parser = argparse.ArgumentParser(
         prog="python -m spectral_conformal",
         description="Unwrap a glTF, OBJ, PLY, OFF, STL or USD file and write it with UVs.",

@@ -1,8 +1,7 @@
 """Checks and conversions of arrays and numbers: a wrong type is a TypeError, any other unusable value a ValueError.
 
-Arrays are copied, once, and the copies are checked. The native module counts, and later fills, without the GIL, and
-reads some arrays again in later solves: what other threads and progress functions do to the caller's arrays meanwhile
-must not reach it.
+Arrays are copied once, and the copies are checked. The native module works without the GIL and reads some arrays again
+in later solves, so changes to the caller's arrays by other threads and progress functions must not reach it.
 """
 
 from __future__ import annotations
@@ -20,18 +19,18 @@ from ._native import InvalidMeshError
 
 Pins = Mapping[int, "tuple[float, float]"]
 Extenders = Iterable["tuple[int, int, float]"]
-"""(vertex, vertex, strength): a soft constraint of section 4.2 that pushes the two apart, or pulls them together where
-the strength is negative. The strength is a fraction of the boundary's total mass."""
+"""(vertex, vertex, strength): a soft constraint of section 4.2 that pushes two vertices apart or, with a negative
+strength, pulls them together. The strength is a fraction of the boundary's total mass."""
 Faces = Union[npt.ArrayLike, Sequence[Sequence[int]]]
-"""The faces of a polygon mesh: their vertices, (F, n) or a list of polygons, or, with `corner_vertices`, offsets."""
+"""The faces of a polygon mesh: their vertices, as (F, n) or a list of polygons; or, with `corner_vertices`, offsets."""
 Progress = Callable[[float, str], Optional[bool]]
 """Called with the fraction done (0 to 1) and the name of the phase. Returning False cancels: `Cancelled` is raised."""
 
-# Beyond, the negative end of the spectrum takes the digits of the eigenvalue that is sought.
+# Beyond this limit, the negative end of the spectrum costs the wanted eigenvalue its digits.
 STRENGTH_LIMIT = 1e4
 _INDEX_LIMIT = np.iinfo(np.int32).max
 _SIZE_LIMIT = _native.SIZE_LIMIT
-# Rows that are copied at a time: less memory than the processor's caches hold, so that it is used again.
+# Rows copied at a time: they fit into the processor's caches, so the memory is reused.
 _ROWS_AT_ONCE = 1 << 14
 
 
@@ -53,7 +52,7 @@ def checked_polygon_mesh(
 def checked_faces(
     faces: Faces, corner_vertices: npt.ArrayLike | None, n_vertices: int = _INDEX_LIMIT + 1
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
-    """Return where the corners of each face begin, (F + 1,), and the vertex of each corner, (C,)."""
+    """Return the first corner of each face, (F + 1,), and the vertex of each corner, (C,)."""
     if corner_vertices is None:
         offsets, corner_vertices = _corners_of(faces)
         name = "faces"
@@ -65,7 +64,7 @@ def checked_faces(
 
 
 def _corners_of(faces: Faces) -> tuple[npt.NDArray[np.int32], npt.ArrayLike]:
-    """Return the offsets and the vertices of faces that are given as vertices, (F, n) or polygon by polygon."""
+    """Return the offsets and the vertices of faces given as vertices, (F, n) or polygon by polygon."""
     if not isinstance(faces, np.ndarray) and not hasattr(faces, "__array__"):
         polygons = cast("Sequence[Sequence[int]]", faces)
         try:
@@ -108,7 +107,7 @@ def checked_flags(values: npt.ArrayLike, name: str, n: int, item: str) -> npt.ND
         raise TypeError(f"{name} must be {n} booleans, one per {item}, not {array.dtype}.")
     if array.shape != (n,):
         raise ValueError(f"{name} must be {n} booleans, one per {item}, not {array.dtype} of shape {array.shape}.")
-    # A flag is any byte but 0 to NumPy, and 0 or 1 to a compiler.
+    # NumPy takes any nonzero byte as true; a compiler expects 0 or 1.
     return array.view(np.uint8) != 0
 
 
@@ -175,7 +174,7 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     except (TypeError, ValueError, OverflowError) as error:
         kind = TypeError if isinstance(error, TypeError) else ValueError
         raise kind(f"{name} is no regular array: {error}.") from error
-    if array.ndim and len(array) > _SIZE_LIMIT + 1:  # of offsets there is one more
+    if array.ndim and len(array) > _SIZE_LIMIT + 1:  # offsets have one more entry
         raise ValueError(
             f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."
         )
@@ -183,10 +182,10 @@ def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
 
 
 def copied_floats(array: np.ndarray, name: str, keep_single: bool = False) -> npt.NDArray[np.floating]:
-    """Return a copy of the array as float64, or as float32 where it is that already and `keep_single` is set."""
+    """Return a copy of the array as float64, or as float32 if it is float32 and `keep_single` is set."""
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}.")
-    # Wider floats that a double does not hold become infinite, and are named as such.
+    # Wider floats that overflow a double become infinite, and are reported as such.
     with np.errstate(over="ignore"):
         kind = np.float32 if keep_single and array.dtype == np.float32 else np.float64
         return np.array(array, kind, order="C")
@@ -281,7 +280,7 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
 def checked_metric(
     metric: npt.ArrayLike | None, n_faces: int, sizes: tuple[int, ...]
 ) -> npt.NDArray[np.float64] | None:
-    """Check one tensor per face, of one of the sizes; what makes it definite in a face's plane is checked there."""
+    """Check one tensor per face, of one of the sizes; native code checks that it is definite in the face's plane."""
     if metric is None:
         return None
     array = checked_array(metric, "metric")

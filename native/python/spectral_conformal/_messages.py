@@ -1,4 +1,4 @@
-"""What is said of a map, in English or, by its templates, in another language."""
+"""Messages about maps, in English or, through their templates, in another language."""
 
 from __future__ import annotations
 
@@ -62,37 +62,37 @@ Translate = Callable[[str], str]
 
 @dataclass(frozen=True)
 class Step:
-    """What a solve did besides what was asked for, what its map has, or why it has none.
+    """An extra action of a solve, a property of its map, or the reason why there is no map.
 
-    Which fields mean something depends on the kind; `describe` says it in words.
+    The kind determines which fields have a meaning; `describe` puts a step into words.
     """
 
     kind: StepKind
-    """"rejected": a map was not accepted; the last step if there is none, otherwise the next says what stands in. Steps
+    """"rejected": a map was not accepted; the next step says what replaced it, and without one there is no map. Steps
     to a map: "retried" at the same problem, the "lowered_rigidity" of holes, "clamped_thin", "by_length", "by_vertex",
     "uniform_weights" and "inverse_area" (fallbacks), "embedded", "unfolded", "moved_apart", "moved_apart_embedded".
-    What a map has: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles".
+    Properties of a map: it "winds", "covers_itself", is "still_flipped" or "not_injective", has "unresolved_triangles".
     Of the area blend: "relaxed_with_flips", "blended_little". Of faces: "reoriented_faces", "duplicate_faces",
     "fan_splits", "degenerate_triangles". Of charts: "shrunk_to_point", "degenerate_faces", "out_of_memory"."""
     reason: Reason = None
     """Why a map was rejected."""
     count: int = 0
-    """Of triangles, faces or handles; the vertex that is not finite; the turning number of what winds; the status of a
-    library that failed."""
+    """Of triangles, faces or handles; the vertex that is not finite; the turning number of a map that winds; the status
+    of a library that failed."""
     attempts: int = 0
     """At the problem whose map was rejected."""
     before: float = 0.0
-    """Mean QC before unfolding or moving apart, NaN without a map; the hole rigidity that was asked for; the spread of
-    scale (log2) of the conformal map."""
+    """Mean QC before unfolding or moving apart, NaN without a map; the requested hole rigidity; the spread of scale
+    (log2) of the conformal map."""
     after: float = 0.0
-    """The same afterwards; of "not_factorized" the last shift."""
+    """The same afterward; for "not_factorized" the last shift."""
     constraint: Constraint = None
-    """What may be the reason for what is wrong."""
+    """The possible cause of the problem."""
     relaxation: str | None = None
     """How the relaxation of an area blend ended, see `Parameterization.relaxation`."""
 
 
-# A template for one and, where they differ, a template for other counts.
+# A template for the count 1 and, if it differs, a template for other counts.
 _SENTENCES: dict[str, tuple[str, ...]] = {
     "retried": ("The first solve failed its checks and was repeated with a larger shift and another start.",),
     "winds": ("The boundary of the map winds round {count} times instead of once.",),
@@ -124,7 +124,7 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "{count} triangle could not be unfolded between the pins; move or remove pins.",
         "{count} triangles could not be unfolded between the pins; move or remove pins.",
     ),
-    # One: the turning number is right.
+    # The count 1: the turning number is right.
     "not_injective": (
         "The map goes round an inner vertex more than once; add seams.",
         "The boundary of the map winds round {count} times instead of once; add seams.",
@@ -164,7 +164,7 @@ _SENTENCES: dict[str, tuple[str, ...]] = {
         "ones with seams.",
     ),
 }
-# What follows on a reason for which a map was rejected.
+# The consequences that follow the reason for a rejected map.
 _STAND_INS: dict[str, tuple[str, ...]] = {
     "clamped_thin": ("solved with triangles thinner than 1e-5 of their length clamped to that instead.",),
     "by_length": ("solved with the boundary form 'length' instead.",),
@@ -211,7 +211,7 @@ _PINNED_REASONS = {
     "unresolved": "The pinned map does not satisfy its equations in double precision",
     "no_area": "The pinned map has no positive area",
 }
-# Conditions that a chart breaks, and what to do.
+# Conditions that a chart violates, and what to do.
 _CONDITIONS: dict[str, tuple[str, ...]] = {
     "vertex_not_finite": (
         "Vertex {count} has a coordinate that is not finite; give it a valid position or delete it.",
@@ -261,7 +261,7 @@ class SolveError(RuntimeError):
     """No map passed the checks; the message says why, and what to do."""
 
     def __init__(self, *steps: Step | tuple) -> None:
-        """Take what the native module has of it."""
+        """Take the steps from the native module."""
         self.steps = steps_of(steps)
         super().__init__(*self.steps)
 
@@ -271,12 +271,12 @@ class SolveError(RuntimeError):
 
 
 def steps_of(steps: Iterable[Step | tuple]) -> tuple[Step, ...]:
-    """Return the steps that the native module has as tuples."""
+    """Return the native module's tuples as steps."""
     return tuple(step if isinstance(step, Step) else Step(*step) for step in steps)
 
 
 def describe(steps: Iterable[Step], translate: Translate = str) -> str:
-    """Return what steps of a solve mean, for people: sentences, or "" where there are no steps.
+    """Return the steps of a solve in words: sentences, or "" if there are no steps.
 
     Args:
         steps: of a `Parameterization`, a `Chart` or a `SolveError`.
@@ -299,12 +299,12 @@ def describe(steps: Iterable[Step], translate: Translate = str) -> str:
 
 
 def describe_native(steps: Iterable[tuple]) -> str:
-    """Return what steps that the native module has as tuples mean."""
+    """Return the native module's tuples in words."""
     return describe(steps_of(steps))
 
 
 def message_templates() -> Iterator[str]:
-    """Go through the templates that `describe` has looked up."""
+    """Iterate over the templates that `describe` passes to `translate`."""
     for forms in (*_SENTENCES.values(), *_STAND_INS.values(), *_CONDITIONS.values()):
         yield from forms
     for texts in (_RELAXATIONS, _REASONS, _PINNED_REASONS, _ADVICE):
@@ -313,7 +313,7 @@ def message_templates() -> Iterator[str]:
 
 
 def _filled(forms: tuple[str, ...], step: Step, translate: Translate, **fields: str) -> str:
-    """Return the form for the count of a step, translated, with its numbers."""
+    """Return the form for a step's count, translated, with its numbers."""
     template = forms[0] if abs(step.count) == 1 else forms[-1]
     values = {"count": str(step.count), "before": f"{step.before:.5g}", "after": f"{step.after:.5g}", **fields}
     return translate(template).format(**values)

@@ -1,7 +1,7 @@
-"""glTF files, text or binary: geometry is read, UVs are written, all else stays as it is.
+"""glTF files, text or binary: read the geometry, write UVs, and keep everything else.
 
-The format: "glTF 2.0 Specification", Khronos Group, 2021 (ISO/IEC 12113). What holds no geometry is not looked at; what
-this code does not know of geometry is refused by name.
+The format: "glTF 2.0 Specification", Khronos Group, 2021 (ISO/IEC 12113). Content other than geometry is ignored;
+unsupported kinds of geometry are rejected by name.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _GLB = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
 _UV_SET = "TEXCOORD_"
 _DRACO = "KHR_draco_mesh_compression"
-# Geometry that accessors do not tell.
+# Geometry that accessors do not describe.
 _COMPRESSED = {
     "EXT_meshopt_compression": "compressed by meshopt",
     "KHR_meshopt_compression": "compressed by meshopt",
@@ -43,18 +43,18 @@ _WORD = 4
 
 
 class GltfAsset:
-    """A glTF file: polygons for each of its meshes, triangles joined where they have equal positions."""
+    """A glTF file: the polygons of each mesh; triangles are joined at equal positions."""
 
     def __init__(self, path: Path, uv_map: str = "") -> None:
-        """Read the file, and its buffers beside it.
+        """Read the file and its buffers.
 
         Args:
             path: of a .gltf or .glb file.
-            uv_map: n of the TEXCOORD_n that is read and written, or that name itself; the first set unless given. Any
-                other name, which the format cannot hold, stands for the first set that no mesh has.
+            uv_map: n of the TEXCOORD_n to read and write, or that name itself; by default the first set. The format
+                cannot store any other name, which selects the first set that no mesh has.
 
         Raises:
-            AssetError: the content is broken, geometry is compressed, or there is none.
+            AssetError: the content is broken, or the geometry is compressed or missing.
             OSError: a file cannot be opened.
         """
         self.path = path
@@ -77,11 +77,11 @@ class GltfAsset:
         self.warnings = list(self._notes)
 
     def references(self) -> Sequence[str]:
-        """Return the images, and the buffers that `files` has left as they are, that are files beside this one."""
+        """Return the separate files of images, and of the buffers that `files` left unchanged."""
         return self.beside
 
     def files(self, out: Path, maps: Sequence[UvMap]) -> dict[Path, bytes]:
-        """Return the files of this asset with other UVs, the main one under the path `out`, and last."""
+        """Return the files of this asset with new UVs; the main one has the path `out` and comes last."""
         self.warnings = list(self._notes)
         with self._structure():
             edit = _Edit(self)
@@ -95,7 +95,7 @@ class GltfAsset:
             return edit.files(out)
 
     def _set_named(self, uv_map: str) -> str:
-        """Return the name of the attribute that is meant by the name of a UV map."""
+        """Return the name of the attribute for the name of a UV map."""
         number = uv_map.removeprefix(_UV_SET) or "0"
         if not number.isdecimal():
             primitives = [each for mesh in self.json.get("meshes", []) for each in mesh["primitives"]]
@@ -106,7 +106,7 @@ class GltfAsset:
 
     @contextmanager
     def _structure(self) -> Iterator[None]:
-        """Say of what is not where the format has it that the file is broken."""
+        """Report a broken file if its structure violates the format."""
         try:
             yield
         except AssetError:
@@ -160,7 +160,7 @@ class GltfAsset:
         return data
 
     def _decompress(self) -> None:
-        """Put what Draco has compressed in its place, as a file without it has its geometry."""
+        """Replace geometry compressed by Draco with plain accessors."""
         primitives = [each for mesh in self.json.get("meshes", []) for each in mesh["primitives"]]
         compressed = [each for each in primitives if _DRACO in each.get("extensions", {})]
         if not compressed:
@@ -197,7 +197,7 @@ class GltfAsset:
         self._notes.append("Geometry that Draco had compressed is not compressed any more.")
 
     def _append(self, accessor: _Json, values: npt.NDArray) -> None:
-        """Give an accessor its content, at the end of the first buffer."""
+        """Append the content of an accessor to the first buffer."""
         values, stride = _aligned(values)
         data = self.buffers[0] + bytes(-len(self.buffers[0]) % _WORD)
         new = {"buffer": 0, "byteOffset": len(data), "byteLength": values.nbytes, **stride}
@@ -210,7 +210,7 @@ class GltfAsset:
         accessor.pop("byteOffset", None)
 
     def array(self, number: int) -> npt.NDArray:
-        """Return what an accessor has, (count, width), in the type in which it is stored."""
+        """Return the values of an accessor, (count, width), in their stored type."""
         accessor = self.json["accessors"][number]
         kind, width = np.dtype(_COMPONENTS[accessor["componentType"]]), _WIDTHS[accessor["type"]]
         if "bufferView" in accessor:
@@ -240,7 +240,7 @@ class GltfAsset:
         return np.ndarray((count, width), kind, buffer, start, (stride, kind.itemsize))
 
     def numbers(self, number: int) -> npt.NDArray[np.float64]:
-        """Return what an accessor means: normalised integers as fractions."""
+        """Return the values of an accessor as floats; normalized integers become fractions."""
         accessor, stored = self.json["accessors"][number], self.array(number)
         if accessor.get("normalized") and stored.dtype.kind != "f":
             return np.maximum(stored / np.iinfo(stored.dtype).max, -1.0)
@@ -248,7 +248,7 @@ class GltfAsset:
 
 
 class _Group:
-    """The primitives of a mesh that have the same vertices."""
+    """The primitives of a mesh that share their vertices."""
 
     def __init__(self, asset: GltfAsset, attributes: dict[str, int]) -> None:
         self.attributes = attributes
@@ -258,7 +258,7 @@ class _Group:
 
     @property
     def corners(self) -> Integers:
-        """(3 triangles,) the row of each, of all primitives."""
+        """(3 triangles,) the row of each corner, over all primitives."""
         return np.concatenate([np.zeros(0, np.int64), *(each.ravel() for each in self.triangles)])
 
 
@@ -285,7 +285,7 @@ class _Mesh:
         self.groups = [group for group in groups.values() if group.primitives]
 
     def polygons(self, uv_name: str, placement: npt.NDArray[np.float64]) -> AssetMesh:
-        """Return the triangles of all groups; the first corner is that of the first group."""
+        """Return the triangles of all groups, in their order."""
         positions, corners, uv, has_uv, first_row = [], [], [], False, 0
         for group in self.groups:
             positions.append(self._asset.numbers(group.attributes["POSITION"])[:, :3])
@@ -294,7 +294,7 @@ class _Mesh:
             first_row += group.n_rows
             found = group.attributes.get(uv_name)
             has_uv |= found is not None
-            # The origin of glTF's UVs is at the top.
+            # glTF's UVs have their origin at the top.
             of_rows = (
                 self._asset.numbers(found) * (1, -1) + (0, 1)
                 if found is not None
@@ -332,7 +332,7 @@ def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:
 
 
 def _placements(document: _Json) -> dict[int, npt.NDArray[np.float64]]:
-    """Return of each mesh that a node shows the matrix (4, 4) by which the first such node places it."""
+    """Return the placement (4, 4) of each mesh with a node, by the first such node."""
     nodes = document.get("nodes", [])
     children = {child for node in nodes for child in node.get("children", [])}
     result: dict[int, npt.NDArray[np.float64]] = {}
@@ -342,7 +342,7 @@ def _placements(document: _Json) -> dict[int, npt.NDArray[np.float64]]:
         node = nodes[number]
         placement = parent @ _matrix_of(node)
         if "mesh" in node:
-            # What a skin moves lies where its joints are.
+            # A skinned mesh lies at its joints.
             result.setdefault(node["mesh"], np.eye(4) if "skin" in node else placement)
         waiting += [(child, placement) for child in reversed(node.get("children", []))]
         if len(waiting) > len(nodes):
@@ -351,7 +351,7 @@ def _placements(document: _Json) -> dict[int, npt.NDArray[np.float64]]:
 
 
 def _matrix_of(node: _Json) -> npt.NDArray[np.float64]:
-    """Return the local matrix (4, 4) of a node: given, or of scale, rotation (a quaternion) and translation."""
+    """Return the local matrix (4, 4) of a node: its own, or from scale, rotation (a quaternion) and translation."""
     if "matrix" in node:
         return np.reshape(np.array(node["matrix"], dtype=np.float64), (4, 4)).T
     x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
@@ -367,7 +367,7 @@ def _matrix_of(node: _Json) -> npt.NDArray[np.float64]:
 
 
 class _Edit:
-    """Another version of a file: accessors with other content, and the buffers without what nothing uses any more."""
+    """A new version of a file: accessors with new content, and buffers without their unused parts."""
 
     def __init__(self, asset: GltfAsset) -> None:
         self._asset = asset
@@ -380,7 +380,7 @@ class _Edit:
         self._place_of = {id(asset.json["meshes"][m]["primitives"][p]): (m, p) for m, p in places}
 
     def write_group(self, group: _Group, name: str, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> None:
-        """Give the primitives of a group their UVs, and vertices with several a copy of all that they have for each."""
+        """Give the primitives of a group their UVs; a vertex with several gets a copy of all its data for each."""
         rows = group.corners
         texels = (uv * (1, -1) + (0, 1)).astype("<f4")
         of_row, different, index = numbered(rows[mapped], texels[mapped])
@@ -422,7 +422,7 @@ class _Edit:
             at += triangles.size
 
     def _bends_light(self, primitive: _Json, name: str) -> bool:
-        """Return whether a primitive has tangents that belong to this UV set: where its texture of normals is."""
+        """Return whether a primitive has tangents that belong to this UV set, which its normal map uses."""
         if not {"TANGENT", "NORMAL"} <= primitive["attributes"].keys():
             return False
         material = self._json["materials"][primitive["material"]] if "material" in primitive else {}
@@ -445,14 +445,14 @@ class _Edit:
     def _put_indices(self, primitive: _Json, rows: Integers) -> int:
         old = primitive.get("indices")
         least = self._json["accessors"][old]["componentType"] if old is not None else _UNSIGNED_BYTE
-        # The highest number of a type ends a strip, where that is asked for.
+        # The highest number of a type can mark the end of a strip.
         kinds = [kind for kind in (_UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT) if kind >= least]
         kind = next(kind for kind in kinds if rows.max(initial=0) < np.iinfo(_COMPONENTS[kind]).max)
         accessor = {"componentType": kind, "type": "SCALAR"}
         return self._put(old, accessor, rows.astype(_COMPONENTS[kind])[:, None], is_vertex=False)
 
     def _put(self, number: int | None, accessor: _Json, values: npt.NDArray, is_vertex: bool = True) -> int:
-        """Give an accessor another content; a new one where others use it, too. Return its number."""
+        """Replace the content of an accessor, or make a new one if others share it; return its number."""
         stride: dict[str, int] = {}
         if is_vertex:
             values, stride = _aligned(values)
@@ -497,7 +497,7 @@ class _Edit:
         return self._stored(out, [bytes(buffer) for buffer in buffers])
 
     def _cut(self, buffer: bytearray, dropped: list[_Json], kept: list[_Json]) -> None:
-        """Take out of a buffer what only dropped views have, in whole words, and move the others."""
+        """Remove from a buffer the whole words that only dropped views use, and shift the other views."""
         is_free = np.zeros(len(buffer), dtype=bool)
         for views, value in ((dropped, True), (kept, False)):
             for view in views:
@@ -541,7 +541,7 @@ class _Edit:
         return files
 
     def _named(self, parts: Sequence[_Json], out: Path) -> Iterator[str]:
-        """Name images and buffers, files of their own, from where the file `out` lies; yield those that go along."""
+        """Rewrite the paths of separate images and buffers relative to `out`; yield the files to copy along."""
         for part in parts:
             uri = part.get("uri", "")
             if not uri or uri.startswith("data:"):
@@ -555,7 +555,7 @@ class _Edit:
 
 
 def _free_path(out: Path, name: str) -> Path:
-    """Return where a buffer of the file `out` goes: beside it, and not where another glTF of the folder has its own."""
+    """Return the path for a buffer of the file `out`: beside it, and not the buffer of another glTF in the folder."""
     others = [path.read_bytes() for path in out.parent.glob("*.gltf") if path.name != out.name]
 
     def is_of_others(path: Path) -> bool:
@@ -572,15 +572,15 @@ def tangents_of(
     uv: npt.NDArray[np.float64],
     triangles: Integers,
 ) -> npt.NDArray[np.float64]:
-    """Return the tangent of each vertex, (V, 4): where u grows, across the normal, and the side on which v grows.
+    """Return the tangent of each vertex, (V, 4): the direction of growing u, across the normal, and the side of v.
 
-    Of the triangles at a vertex each counts by its angle, as in Mikkelsen, "Simulation of Wrinkled Surfaces Revisited",
-    2008; a vertex whose triangles lie on both sides has the side of most.
+    The triangles at a vertex are weighted by their angles, as in Mikkelsen, "Simulation of Wrinkled Surfaces
+    Revisited", 2008; if they lie on both sides, the majority decides.
 
     Args:
         positions: (V, 3).
         normals: (V, 3).
-        uv: (V, 2), v upwards.
+        uv: (V, 2), v upward.
         triangles: (T, 3).
     """
     sums, sides = np.zeros((len(positions), 3)), np.zeros(len(positions))
@@ -595,7 +595,7 @@ def tangents_of(
         across = _unit(along - normal * (along * normal).sum(axis=1)[:, None])
         np.add.at(sums, rows, across * angle[:, None])
         np.add.at(sides, rows, np.sign(area) * angle)
-    # Where no triangle tells, any direction across the normal.
+    # If no triangle defines it, any direction across the normal.
     least = np.eye(3)[np.abs(normals).argmin(axis=1)]
     fallback = least - normals * (least * normals).sum(axis=1)[:, None]
     sums -= normals * (sums * normals).sum(axis=1)[:, None]
@@ -605,13 +605,13 @@ def tangents_of(
 
 
 def _unit(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Return vectors (n, 3) at length 1; those without length as they are."""
+    """Return vectors (n, 3) scaled to length 1; zero vectors stay zero."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
 
 
 def _aligned(values: npt.NDArray) -> tuple[npt.NDArray, dict[str, int]]:
-    """Return rows of vertices that begin at whole words, and the stride that a view of them needs."""
+    """Return rows of vertices padded to whole words, and the stride for a view of them."""
     row = values.dtype.itemsize * values.shape[1]
     if row % _WORD == 0:
         return values, {}
@@ -621,19 +621,19 @@ def _aligned(values: npt.NDArray) -> tuple[npt.NDArray, dict[str, int]]:
 
 
 def _indent(text: str) -> str | None:
-    """Return the blanks before the second line of a text of JSON."""
+    """Return the indentation of the second line of a JSON text."""
     second = text.partition("\n")[2]
     return second[: len(second) - len(second.lstrip(" \t"))] or None
 
 
 def _uses(document: _Json) -> dict[int, int]:
-    """Return how many places use each accessor."""
+    """Return the number of uses of each accessor."""
     result: dict[int, int] = {}
     seen = set()
     for m, mesh in enumerate(document.get("meshes", [])):
         for primitive in mesh["primitives"]:
             sets = [primitive["attributes"], *primitive.get("targets", [])]
-            # Primitives that have all of their vertices in common are one use.
+            # Primitives that share all vertices are one use.
             key = (m, json.dumps(sets, sort_keys=True))
             numbers = [] if key in seen else [number for each in sets for number in each.values()]
             seen.add(key)
@@ -651,7 +651,7 @@ def _uses(document: _Json) -> dict[int, int]:
 
 
 def _view_numbers(part: object) -> Iterator[int]:
-    """Give the number of every view that a part of the document names, in extensions, too."""
+    """Yield the number of every view that a part of the document names, including extensions."""
     if isinstance(part, dict):
         for key, value in part.items():
             if key == "bufferView" and isinstance(value, int):

@@ -194,7 +194,7 @@ class PlyAsset(OneMeshAsset):
     def _read_binary(self, element: _Element, at: int) -> int:
         """Read the rows of an element in runs whose lists are as long as those of the run's first row."""
         done = 0
-        most = element.rows  # in the next piece: looking far ahead is for nothing where lengths change with every row
+        most = element.rows  # in the next run: looking far ahead is a waste if lengths change with every row
         while done < element.rows:
             layout = self._layout(element, at, done)
             self._piece(at, layout.itemsize, element, done)
@@ -228,7 +228,7 @@ class PlyAsset(OneMeshAsset):
                     raise AssetError(f"{self.path}: {element.name} {row} has a list of negative length.")
                 layout.append((f"n {each.name}", kind))
                 at += kind.itemsize
-                # Before a type of any such size is made.
+                # Checked before making a type of this size.
                 self._piece(at, length * np.dtype(each.type).itemsize, element, row)
             layout.append((each.name, np.dtype(self._order + each.type), (length,)))
             at += np.dtype(each.type).itemsize * length

@@ -1,1 +1,1 @@
-"""Many files at once: `python -m spectral_conformal batch`. Alone in reaching processes and network."""
+"""Many files at once: `python -m spectral_conformal batch`. Only this package uses processes and the network."""

@@ -1,4 +1,4 @@
-"""The command: which assets, with what settings, by which workers; what became of them."""
+"""The batch command: its arguments, the run, and the results."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ALL_WORKED, SOME_WORKED, NONE_WORKED, INTERRUPTED, WRONG_USE = 0, 1, 2, 130, 64
 WORKED = ("unwrapped", "kept")
 LOG = "batch.log"
 WORKER_LOGS = "logs"
-# Before the names of settings among the arguments.
+# Prefix of the settings' names among the arguments.
 _SETTING = "setting_"
 _EXIT_CODES = (
     f"Exit code: {ALL_WORKED} all assets worked, {SOME_WORKED} some did not, {NONE_WORKED} none worked, {WRONG_USE} "
@@ -47,31 +47,29 @@ def parser() -> argparse.ArgumentParser:
     result = _Parser(prog="python -m spectral_conformal batch", description="Unwrap many files.", epilog=_EXIT_CODES)
     result.add_argument("inputs", nargs="+", metavar="INPUT", help=f"file or folder; {', '.join(entries.READABLE)}")
     result.add_argument("--out", required=True, type=Path, metavar="DIR", help="folder of the results")
-    result.add_argument("--format", default="", help="obj: the meshes alone, as OBJ; by default that of the source")
+    result.add_argument("--format", default="", help="obj: only the meshes, as OBJ; by default that of the source")
     result.add_argument("--overwrite-source", action="store_true", help="write the unwrapped files over the sources")
     result.add_argument("--settings", type=Path, metavar="FILE", help="TOML with the settings below, by their names")
-    result.add_argument("--dry-run", action="store_true", help="say what would be done, and do nothing")
-    result.add_argument("--resume", action="store_true", help="leave out what an interrupted run has done already")
+    result.add_argument("--dry-run", action="store_true", help="show what would be done, and do nothing")
+    result.add_argument("--resume", action="store_true", help="skip assets that an earlier run has finished")
     result.add_argument(
-        "--part", type=_part, metavar="K/N", help="do the K-th of N parts of the assets, and write no overview"
+        "--part", type=_part, metavar="K/N", help="process the K-th of N parts of the assets, and write no overview"
     )
-    result.add_argument(
-        "--overview", action="store_true", help="write the overview of what parts have done, do no more"
-    )
+    result.add_argument("--overview", action="store_true", help="only write the overview over the results of all parts")
     result.add_argument(
         "--require",
         metavar="CONDITION",
-        help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"; an asset that does not meet it is written, and '
+        help='such as "flips == 0 and overlaps == 0 and qc_p99 < 1.5"; an asset that violates it is written, but '
         "counts as one that did not work",
     )
     run = result.add_argument_group("running")
     run.add_argument("--jobs", type=_positive, metavar="N", default=_cores(), help="assets at once (%(default)s)")
-    run.add_argument("--seconds", type=_positive_number, metavar="N", help="after which an asset is given up")
-    run.add_argument("--memory", type=_positive, metavar="MIB", help="that a worker may hold")
+    run.add_argument("--seconds", type=_positive_number, metavar="N", help="time limit per asset")
+    run.add_argument("--memory", type=_positive, metavar="MIB", help="memory limit per worker")
     run.add_argument("--recycle", type=_positive, default=50, metavar="N", help="files per worker (%(default)s)")
-    run.add_argument("--threads", type=_positive, metavar="N", default=1, help="that a worker may use (%(default)s)")
+    run.add_argument("--threads", type=_positive, metavar="N", default=1, help="threads per worker (%(default)s)")
     run.add_argument("--blender", metavar="PROGRAM", help="Blender to run the workers in")
-    run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster that is to do the work")
+    run.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster to run on")
     run.add_argument("--quiet", action="store_true", help="print errors only")
     group = result.add_argument_group("settings, also keys of the settings file with _ for -")
     default = BatchSettings()
@@ -108,14 +106,14 @@ def _positive_number(text: str) -> float:
 
 @dataclass(frozen=True)
 class Plan:
-    """What a command line asks for.
+    """The batch that a command line describes.
 
     Attributes:
         entries: the assets, in the order of their names.
         settings: of all of them.
         out: folder of the results, absolute.
         arguments: everything else.
-        requirement: what every map is to meet; None for nothing.
+        requirement: for every map; None for none.
     """
 
     entries: Sequence[Entry]
@@ -126,11 +124,11 @@ class Plan:
 
 
 def plan(arguments: Sequence[str]) -> Plan:
-    """Return what a command line asks for.
+    """Return the batch that a command line describes.
 
     Raises:
-        SettingsError: an argument is unknown, or wrong.
-        InputError: the inputs cannot be a batch.
+        SettingsError: an argument is unknown or invalid.
+        InputError: the inputs do not form a batch.
     """
     parsed = parser().parse_args(arguments)
     values = _settings_file(parsed.settings) if parsed.settings else {}
@@ -171,7 +169,7 @@ def _settings_file(path: Path) -> dict[str, Any]:
 def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code.
 
-    `worker_words` start a worker in place of those that `worker_process` finds.
+    `worker_words` replace the command that `worker_process` finds for starting a worker.
     """
     try:
         wanted = plan(arguments)
@@ -186,7 +184,7 @@ def main(arguments: Sequence[str], worker_words: Sequence[str] | None = None) ->
         print(f"error: the results cannot be written: {error}", file=sys.stderr)
         return WRONG_USE
     except SystemExit as end:
-        # Of the help, with which argparse ends.
+        # argparse exits after printing the help.
         return int(end.code or 0)
 
 
@@ -201,7 +199,7 @@ def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
     arguments = wanted.arguments
     logs = wanted.out / WORKER_LOGS
     logs.mkdir(parents=True, exist_ok=True)
-    # Parts may run at once, on machines that share the folder.
+    # Parts may run concurrently, on machines that share the folder.
     name = LOG if not arguments.part else "batch-{}-{}.log".format(*arguments.part)
     handler = logging.FileHandler(wanted.out / name, encoding="utf-8", errors="backslashreplace")
     _claim(handler, wanted.out / name)
@@ -231,15 +229,15 @@ def _run(wanted: Plan, worker_words: Sequence[str] | None) -> int:
 
 
 def _claim(handler: logging.FileHandler, path: Path) -> None:
-    """Hold a log as long as it is open, so that no other batch writes the same results meanwhile.
+    """Lock the log while it is open, so that no other batch writes the same results.
 
     Raises:
-        InputError: another batch does that.
+        InputError: another batch holds the lock.
     """
     try:
         import fcntl
     except ImportError:
-        # Windows lets two processes write into a log.
+        # Windows: no lock.
         return
     try:
         fcntl.flock(handler.stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -247,14 +245,14 @@ def _claim(handler: logging.FileHandler, path: Path) -> None:
         handler.close()
         raise InputError(f"Another batch writes into {path.parent}: wait for it, or name another --out.") from error
     except OSError:
-        # A disk that has no locks.
+        # A file system without locks.
         return
 
 
 def _work(
     wanted: Plan, todo: Sequence[Entry], reports: dict[str, dict[str, Any]], worker_words: Sequence[str] | None
 ) -> bool:
-    """Unwrap the assets and enter their reports; return whether the user interrupted it."""
+    """Unwrap the assets and collect their reports; return whether the user interrupted the run."""
     for entry in todo:
         entry.folder.mkdir(parents=True, exist_ok=True)
         _clean(entry)
@@ -315,19 +313,19 @@ def _limits(arguments: argparse.Namespace) -> Limits:
 
 
 def request_line(asset: Entry, settings: BatchSettings) -> str:
-    """Return the request for an asset, as `task.request_of` reads it."""
+    """Return the request for an asset, in the form that `task.request_of` reads."""
     paths = {name: str(getattr(asset, name)) for name in ("source", "folder", "target")}
     return json.dumps({"name": asset.name, **paths, "settings": settings.as_json()})
 
 
 def _clean(asset: Entry) -> None:
-    """Remove what an earlier run has left of an asset that is now made anew; the target waits until it is replaced."""
+    """Remove an earlier run's files of an asset to process again, except the target, which is replaced later."""
     for name in (entries.REPORT, entries.LAYOUT, entries.CHECKER, entries.THUMBNAIL):
         (asset.folder / name).unlink(missing_ok=True)
 
 
 def _completed(entry: Entry, report: dict[str, Any], wanted: Plan) -> dict[str, Any]:
-    """Return the report with what only this side knows, having written it."""
+    """Complete a report with data from this process, write it and return it."""
     known = {"name": entry.name, "source": str(entry.source), "settings": wanted.settings.as_json()}
     report = {**known, "warnings": [], **report}
     report.setdefault("versions", {})["spectral_conformal"] = _version()
@@ -362,13 +360,13 @@ def _done(wanted: Plan) -> dict[str, dict[str, Any]]:
 
 
 def _is_done(asset: Entry, settings: BatchSettings) -> dict[str, Any] | None:
-    """Return the report of an asset that was made of the same file with the same settings, and is still there."""
+    """Return the report of an asset whose file, settings and result are unchanged, or None."""
     report = report_file.read(asset.folder)
     if report is None or report["status"] == "failed" or report["settings"] != settings.as_json():
         return None
     if not asset.target.is_file() or entries.digest(asset.target) != report["output_digest"]:
         return None
-    # Written over its source, it is that no more.
+    # An asset that overwrote its source no longer has the source's digest.
     unchanged = (report["source_digest"], report["output_digest"])[: 2 if asset.target == asset.source else 1]
     return report if entries.digest(asset.source) in unchanged else None
 

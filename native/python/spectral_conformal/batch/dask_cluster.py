@@ -1,6 +1,6 @@
-"""The batch on an existing Dask cluster: a task is an asset, and goes to a worker process of the batch's own there.
+"""The batch on an existing Dask cluster: each task is an asset, and runs in one of the batch's own worker processes.
 
-Dask's worker itself never loads Blender: it would grow, and a crash or a hang of Blender would be its own.
+Dask's worker itself never loads Blender: its memory would grow, and Blender's crashes or hangs would affect it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _started: list[tuple[WorkerProcess, Launcher]] = []
 def unwrap(
     line: str, in_blender: bool, limits: Limits, blender: str | None, threads: int, log_folder: str
 ) -> dict[str, Any]:
-    """Return the report of a request. Called in threads of a Dask worker, which keep their processes."""
+    """Return the report of a request. Runs in threads of a Dask worker, which keep their processes."""
     limit = _memory_limit()
     if limit is not None:
         limits = dataclasses.replace(limits, memory=min(limit, limits.memory or limit))
@@ -41,7 +41,7 @@ def unwrap(
 
 
 def _memory_limit() -> int | None:
-    """Return the bytes that Dask grants one thread of the worker that this is called in; None for any number."""
+    """Return the bytes that the current Dask worker grants one thread; None for no limit."""
     import distributed
 
     try:
@@ -68,14 +68,13 @@ def run(
     threads: int,
     log_folder: Path,
 ) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Yield the index of every request and its report, as they come from the cluster.
+    """Yield the index and the report of every request as they come from the cluster.
 
-    Requests are lines, each with whether it is for a worker with Blender. A Dask worker that dies is Dask's to replace,
-    and its asset begun again by another. An asset that ran out of memory
-    is given to a worker that has more, where there is one.
+    Each request is a line, with a flag for workers with Blender. Dask replaces a Dask worker that dies, and another one
+    starts its asset again. An asset that ran out of memory goes to a worker with more memory, if there is one.
 
     Raises:
-        SettingsError: Dask is not installed, or nothing answers at the address.
+        SettingsError: Dask is not installed, or no scheduler answers at the address.
         StartError: a Dask worker cannot start a worker of the batch.
     """
     try:
@@ -109,7 +108,7 @@ def run(
 
 
 def _report(future: Any) -> dict[str, Any]:  # noqa: ANN401 - distributed is not installed everywhere
-    """Return the report of a task, also of one that Dask gave up."""
+    """Return the report of a task, also if Dask gave up on it."""
     error = future.exception()
     if error is None:
         return future.result()
@@ -119,7 +118,7 @@ def _report(future: Any) -> dict[str, Any]:  # noqa: ANN401 - distributed is not
 
 
 def _larger_workers(client: Any, report: dict[str, Any]) -> list[str]:  # noqa: ANN401 - as above
-    """Return the addresses of the Dask workers with more memory than the limit by which an asset has failed."""
+    """Return the addresses of the Dask workers with more memory than the limit that an asset exceeded."""
     failure = report.get("failure", {})
     if failure.get("kind") != "memory" or "limit" not in failure:
         return []

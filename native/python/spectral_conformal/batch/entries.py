@@ -1,4 +1,4 @@
-"""The assets of a batch: which files, and where what is made of them goes."""
+"""The assets of a batch: their files, and the paths of their results."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ THUMBNAIL = "thumbnail.png"
 
 
 class InputError(Exception):
-    """The inputs cannot be a batch; the message says which and why."""
+    """The inputs do not form a batch; the message says which and why."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class Entry:
     """An asset: a file to unwrap.
 
     Attributes:
-        name: path below the folder that all inputs have in common, with slashes; unique in the batch.
+        name: path relative to the common folder of all inputs, with slashes; unique in the batch.
         source: the file, absolute.
-        folder: where its report and pictures go, absolute.
+        folder: for its report and pictures, absolute.
         target: the unwrapped file, absolute.
     """
 
@@ -44,17 +44,17 @@ class Entry:
 def find(
     inputs: Sequence[str], out: Path, suffix: str = "", usd_over: bool = False, overwrite_source: bool = False
 ) -> list[Entry]:
-    """Return the assets in files and, with all below them, folders, sorted by name.
+    """Return the assets in files and (recursively) folders, sorted by name.
 
     Args:
-        inputs: files and folders. Of a folder those files count that can be read; a file always counts.
-        out: folder of the results; what lies in it is no input.
-        suffix: ".obj" for unwrapped files with the meshes alone; empty for that of the source.
+        inputs: files and folders. In a folder, only files of readable formats count; a file always counts.
+        out: folder of the results; its content is not an input.
+        suffix: ".obj" for unwrapped files with only the meshes; empty for the source's suffix.
         usd_over: USD becomes a layer over the source.
         overwrite_source: write every unwrapped file over its source.
 
     Raises:
-        InputError: an input does not exist, nothing is found, or two results would be one file.
+        InputError: an input does not exist, nothing is found, or two results would have the same path.
     """
     out = out.resolve()
     roots = [_resolved(name) for name in inputs]
@@ -80,7 +80,7 @@ def _resolved(name: str) -> Path:
 def _files(root: Path, out: Path) -> Iterable[Path]:
     if root.is_file():
         return [root]
-    # Links to folders, which may go in circles, are not followed; a folder that cannot be read is left out.
+    # Links to folders are not followed, since they may form cycles; an unreadable folder is skipped.
     walked = (Path(folder, name) for folder, _, names in os.walk(root) for name in names)
     found = (path for path in walked if path.suffix.lower() in READABLE and path.is_file())
     return (path for path in found if out not in path.parents and not path.name.startswith("."))

@@ -1,4 +1,4 @@
-"""Assets of all formats: read, written with UVs, and read again."""
+"""Assets of all formats: read them, write them with UVs, and read them back."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _Z_UP = (".blend", ".ply", ".stl", ".off")
 
 
 def needs_blender(source: Path, settings: BatchSettings) -> bool:
-    """Tell whether an asset is for a worker with Blender."""
+    """Return whether an asset needs a worker with Blender."""
     return source.suffix.lower() in OF_BLENDER or settings.checker or settings.seams == SMART
 
 
@@ -29,7 +29,7 @@ def read(source: Path, settings: BatchSettings) -> Asset | BlenderAsset:
     """Read an asset.
 
     Raises:
-        AssetError: it cannot be read, or holds nothing to unwrap.
+        AssetError: it cannot be read, or contains nothing to unwrap.
         OSError: the file cannot be opened.
     """
     suffix = source.suffix.lower()
@@ -49,13 +49,13 @@ def read(source: Path, settings: BatchSettings) -> Asset | BlenderAsset:
 def write(
     target: Path, asset: Asset | BlenderAsset, maps: Sequence[UvMap]
 ) -> tuple[Sequence[AssetMesh], Sequence[str]]:
-    """Write an asset with other UVs; return its meshes as they are read again, and what is to be said of it.
+    """Write an asset with new UVs; return its meshes as read back, and the warnings.
 
-    What lay there is replaced when that which was written has been read again and is right.
+    An existing file is replaced only after the new one has been read back and checked.
 
     Raises:
         AssetError: it cannot be written.
-        OSError: it cannot be written, or is not read again as it was written.
+        OSError: it cannot be written, or does not read back as written.
     """
     if target.suffix.lower() not in OF_BLENDER:
         warnings = assets.write(target, asset, maps)
@@ -79,5 +79,5 @@ def write(
 
 
 def y_is_up(source: Path) -> bool:
-    """Tell whether the second axis points upwards by the custom of a format."""
+    """Return whether the second axis points upward by the convention of the format."""
     return source.suffix.lower() not in _Z_UP

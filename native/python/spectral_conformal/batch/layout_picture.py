@@ -1,4 +1,4 @@
-"""A picture of a UV layout colored by distortion, as a PNG file; with NumPy only, like Blender's Python."""
+"""A picture of a UV layout colored by distortion, as a PNG file; only with NumPy, which Blender's Python has."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .._color_ramp import GOOD_TO_BAD, displayed_colors
 _BACKGROUND = (30, 30, 34)
 _TILE = (44, 44, 50)
 _INK = (225, 225, 225)
-# Rows or pixels of triangles at once, to limit memory.
+# Rows or pixels of triangles per step, to limit memory.
 _BLOCK = 1 << 21
 # Files are a tenth larger than at zlib's default level, in half the time.
 _COMPRESSION = 4
 
-# Glyphs of 5 x 7 pixels, a row per number, the highest bit to the left.
+# Glyphs of 5 x 7 pixels, one number per row, the highest bit at the left.
 _GLYPHS = {
     "0": (14, 17, 19, 21, 25, 17, 14),
     "1": (4, 12, 4, 4, 4, 4, 14),
@@ -41,13 +41,13 @@ _LEGEND_WIDTH = 64
 
 
 def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int) -> np.ndarray:
-    """Return the picture of a layout with its legend below, (size + 28, size, 3) uint8, the first row on top.
+    """Return the picture of a layout with its legend below, (size + 28, size, 3) uint8, the first row at the top.
 
     Args:
-        uv: (T, 3, 2), triangles in the map. Shows the square from 0 to 1, or more if triangles lie outside.
+        uv: (T, 3, 2), triangles in the map. The picture shows the unit square, or more if triangles lie outside.
         values: (T,), quasi-conformal distortion of each.
         low: the value of the first color.
-        high: the value of the last color, and of all above.
+        high: the value of the last color, which larger values get, too.
         size: side of the square in pixels.
     """
     finite = np.isfinite(uv)
@@ -62,7 +62,7 @@ def draw(uv: np.ndarray, values: np.ndarray, low: float, high: float, size: int)
     picture[:] = _BACKGROUND
     low_tile, high_tile = (np.clip((value - corner) / extent * size, 0, size).astype(int) for value in (0.0, 1.0))
     picture[low_tile[1] : high_tile[1], low_tile[0] : high_tile[0]] = _TILE
-    # The worst last, on top of others in the same pixel.
+    # The worst triangles come last, on top of others in the same pixel.
     order = np.argsort(np.nan_to_num(values, nan=np.inf), kind="stable")
     _fill(picture, (uv[order] - corner) / extent * size, _colors(values[order], low, high))
     return np.concatenate([picture[::-1], _legend(size, low, high)])
@@ -74,11 +74,11 @@ def _colors(values: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
-    """Color the pixels whose centers lie in triangles, (T, 3, 2) in pixels, the later over the earlier."""
+    """Color the pixels whose centers lie in triangles, (T, 3, 2) in pixels; later triangles cover earlier ones."""
     size = len(picture)
-    # The last of several values for one pixel stays.
+    # Of several values for one pixel, the last one stays.
     owner = np.full(size * size, -1)
-    # Corner by corner, ten times as fast as along a short axis.
+    # Corner by corner: ten times as fast as along a short axis.
     a, b, c = points.transpose(1, 0, 2)
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     first, end = _centres(low[:, 1], high[:, 1], size)
@@ -100,13 +100,13 @@ def _fill(picture: np.ndarray, points: np.ndarray, colors: np.ndarray) -> None:
 
 
 def _centres(low: np.ndarray, high: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first pixel of a line whose center lies between `low` and `high`, and the end of these pixels."""
+    """Return the range (begin, end) of a line's pixels whose centers lie between `low` and `high`."""
     first = np.clip(np.ceil(low - 0.5), 0, size).astype(int)
     return first, np.maximum(first, np.clip(np.floor(high + 0.5), 0, size).astype(int))
 
 
 def _parts(counts: np.ndarray) -> Iterator[slice]:
-    """Yield slices of items with these numbers of parts, limited in size to be processed at once."""
+    """Yield slices of items, given their numbers of parts, small enough to process at once."""
     ends = np.cumsum(counts)
     start = 0
     while start < len(counts):
@@ -117,7 +117,7 @@ def _parts(counts: np.ndarray) -> Iterator[slice]:
 
 
 def _ranges(first: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the concatenated ranges from `first` to `end`, and the range index of each number."""
+    """Return the concatenated ranges from `first` to `end`, and the index of each number's range."""
     counts = end - first
     owner = np.repeat(np.arange(len(counts)), counts)
     within = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -131,7 +131,7 @@ def _spans(corners: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         (start_x, start_y), (end_x, end_y) = corners[:, k].T, corners[:, (k + 1) % 3].T
         with np.errstate(divide="ignore", invalid="ignore"):
             x = start_x + (y - start_y) / (end_y - start_y) * (end_x - start_x)
-        # Level edges are between two others that end where they do.
+        # Horizontal edges can be skipped: the two adjacent edges share their ends.
         crosses = (np.minimum(start_y, end_y) <= y) & (y <= np.maximum(start_y, end_y)) & (start_y != end_y)
         np.minimum(left, x, out=left, where=crosses)
         np.maximum(right, x, out=right, where=crosses)
@@ -139,7 +139,7 @@ def _spans(corners: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _legend(width: int, low: float, high: float) -> np.ndarray:
-    """Return the legend: a name, and the colors between their values."""
+    """Return the legend: a name, and the colors between their end values."""
     legend = np.empty((_LEGEND_HEIGHT, width, 3), dtype=np.uint8)
     legend[:] = _BACKGROUND
     cells = max(1, width - 2 * _LEGEND_WIDTH)
@@ -173,7 +173,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 
 def thumbnail(picture: np.ndarray, size: int) -> np.ndarray:
-    """Return the picture with sides of at most `size`, by averages of blocks of pixels."""
+    """Return the picture reduced to sides of at most `size` by averaging blocks of pixels."""
     step = -(-max(picture.shape[:2]) // size)
     height, width = (length // step * step for length in picture.shape[:2])
     total = np.zeros((height // step, width // step, 3))

@@ -1,5 +1,5 @@
-"""The memory that a process holds: resident pages, of which a machine runs out; not addresses, of which Blender
-reserves many times as much, so that a limit of those (RLIMIT_AS) would stop it at once."""
+"""The memory that a process holds: resident pages, which a machine can run out of. A limit on addresses (RLIMIT_AS)
+would stop Blender at once, because it reserves many times as many."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _KIBIBYTE = 1024
 
 
 def reset_peak() -> None:
-    """Let `peak` begin anew; where the system has no such thing, it goes on from the start of the process."""
+    """Restart `peak`; on systems that cannot do that, it counts from the start of the process."""
     # Not Linux, or a container that forbids it.
     with contextlib.suppress(OSError):
         (_PROC / "self" / "clear_refs").write_text("5")
 
 
 def peak() -> int | None:
-    """Return the most bytes that this process has held since `reset_peak`; None where the system does not tell."""
+    """Return the maximum number of bytes that this process has held since `reset_peak`; None if unknown."""
     return _status("self", "VmHWM")
 
 
@@ -35,7 +35,7 @@ def _status(process: object, name: str) -> int | None:
 
 
 def resident(process: int) -> int | None:
-    """Return the bytes that another process holds; None where it is gone or the system does not tell."""
+    """Return the bytes that another process holds; None if it has ended or the number is unknown."""
     if sys.platform == "linux":
         return _status(process, "VmRSS")
     measure = _psutil_measure()
@@ -43,7 +43,7 @@ def resident(process: int) -> int | None:
 
 
 def is_measurable() -> bool:
-    """Tell whether `resident` works here."""
+    """Return whether `resident` works on this system."""
     return sys.platform == "linux" or _psutil_measure() is not None
 
 

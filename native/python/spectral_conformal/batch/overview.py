@@ -1,4 +1,4 @@
-"""What became of all assets of a batch: a summary as JSON and CSV, and a page to look through."""
+"""The overview of a batch: a summary as JSON and CSV, and a page for browsing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from . import entries, report_file
 
 JSON, CSV, PAGE = "summary.json", "summary.csv", "index.html"
 
-# Name of the column, and where it stands in a report.
+# Name of the column, and its path in a report.
 COLUMNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("name", ("name",)),
     ("status", ("status",)),
@@ -40,7 +40,7 @@ COLUMNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("message", ("failure", "message")),
     ("not_met", ("not_met",)),
 )
-# What a spreadsheet computes; OWASP, "CSV Injection".
+# Characters that begin a formula in a spreadsheet; OWASP, "CSV Injection".
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 _STYLE = """
 body{font:14px system-ui,sans-serif;margin:1.5em;background:#fff;color:#222}
@@ -50,7 +50,7 @@ th[data-sorted=down]::after{content:" \\25BC"}td.text,th.text{text-align:left}
 tr.failed td{background:#fdd}tr.incomplete td{background:#ffd}img{width:80px;height:80px;display:block}
 .links{font-size:smaller}
 """
-# Numbers by size, texts by the alphabet; what is empty last.
+# Numbers by size, texts alphabetically; empty cells last.
 _SCRIPT = """
 document.querySelectorAll("th").forEach((head, column) => head.addEventListener("click", () => {
   const body = document.querySelector("tbody"), down = head.dataset.sorted === "up";
@@ -65,7 +65,7 @@ document.querySelectorAll("th").forEach((head, column) => head.addEventListener(
 
 
 def line(report: dict[str, Any]) -> str:
-    """Return what to say of an asset in a line."""
+    """Return a one-line summary of an asset."""
     failure = report.get("failure")
     if failure:
         return f"{report['status']} ({failure['kind']}): {failure['message']}"
@@ -79,7 +79,7 @@ def line(report: dict[str, Any]) -> str:
 
 
 def row(report: dict[str, Any]) -> dict[str, Any]:
-    """Return the columns of a report, None where it has nothing to say, or nothing of the column's kind."""
+    """Return the columns of a report, None for values that are missing or of the wrong kind."""
     found = {name: _value(report, path) for name, path in COLUMNS}
     return {
         name: value if _kind(name) == "text" or report_file.is_number(value, or_none=True) else None
@@ -113,13 +113,13 @@ def write(out: Path, reports: Sequence[dict[str, Any]], is_interrupted: bool = F
     writer = csv.DictWriter(table, [name for name, _ in COLUMNS])
     writer.writeheader()
     writer.writerows({name: _no_formula(value) for name, value in found.items()} for found in rows)
-    # Names of files are bytes on Linux, and no text of a page.
+    # File names are bytes on Linux, and may not be valid text.
     report_file.replace(out / CSV, table.getvalue().encode(errors="surrogateescape"))
     report_file.replace(out / PAGE, _page(out, rows, counts).encode(errors="replace"))
 
 
 def _no_formula(value: Any) -> Any:  # noqa: ANN401 - any of JSON's
-    """Return a text that a spreadsheet would take for a formula behind a quote, anything else as it is."""
+    """Return a text that a spreadsheet would take for a formula with a quote before it, anything else unchanged."""
     return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
 
 
@@ -159,7 +159,7 @@ def _cell(name: str, value: Any, links: str) -> str:  # noqa: ANN401 - any of JS
 
 
 def _links(out: Path, found: dict[str, Any]) -> str:
-    """Return links to what there is of an asset beside the layout."""
+    """Return links to the existing files of an asset besides the layout."""
     folder = out / found["name"]
     there = {"report": folder / entries.REPORT, "checker": folder / entries.CHECKER}
     links = [f'<a href="{_relative(path, out)}">{name}</a>' for name, path in there.items() if path.exists()]
@@ -167,7 +167,7 @@ def _links(out: Path, found: dict[str, Any]) -> str:
 
 
 def _picture(out: Path, found: dict[str, Any]) -> str:
-    """Return the thumbnail, in the page itself, as a link to the picture."""
+    """Return the thumbnail, embedded in the page, as a link to the picture."""
     folder = out / found["name"]
     try:
         data = base64.b64encode((folder / entries.THUMBNAIL).read_bytes()).decode()

@@ -1,4 +1,4 @@
-"""Several workers on this machine, each fed by a thread of its own."""
+"""Several workers on this machine, each fed by its own thread."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from .worker_process import Launcher, Limits, StartError, WorkerProcess
 
 
 def run(requests: Sequence[tuple[str, Launcher]], limits: Limits, jobs: int) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Yield the index of every request and its report, as they come; `jobs` are made at once.
+    """Yield the index and the report of every request as they finish; `jobs` of them run at once.
 
-    Requests are lines, each with what starts a worker for it; a thread keeps a worker of each kind that it has had.
-    When the caller stops taking reports, the workers are ended.
+    Each request is a line, with the launcher of its worker; a thread keeps one worker of each kind that it has needed.
+    The workers end when the caller stops taking reports.
 
     Raises:
-        StartError: no worker gets ready.
+        StartError: no worker becomes ready.
     """
     waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
     for index in range(len(requests)):

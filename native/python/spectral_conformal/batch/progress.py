@@ -1,4 +1,4 @@
-"""How far a batch is: a bar of tqdm's where that is installed and a terminal there, else a line per asset."""
+"""Progress of a batch: a tqdm bar if tqdm is installed and the output is a terminal, otherwise a line per asset."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-# Takes the name of an asset, its status and what to say of it.
+# Takes the name of an asset, its status and its summary.
 Advance = Callable[[str, str, str], None]
 
 
 @contextmanager
 def bar(total: int, quiet: bool) -> Iterator[Advance]:
-    """Yield a function to be called for every asset that is done; with `quiet` only what failed is printed."""
+    """Yield a function to call for every finished asset; with `quiet` it prints only failures."""
     if quiet:
         yield _print_failure
         return
@@ -52,7 +52,7 @@ def _lines(total: int) -> Advance:
 
 
 def duration(seconds: float) -> str:
-    """Return hours, minutes and seconds as people write them."""
+    """Return a duration as hours:minutes:seconds."""
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

@@ -1,4 +1,4 @@
-"""The report of an asset as a file, which is there whole or not at all."""
+"""The report of an asset as a file that is complete or does not exist."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NUMBERS = tuple(field.name for field in fields(MapReport))
 
 
 def replace(path: Path, content: bytes) -> None:
-    """Write a file under another name in its folder, then give it its own."""
+    """Write a file under a temporary name in its folder, then rename it."""
     partial = temporary_beside(path)
     try:
         partial.write_bytes(content)
@@ -31,7 +31,7 @@ def write(folder: Path, report: dict[str, Any]) -> None:
 
 
 def read(folder: Path) -> dict[str, Any] | None:
-    """Return the report in an asset's folder; None where there is none, or nothing that this module has written."""
+    """Return the report in an asset's folder; None if there is none, or if this module did not write it."""
     try:
         found = json.loads((folder / entries.REPORT).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -40,7 +40,7 @@ def read(folder: Path) -> dict[str, Any] | None:
 
 
 def _is_report(found: object) -> bool:
-    """Tell whether everything is there, and of the kind, that others use: a file may be from anybody."""
+    """Return whether all values that others use exist and have the right type: a file may be from anybody."""
     if not isinstance(found, dict) or found.get("status") not in _STATUSES:
         return False
     if found["status"] == "failed":
@@ -57,5 +57,5 @@ def _is_report(found: object) -> bool:
 
 
 def is_number(value: object, or_none: bool = False) -> bool:
-    """Tell whether a value of JSON is a number."""
+    """Return whether a JSON value is a number."""
     return (value is None and or_none) or (isinstance(value, (int, float)) and not isinstance(value, bool))

@@ -1,4 +1,4 @@
-"""What a batch does with every asset, as options of the command line, keys of a settings file, and JSON."""
+"""The settings of a batch, as options of the command line, keys of a settings file, and JSON."""
 
 from __future__ import annotations
 
@@ -13,43 +13,43 @@ from ..assets.unwrapping import SEAMS, Cutting, Layout
 
 SMART = "smart"
 ALL_SEAMS = (*SEAMS, SMART)
-# As the operator of the add-on is set.
+# The defaults of the add-on's operator.
 _OPTIONS = Options(hole_rigidity=AUTOMATIC, polish=True)
-# Nobody looks at each asset to ask for more cuts, so a mesh gets those that pay until its distortion of angles is not
-# seen. Of 23 kinds of generated meshes 12 had more of it than xatlas leaves with the operator's limit, 3 with this one,
-# as without any limit, which cuts a good rock into 34 islands instead of 6 (tests/benchmarks/generated_assets.py).
+# Nobody inspects each asset and asks for more cuts, so a mesh gets all cuts that pay until its angle distortion is
+# invisible. Of 23 kinds of generated meshes, 12 had more distortion than with xatlas at the operator's limit, 3 at this
+# one and 3 without a limit, which cuts a good rock into 34 islands instead of 6 (tests/benchmarks/generated_assets.py).
 _SUGGESTION = SeamOptions(qc_limit=1.01, qc_gain=0.001)
-# Given by the options of the maps.
+# Taken from the options of the maps.
 _SHARED = ("weights", "boundary", "factorization")
 _RECORDS = ("options", "suggestion")
 
 
 class SettingsError(Exception):
-    """A setting that is unknown, or a value that it cannot have; the message names both."""
+    """A setting is unknown or has an invalid value; the message names both."""
 
 
 @dataclass(frozen=True)
 class BatchSettings:
-    """What to do with seams, islands and packing of an asset, and what to write beside it.
+    """How to cut, unwrap and pack an asset, and which extra files to write.
 
     Attributes:
-        seams: keep: the seams that the file marks, or where it marks none, the islands of its map. The others add to
-            marked seams: suggest: where that lowers the distortion most; sharp: by the angle between faces; smart: the
-            borders of the islands of Blender's Smart UV Project, which needs Blender.
+        seams: keep: the seams that the file marks or, if it marks none, the island borders of its map. The others add
+            to marked seams: suggest: where that lowers the distortion most; sharp: by the angle between faces; smart:
+            the island borders of Blender's Smart UV Project, which needs Blender.
         sharp_angle: degrees between two faces from which "sharp" makes their edge a seam.
-        weld_distance: part of the bounding box's diagonal within which vertices on open borders count as one, so that
-            islands go across; the file's own vertices stay; 0 for none.
-        unwrap: solve the islands, or leave them as they are.
-        pack: pack all islands together, or leave them where they are.
-        margin_pixels: between packed islands, and between them and the border of the texture, in pixels of it.
+        weld_distance: fraction of the bounding box's diagonal within which vertices on open borders count as one, so
+            that islands continue across them; the file's own vertices stay; 0 for none.
+        unwrap: solve the islands, or leave them unchanged.
+        pack: pack all islands together, or leave them in their positions.
+        margin_pixels: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
-        uv_map: name of the UV map to write, made where it is missing; without one that which the format's programs use
-            first. Of glTF the n of TEXCOORD_n, or any name for a set that no mesh has.
-        usd_over: write a USD layer over the untouched source in place of a whole file.
-        picture_size: pixels of one side of the picture of the layout, 0 for none.
+        uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
+            first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
+        usd_over: write a USD layer over the untouched source instead of a whole file.
+        picture_size: side of the picture of the layout in pixels, 0 for none.
         checker: render the asset with a checker, which needs Blender.
         options: how maps are made.
-        suggestion: what the search for seams is set to.
+        suggestion: options of the search for seams.
     """
 
     seams: str = "suggest"
@@ -70,7 +70,7 @@ class BatchSettings:
         """Check every value.
 
         Raises:
-            ValueError: a value is of the wrong kind or out of its range.
+            ValueError: a value has the wrong type or is out of range.
         """
         for field in fields(self):
             if field.name in _RECORDS:
@@ -108,19 +108,19 @@ class BatchSettings:
 
     @property
     def layout(self) -> Layout:
-        """How islands are laid out."""
+        """How to lay out islands."""
         return Layout(self.pack, self.margin_pixels, *self.texture)
 
     @property
     def cutting(self) -> Cutting:
-        """Where meshes are cut; "smart" is for Blender, and counts as "keep" here."""
+        """Where to cut meshes; "smart" is up to Blender, and counts as "keep" here."""
         shared = {name: getattr(self.options, name) for name in _SHARED}
         options = dataclasses.replace(self.suggestion, **shared)
         seams = "keep" if self.seams == SMART else self.seams
         return Cutting(seams, False, self.sharp_angle, self.weld_distance, options)
 
     def as_json(self) -> dict[str, Any]:
-        """Return the settings by name, as `from_values` takes them."""
+        """Return the settings by name, in the form that `from_values` accepts."""
         found = {name: getattr(getattr(self, record) if record else self, name) for name, record in NAMES.items()}
         return {name: list(value) if isinstance(value, tuple) else value for name, value in found.items()}
 
@@ -131,15 +131,15 @@ def _names() -> dict[str, str]:
     return {**own, **maps, **{field.name: "suggestion" for field in fields(SeamOptions) if field.name not in _SHARED}}
 
 
-# Every setting, and the field of `BatchSettings` that holds it; "" for its own.
+# Every setting, and the record within `BatchSettings` that holds it; "" for `BatchSettings` itself.
 NAMES = _names()
 
 
 def from_values(values: dict[str, Any]) -> BatchSettings:
-    """Return the settings that have these values, by the names of `NAMES`; the others have their defaults.
+    """Return settings with these values, by the names in `NAMES`, and defaults for the others.
 
     Raises:
-        SettingsError: a name is unknown, or a value not one of its setting.
+        SettingsError: a name is unknown, or a value is invalid for its setting.
     """
     unknown = sorted(set(values) - set(NAMES))
     if unknown:

@@ -1,4 +1,4 @@
-"""One asset by some settings to a report: what every door of the batch comes to."""
+"""Unwrap one asset with given settings and report on it: the core of every batch."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ THUMBNAIL = 160
 
 @dataclass(frozen=True)
 class Request:
-    """What to unwrap, by values that JSON has.
+    """A request to unwrap an asset; all values are JSON values.
 
     Attributes:
         name: of the asset in the batch.
         source: the file.
-        folder: where report and pictures go; must exist.
+        folder: for the report and pictures; must exist.
         target: the unwrapped file.
-        settings: as `settings.from_values` takes them.
+        settings: in the form that `settings.from_values` accepts.
     """
 
     name: str
@@ -51,7 +51,7 @@ class Request:
 
 
 class _Phases:
-    """Seconds by the name of a phase."""
+    """Seconds per phase, by name."""
 
     def __init__(self) -> None:
         self.seconds: dict[str, float] = {}
@@ -66,9 +66,9 @@ class _Phases:
 
 
 def run(request: Request) -> dict[str, Any]:
-    """Unwrap one asset, write the file, the pictures and at last the report, and return it.
+    """Unwrap one asset, write the file, the pictures and finally the report, and return the report.
 
-    What is wrong with the asset is in the report; the results appear whole or not at all.
+    Problems of the asset are in the report. Each file appears completely or not at all.
     """
     memory.reset_peak()
     start = time.perf_counter()
@@ -85,8 +85,8 @@ def run(request: Request) -> dict[str, Any]:
     except (AssetError, SettingsError, MemoryError, OSError) as error:
         kind = "memory" if isinstance(error, MemoryError) else "error"
         report.update(status="failed", failure={"kind": kind, "message": str(error) or "there is too little memory"})
-    except Exception as error:  # noqa: BLE001 - importers are others' Python; the next asset is not their fault
-        # The log has where it was.
+    except Exception as error:  # noqa: BLE001 - importers are third-party Python; the next asset must go on
+        # For the log.
         traceback.print_exc()
         report.update(status="failed", failure={"kind": "error", "message": f"{type(error).__name__}: {error}"})
     report["versions"] = versions()
@@ -97,7 +97,7 @@ def run(request: Request) -> dict[str, Any]:
 
 
 def versions() -> dict[str, str]:
-    """Return what the result may depend on."""
+    """Return the versions that may affect the result."""
     build = build_info()
     found = {
         "factorization": str(build["factorization"]),
@@ -138,13 +138,13 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
 
 
 def _on_scales(meshes: Sequence[AssetMesh]) -> list[str]:
-    """Say of meshes whose density in the scene is that of the others on average only."""
+    """Warn of meshes whose density in the scene matches that of the others only on average."""
     uneven = [mesh.name for mesh in meshes if not mesh.is_scaled_evenly]
     return [f"Scaled unevenly in the scene, so that density is an average: {', '.join(uneven)}."] if uneven else []
 
 
 def _on_faces(totals: dict[str, Any]) -> list[str]:
-    """Say how many faces have nothing to paint on, by a fault of the mesh or of the map."""
+    """Warn of faces that cannot be painted because of a defect of the mesh or the map."""
     kinds = {
         "degenerate": "have no area",
         "collapsed": "have no area in the map",
@@ -154,7 +154,7 @@ def _on_faces(totals: dict[str, Any]) -> list[str]:
 
 
 def _told(values: dict[str, Any]) -> dict[str, Any]:
-    """Return values as JSON has them, which knows nothing that is no number."""
+    """Return values for JSON, with None for NaN."""
     return {name: None if value != value else value for name, value in values.items()}
 
 
@@ -186,7 +186,7 @@ def _unwrap(
 
 
 def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[str]) -> list[CutMesh]:
-    """Cut every mesh; one that the search refuses is cut where it was, and named."""
+    """Cut every mesh; if the search rejects one, cut it at its own seams and add a warning."""
     found = []
     for mesh in meshes:
         try:
@@ -208,7 +208,7 @@ def _cut(meshes: Sequence[AssetMesh], settings: BatchSettings, warnings: list[st
 def _unwrapped(
     cut_mesh: CutMesh, settings: BatchSettings, failures: Counter[str], objects: dict[str, list[str]]
 ) -> Unwrap | None:
-    """Return the maps of a mesh, None for one that is refused as a whole; note what failed, and of what objects."""
+    """Return the maps of a mesh, None if it is rejected as a whole; record failures and their objects."""
     mesh = cut_mesh.mesh
     try:
         result = unwrapped(cut_mesh, settings.options)
@@ -232,7 +232,7 @@ def _named(mesh: AssetMesh, sentence: str) -> str:
 
 
 def _note(results: Sequence[Unwrap | None], failures: Counter[str], report: dict[str, Any]) -> None:
-    """Enter which islands were solved by a fallback or after a repair, and which not at all."""
+    """Record the islands that were solved by a fallback or after a repair, and those that failed."""
     fallbacks: Counter[str] = Counter()
     repairs: Counter[str] = Counter()
     for result in filter(None, results):
@@ -243,7 +243,7 @@ def _note(results: Sequence[Unwrap | None], failures: Counter[str], report: dict
 
 
 def _keep(asset: Asset | BlenderAsset, layout: Layout, phases: _Phases) -> list[UvMap]:
-    """Return the maps that there are, packed where that is asked for."""
+    """Return the existing maps, packed if requested."""
     missing = [mesh.name or asset.suffix for mesh in asset.meshes if not mesh.has_uv().any()]
     if len(missing) == len(asset.meshes):
         raise AssetError(f"There is no UV map in {', '.join(missing)}: leave out --no-unwrap.")
@@ -260,7 +260,7 @@ def _draw(
     written: Sequence[AssetMesh],
     report: dict[str, Any],
 ) -> None:
-    """Write the picture of the layout, and the checker where it is asked for."""
+    """Write the picture of the layout and, if requested, the checker."""
     folder = Path(request.folder)
     if settings.picture_size:
         picture = layout_picture.draw(*measured.triangles(), *measured.qc_range(), settings.picture_size)
@@ -278,5 +278,5 @@ def _draw(
 
 
 def request_of(text: str) -> Request:
-    """Return the request that a line of JSON says."""
+    """Return the request in a line of JSON."""
     return Request(**json.loads(text))

@@ -1,4 +1,4 @@
-"""A process that unwraps one asset after another: requests come in as lines of JSON, reports go out as such."""
+"""A process that unwraps one asset after another: it reads requests and writes reports as lines of JSON."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import time
 from collections.abc import Callable
 from typing import Any, TextIO
 
-# Before a report, since Blender and its importers print what they like.
+# Marks a report, since Blender and its importers print other lines.
 MARK = "@spectral_conformal "
 READY = "ready"
-# In the environment: how many threads a worker may use.
+# Environment variable: the number of threads of a worker.
 THREADS = "SPECTRAL_CONFORMAL_THREADS"
 _POLL_SECONDS = 1.0
 
@@ -21,9 +21,9 @@ _POLL_SECONDS = 1.0
 def main(run: Callable[[str], dict[str, Any]] | None = None) -> int:
     """Serve requests from standard input until it ends; return the exit code.
 
-    `run` makes a report of a request's line; that of `task` unless given.
+    `run` returns the report for a request's line; by default it is that of `task`.
     """
-    # What others print goes to the log, standard error; the channel of the reports is this process's alone.
+    # Other output goes to the log, standard error; only this module writes to the reports' channel.
     channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
@@ -45,7 +45,7 @@ def _send(channel: TextIO, report: dict[str, Any]) -> None:
 
 
 def _end_with_parent(parent: int) -> None:
-    """End this process at once when the one that started it has died, even in the middle of a solve."""
+    """End this process at once when its parent dies, even during a solve."""
     while os.getppid() == parent:
         time.sleep(_POLL_SECONDS)
     os._exit(1)

@@ -1,4 +1,4 @@
-"""Worker processes from outside: started, fed, limited, ended and started anew."""
+"""Control of worker processes: start, feed, limit, end and restart them."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ from . import memory, worker
 
 _MODULE = "spectral_conformal.batch.worker"
 _POLL_SECONDS = 0.05
-# A Blender on a slow disk may take this long until it is ready.
+# Blender on a slow disk may take this long to start.
 _START_SECONDS = 300.0
 _LOG_LINES = 8
 _THREADS = (worker.THREADS, "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class StartError(Exception):
-    """There is no program to start, or it does not get ready; the message says what to do."""
+    """There is no program to start, or it does not become ready; the message says what to do."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What an asset may take.
+    """Limits of an asset.
 
     Attributes:
-        seconds: until its worker is ended; None for any time.
-        memory: bytes that its worker may hold; None for any number.
-        files: after which a worker is replaced by a new one, since Blender's memory grows over many files.
-        retries: how often an asset is tried again whose worker crashed or was ended.
+        seconds: until its worker is ended; None for no limit.
+        memory: bytes that its worker may hold; None for no limit.
+        files: after which a new worker replaces the old one, since Blender's memory grows over many files.
+        retries: number of further attempts after a worker crashed or was ended.
     """
 
     seconds: float | None = None
@@ -50,17 +50,17 @@ class Limits:
 
 
 def python_command() -> list[str]:
-    """Return the words that start a worker in this Python."""
+    """Return the command that starts a worker in this Python."""
     return [sys.executable, "-m", _MODULE]
 
 
 def blender_command(blender: str | None = None, threads: int = 1) -> list[str]:
-    """Return the words that start a worker with Blender.
+    """Return the command that starts a worker with Blender.
 
-    That is the program that is named; else a Python with `bpy`, if this is one; else a Blender that is on the path.
+    The first of these that exists: the named program, this Python if it has `bpy`, a Blender on the path.
 
     Raises:
-        StartError: there is none of them.
+        StartError: none of them exists.
     """
     if blender is None:
         if importlib.util.find_spec("bpy") is not None:
@@ -77,20 +77,20 @@ def blender_command(blender: str | None = None, threads: int = 1) -> list[str]:
 
 
 class Launcher:
-    """What starts workers: the command, and the environment that it needs."""
+    """The command that starts workers, and its environment."""
 
     def __init__(self, words: Sequence[str], log_folder: Path, threads: int = 1) -> None:
-        """Take the words that start a worker; their output goes to files in `log_folder`, which must exist."""
+        """Take the command that starts a worker; its output goes to files in `log_folder`, which must exist."""
         self.words = list(words)
         self.log_folder = log_folder
         self._links: str | None = None
-        # Several single-threaded workers are faster than one with several threads, and give the same bits everywhere.
+        # Several single-threaded workers are faster than one with several threads, with the same bits everywhere.
         self.environ = {**os.environ, **dict.fromkeys(_THREADS, str(threads))}
         if not _is_python(self.words):
             self._add_module()
 
     def _add_module(self) -> None:
-        """Let a Blender with factory settings find `spectral_conformal`, and nothing else of where it is installed."""
+        """Let a Blender with factory settings find `spectral_conformal`, but not the packages installed beside it."""
         self._links = tempfile.mkdtemp(prefix="spectral_conformal_")
         folder = Path(__file__).resolve().parents[1]
         for path in (folder, folder.with_name(f"{folder.name}.libs")):
@@ -100,7 +100,7 @@ class Launcher:
         self.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
 
     def close(self) -> None:
-        """Remove what it made."""
+        """Remove the temporary files."""
         if self._links is not None:
             shutil.rmtree(self._links, ignore_errors=True)
 
@@ -113,18 +113,18 @@ def _link(path: Path, link: Path) -> None:
     try:
         link.symlink_to(path, target_is_directory=True)
     except OSError:
-        # Windows lets not everybody make links.
+        # Windows does not let everybody create links.
         shutil.copytree(path, link)
 
 
 class WorkerProcess:
-    """One worker at a time, replaced when it has died, was ended, or has seen enough files.
+    """One worker at a time, replaced after it died, was ended, or has processed enough files.
 
     Another thread may close it while it runs a request, which then fails.
     """
 
     def __init__(self, launcher: Launcher, name: object, limits: Limits) -> None:
-        """Start nothing yet; `name` tells the log files apart."""
+        """Start nothing yet; `name` distinguishes the log files."""
         self._launcher = launcher
         self._limits = limits
         self._log = launcher.log_folder / f"worker-{name}.log"
@@ -134,17 +134,17 @@ class WorkerProcess:
 
     @property
     def pid(self) -> int | None:
-        """The process, None while there is none."""
+        """The process, or None."""
         return self._process.pid if self._process else None
 
     def run(self, line: str) -> dict[str, Any]:
-        """Let a worker make the report of a request, within the limits.
+        """Let a worker process a request within the limits, and return its report.
 
-        A worker that dies or is ended for the limits leaves a report with the status "failed", and a `failure` of the
-        kind "crash", "time" or "memory", after `retries` further attempts. Its number is in `attempts`.
+        If the worker dies or exceeds a limit, also in `retries` further attempts, the report has the status "failed"
+        and a `failure` of the kind "crash", "time" or "memory". `attempts` counts the attempts.
 
         Raises:
-            StartError: no worker gets ready.
+            StartError: no worker becomes ready.
         """
         for attempt in range(1, self._limits.retries + 2):
             report = self._attempt(line)
@@ -173,10 +173,10 @@ class WorkerProcess:
         return self._await(self._limits.seconds)
 
     def _start(self) -> dict[str, Any]:
-        """Start a worker; return what it says of itself, or its failure where the limit of memory ended it.
+        """Start a worker; return its first report, or its failure if it exceeded the memory limit.
 
         Raises:
-            StartError: it does not get ready.
+            StartError: it does not become ready.
         """
         self._served = 0
         self._reports = queue.Queue()
@@ -200,7 +200,7 @@ class WorkerProcess:
         return report
 
     def _await(self, seconds: float | None) -> dict[str, Any]:
-        """Return the next report, or that of what became of the worker."""
+        """Return the next report, or one about the end of the worker."""
         end = None if seconds is None else time.monotonic() + seconds
         limit = self._limits.memory
         process = self._process
@@ -233,13 +233,13 @@ class WorkerProcess:
         return lines[-_LOG_LINES:]
 
     def close(self) -> None:
-        """End the worker, if there is one."""
+        """End the worker, if any."""
         process, self._process = self._process, None
         if process is None:
             return
         _kill(process)
         for stream in (process.stdin, process.stdout):
-            # What was still to be written goes nowhere any more.
+            # Unwritten data has no receiver any more.
             with contextlib.suppress(OSError):
                 stream.close()
 
@@ -255,12 +255,12 @@ def _exit_code(process: subprocess.Popen[str]) -> str:
 
 
 def _collect(process: subprocess.Popen[str], reports: queue.Queue[dict[str, Any] | None]) -> None:
-    """Put every report of a worker into the queue, None when it has ended."""
+    """Put every report of a worker into the queue, and None after its end."""
     try:
         for line in process.stdout:
             if line.startswith(worker.MARK):
                 reports.put(json.loads(line[len(worker.MARK) :]))
     except ValueError:
-        # Closed while it was read, or half a line of a worker that died.
+        # Closed during the read, or an incomplete line from a worker that died.
         pass
     reports.put(None)

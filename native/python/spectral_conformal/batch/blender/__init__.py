@@ -1,4 +1,4 @@
-"""What of the batch needs Blender, as a program or as `bpy`: its own files, FBX, Smart UV Project and renders.
+"""The parts of the batch that need Blender, as a program or as `bpy`: .blend, FBX, Smart UV Project and renders.
 
-Nothing but the worker's task imports these modules, and only for assets or settings that need them.
+Only the worker's task imports these modules, and only for assets or settings that need them.
 """

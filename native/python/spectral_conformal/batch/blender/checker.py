@@ -1,4 +1,4 @@
-"""A render of meshes with a checker in their UV maps."""
+"""Render meshes with a checker in their UV maps."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from . import meshes
 _CHECKS = 40.0
 _SAMPLES = 16
 _LENS_DISTANCE = 2.4
-# The brightness of a face that is seen edge-on, beside one that is seen face-on.
+# The brightness of a face seen edge-on, relative to one seen face-on.
 _EDGE_ON = 0.4
 
 
 def render(path: Path, size: int, shown: Sequence[AssetMesh], y_is_up: bool) -> None:
-    """Render meshes from obliquely above to a PNG of `size` pixels, by Cycles, which needs no graphics card.
+    """Render meshes obliquely from above to a PNG of `size` pixels, with Cycles, which needs no graphics card.
 
-    Faces are shaded by how they face the camera, on both sides alike: nothing lies in the shadow of something else.
-    What Blender held before is gone.
+    The shading of a face depends only on its angle to the camera, on both sides alike, so there are no shadows.
+    Blender's previous data is lost.
     """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
@@ -49,7 +49,7 @@ def render(path: Path, size: int, shown: Sequence[AssetMesh], y_is_up: bool) -> 
     scene.collection.objects.link(holder)
     world = bpy.data.worlds.new("checker")
     scene.camera, scene.world = holder, world
-    # A name of our own: in those of others Blender takes braces for templates.
+    # Our own name: Blender interprets braces in the user's names as templates.
     with tempfile.TemporaryDirectory() as folder:
         _set_up(scene, world, Path(folder) / "checker.png", size)
         bpy.ops.render.render(write_still=True)
@@ -92,7 +92,7 @@ def _set_up(scene: bpy.types.Scene, world: bpy.types.World, path: Path, size: in
             node.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     scene.render.engine = "CYCLES"
     scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", _SAMPLES, False
-    # Equal renders of equal maps.
+    # Equal maps give equal renders.
     scene.cycles.seed = 0
     scene.render.resolution_x = scene.render.resolution_y = size
     scene.render.resolution_percentage = 100
@@ -101,7 +101,7 @@ def _set_up(scene: bpy.types.Scene, world: bpy.types.World, path: Path, size: in
 
 
 def shader_nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
-    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 will know no `use_nodes`."""
+    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 removes `use_nodes`."""
     if data.node_tree is None:
         data.use_nodes = True
     return data.node_tree.nodes

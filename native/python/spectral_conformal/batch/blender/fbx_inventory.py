@@ -1,7 +1,7 @@
-"""What kinds of things an FBX file holds, and how many, so that what Blender loses of it can be named.
+"""Count the items of an FBX file by kind, so that warnings can name what Blender loses.
 
-The binary form, as Blender's developers have described it ("FBX binary file format specification", 2013): records of an
-end offset, a number of properties and a name, within each other.
+The binary form, as Blender's developers described it ("FBX binary file format specification", 2013): nested records
+with an end offset, a number of properties and a name.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ from collections import Counter
 from collections.abc import Iterator
 
 _MAGIC = b"Kaydara FBX Binary  \x00\x1a\x00"
-# From this version on numbers in records have 64 bits.
+# From this version on, numbers in records have 64 bits.
 _WIDE = 7500
 _SIZES = {b"Y": 2, b"C": 1, b"B": 1, b"I": 4, b"F": 4, b"D": 8, b"L": 8}
 _ARRAYS = b"fdlibc"
 
 
 def count(data: bytes) -> Counter[str]:
-    """Return how many things of every kind there are: objects, their custom properties, layers of meshes.
+    """Return the number of items of every kind: objects, their custom properties, layers of meshes.
 
-    Nothing is counted of files in words, nor behind what cannot be read.
+    Text files have no counts; reading stops at the first unreadable record.
     """
     found: Counter[str] = Counter()
     if not data.startswith(_MAGIC):
@@ -39,7 +39,7 @@ def count(data: bytes) -> Counter[str]:
 
 
 def lost(before: Counter[str], after: Counter[str]) -> list[str]:
-    """Return a sentence for each kind of which there are fewer, or where nothing like it was, more."""
+    """Return a sentence for each kind that has fewer items, or that is new."""
     said = []
     for kind in sorted(set(before) | set(after)):
         if after[kind] < before[kind]:
@@ -60,13 +60,13 @@ def _parts(data: bytes, at: int, end: int, version: int) -> Iterator[str]:
             yield re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()
         elif name == "Properties70":
             for kind, values, *_ in _records(data, start, stop, version):
-                # Those of users are marked so.
+                # The mark of users' properties.
                 if kind == "P" and len(values) > 3 and isinstance(values[3], bytes) and b"U" in values[3]:
                     yield "custom properties"
 
 
 def _records(data: bytes, at: int, end: int, version: int) -> Iterator[tuple[str, list[object], int, int]]:
-    """Yield name, properties, and where those within begin and end, of the records from `at` to `end`."""
+    """Yield the name, the properties and the range of nested records of each record from `at` to `end`."""
     head = struct.Struct("<QQQB" if version >= _WIDE else "<IIIB")
     while at + head.size <= end:
         stop, n_properties, size, length = head.unpack_from(data, at)

@@ -1,4 +1,4 @@
-"""Files that Blender alone reads and writes: its own, and FBX."""
+"""Files that only Blender reads and writes: .blend and FBX."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from ...assets.mesh import checked
 from . import fbx_inventory, meshes
 
 BLEND, FBX = ".blend", ".fbx"
-# Of files that Blender has compressed: gzip before 3.0, Zstandard since.
+# Of files that Blender compressed: gzip before 3.0, Zstandard since.
 _COMPRESSED = (b"\x1f\x8b", b"\x28\xb5\x2f\xfd")
-# The importer of newer versions first.
+# The importer of newer versions comes first.
 _IMPORTERS = ("wm.fbx_import", "import_scene.fbx")
 _IMPORT = {"use_custom_props": True}
-# What would add bones, or take modifiers and shape keys for good.
+# Avoid options that add bones, or that apply modifiers and shape keys.
 _EXPORT = {"use_custom_props": True, "add_leaf_bones": False, "use_mesh_modifiers": False, "check_existing": False}
 
 
 class BlenderAsset:
-    """A .blend or .fbx file that Blender has read; writing opens it again, whatever it holds meanwhile.
+    """A .blend or .fbx file that Blender has read; writing reopens it, whatever Blender holds by then.
 
     Attributes:
         path: of the file.
         suffix: of the file.
         uv_map: name of the map, empty for the active one.
-        meshes: that objects of any scene have, each once.
-        warnings: what was left alone, and why.
+        meshes: of the objects in any scene, each once.
+        warnings: what was left unchanged, and why.
     """
 
     def __init__(self, path: Path, uv_map: str = "") -> None:
@@ -39,7 +39,7 @@ class BlenderAsset:
 
         Args:
             path: of a .blend or .fbx file.
-            uv_map: name of the map that is read and written, made where it is missing; the active one unless given.
+            uv_map: name of the map to read and write, created if missing; by default the active one.
 
         Raises:
             AssetError: Blender cannot read it, or there is nothing to unwrap.
@@ -72,13 +72,13 @@ class BlenderAsset:
             raise AssetError(f"{path.name}: there is no mesh with faces in it that is its own.")
 
     def _open(self) -> bool:
-        """Let Blender read the file; return whether it was in edit mode, which is left."""
+        """Let Blender read the file, and leave edit mode; return whether the file was in edit mode."""
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         if self.suffix == BLEND:
-            # Scripts in files of others do not run.
+            # Scripts in the file do not run.
             _call("wm.open_mainfile", {"filepath": str(self.path), "load_ui": False, "use_scripts": False}, self.path)
             bpy.context.view_layer.update()
-            # The mesh of edit mode would take the place of what is written; other modes have none of their own.
+            # In edit mode, its own mesh would replace the written one; other modes have no mesh of their own.
             is_edited = bpy.context.mode == "EDIT_MESH"
             if is_edited:
                 bpy.ops.object.mode_set(mode="OBJECT")
@@ -90,7 +90,7 @@ class BlenderAsset:
         return False
 
     def save(self, path: Path, maps: Sequence[UvMap]) -> None:
-        """Write the file with other UVs to a path of the same suffix, from which relative paths in it hold.
+        """Write the file with new UVs to a path of the same suffix, and adapt its relative paths.
 
         Raises:
             AssetError: Blender cannot write it.
@@ -111,10 +111,10 @@ class BlenderAsset:
             raise AssetError(f"{path.name}: Blender wrote nothing; is the disk full?")
 
     def check(self, written: BlenderAsset, maps: Sequence[UvMap]) -> None:
-        """Compare what was written, read again, with what it should be.
+        """Compare the file as read back with the intended content.
 
         Raises:
-            OSError: a mesh is missing, has other faces, or not the map.
+            OSError: a mesh is missing, or has other faces or another map.
         """
         found = dict(zip(written._names, written.meshes))
         for name, mesh, uv_map in zip(self._names, self.meshes, maps):
@@ -137,7 +137,7 @@ def _operator(name: str) -> Any:  # noqa: ANN401 - Blender's own type has no nam
 
 
 def _is_known(name: str) -> bool:
-    """Tell whether this Blender has an operator."""
+    """Return whether this Blender has an operator."""
     try:
         _operator(name).get_rna_type()
     except KeyError:
@@ -146,17 +146,17 @@ def _is_known(name: str) -> bool:
 
 
 def _call(name: str, arguments: dict[str, Any], path: Path) -> None:
-    """Call an operator of Blender's, with those of the arguments that it has in this version.
+    """Call a Blender operator with the arguments that it supports in this version.
 
     Raises:
-        AssetError: it failed, or was cancelled.
+        AssetError: it failed or was canceled.
     """
     operator = _operator(name)
     known = operator.get_rna_type().properties.keys()
     try:
         status = operator(**{key: value for key, value in arguments.items() if key in known})
-    except Exception as error:  # noqa: BLE001 - importers are others' Python, which a broken file may fail anywhere
-        # Of a traceback, before the line that says where in Blender it was seen, the error itself.
+    except Exception as error:  # noqa: BLE001 - importers are third-party Python; a broken file may fail anywhere
+        # The error itself comes before the traceback's line about its position in Blender.
         lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith((" ", "Location:"))]
         reason = lines or [type(error).__name__]
         raise AssetError(f"{path.name}: {name} failed: {reason[-1]}") from error

@@ -1,4 +1,4 @@
-"""Meshes of Blender's data to arrays, UVs back, and arrays to meshes."""
+"""Convert Blender's meshes to arrays, write UVs back, and make meshes from arrays."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy.typing as npt
 from ...assets import AssetError, AssetMesh, UvMap
 from ...assets.mesh import offsets_of
 
-# Extenders of the add-on, which it knows by these layers of vertices.
+# Vertex layers in which the add-on stores extenders.
 _EXTENDERS = ".spectral"
 
 
 def of_objects() -> Iterator[tuple[bpy.types.Object, bpy.types.Mesh]]:
-    """Yield every mesh that has faces and that an object of the file has, in whatever scene, with the first object."""
+    """Yield every mesh with faces that an object in any scene of the file uses, with the first such object."""
     seen = set()
     for item in bpy.data.objects:
         if item.type == "MESH" and item.data.polygons and item.data.name_full not in seen:
@@ -25,7 +25,7 @@ def of_objects() -> Iterator[tuple[bpy.types.Object, bpy.types.Mesh]]:
 
 
 def read(item: bpy.types.Object, uv_map: str) -> AssetMesh:
-    """Return the mesh of an object as it is without modifiers, of shape keys the basis; hidden faces are faces."""
+    """Return the mesh of an object without modifiers, at the basis of its shape keys, including hidden faces."""
     mesh = item.data
     n_faces, n_corners = len(mesh.polygons), len(mesh.loops)
     sizes = _numbers(mesh.polygons, "loop_total", n_faces, np.int32)
@@ -50,14 +50,14 @@ def read(item: bpy.types.Object, uv_map: str) -> AssetMesh:
 
 
 def has_extenders(mesh: bpy.types.Mesh) -> bool:
-    """Tell whether the add-on has stored extenders with a mesh."""
+    """Return whether the add-on has stored extenders in a mesh."""
     return any(each.domain == "POINT" and each.name.startswith(_EXTENDERS) for each in mesh.attributes)
 
 
 def write_uv(mesh: bpy.types.Mesh, uv_map: str, found: UvMap) -> None:
-    """Write a map into the layer of this name, made where it is missing; without a name, the active one.
+    """Write a map into the named layer, which is created if missing; without a name, into the active one.
 
-    A mesh of which no face is mapped, and that has no such layer, gets none.
+    A mesh without mapped faces and without this layer stays without it.
 
     Raises:
         AssetError: there is no room for another layer.
@@ -80,7 +80,7 @@ def write_uv(mesh: bpy.types.Mesh, uv_map: str, found: UvMap) -> None:
 
 
 def made(mesh: AssetMesh, name: str) -> bpy.types.Mesh:
-    """Return a new mesh of Blender's, with its UV map if it has one."""
+    """Return a new Blender mesh, with its UV map if it has one."""
     result = bpy.data.meshes.new(name)
     result.vertices.add(len(mesh.vertices))
     result.vertices.foreach_set("co", mesh.vertices.astype(np.float32).ravel())
@@ -97,12 +97,12 @@ def made(mesh: AssetMesh, name: str) -> bpy.types.Mesh:
 
 
 def uv_of(mesh: bpy.types.Mesh) -> npt.NDArray[np.float64]:
-    """Return the active UV map of a mesh that has one, (C, 2)."""
+    """Return the active UV map of a mesh, which must have one, (C, 2)."""
     return _uv(mesh.uv_layers.active, len(mesh.loops))
 
 
 def link(meshes: Sequence[AssetMesh], scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Show meshes in a scene, each where its asset has it; return the objects."""
+    """Add meshes to a scene, each with its placement in the asset; return the objects."""
     objects = []
     for mesh in meshes:
         item = bpy.data.objects.new("asset", made(mesh, "asset"))
@@ -122,7 +122,7 @@ def _uv(layer: bpy.types.MeshUVLoopLayer, n_corners: int) -> npt.NDArray[np.floa
 
 
 def _pins(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer, n_corners: int) -> npt.NDArray[np.bool_] | None:
-    """Return which corners are pinned, None for none; an attribute from 3.5 on."""
+    """Return which corners are pinned, None if there are none; pins are an attribute from 3.5 on."""
     if bpy.app.version < (3, 5):
         pins = _numbers(layer.data, "pin_uv", n_corners, bool)
     else:

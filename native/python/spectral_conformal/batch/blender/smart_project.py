@@ -12,12 +12,12 @@ from ...assets.unwrapping import CutMesh
 from ...assets.welding import Integers
 from . import meshes
 
-# Of the space that it leaves between its islands none matters: they are made again.
+# The space between its islands does not matter, because they are unwrapped again.
 _OPTIONS = {"island_margin": 0.0}
 
 
 def seams(cut_meshes: Sequence[CutMesh]) -> list[Integers]:
-    """Return the borders of the islands, (n, 2) edges of each welded mesh. Blender is empty before and afterwards."""
+    """Return the island borders of each welded mesh as edges, (n, 2). Blender is empty before and after."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     polygons = [replace(each.mesh, corner_vertices=each.polygons[2], corner_uv=None) for each in cut_meshes]
     objects = meshes.link(polygons, bpy.context.scene)
