@@ -20,18 +20,18 @@ from tools.systems import FOR_BPY
 VENV = BUILD / "venv"
 PYTHON = VENV / "bin" / "python"
 WHEELS = BUILD / "wheels"
-# Holds the C++ libraries that the wheel's build leaves behind.
+# Contains the C++ libraries from the wheel's build.
 NATIVE_BUILD = BUILD / "native"
-# Each is made for one Python; another one uses the system's Blender.
+# Each is for one Python; other Pythons use the system's Blender.
 BPY = {(3, 11): "5.0.1", (3, 13): "5.2.3"}
-# Of the same Python as the first, each in an environment of its own, for the tests: one Python holds one bpy.
+# For the same Python as the first, each in its own environment, for the tests: an environment has room for one bpy.
 OLDER_BPY = {(3, 11): ("4.2.23", "4.5.15")}
 OWN_PYTHON = sys.version_info[:2]
-# The newest bpy, for the Python of Debian 13, in this folder where build/venv is for another Python.
+# The newest bpy, for the Python of Debian 13; in this folder if build/venv is for another Python.
 NEWEST_BPY_PYTHON, NEWEST_BPY = "3.13", BPY[3, 13]
 NEWEST_BPY_FOLDER = BUILD / f"bpy-{NEWEST_BPY}"
 
-# The release of OpenBLAS (scipy-openblas32) on all systems. One older than a processor takes it for a Pentium 4.
+# The OpenBLAS release (scipy-openblas32) on all systems. A release older than the processor takes it for a Pentium 4.
 OPENBLAS = "0.3.34.481.3"
 # Debian 12 and Ubuntu 22.04 names.
 APT: dict[str, list[str]] = {
@@ -43,7 +43,7 @@ APT: dict[str, list[str]] = {
     "docs": [],
     "package": [],
     "fuzz": ["clang", "libclang-rt-dev"],
-    # Git tells the tests of style which files are the project's.
+    # Git lists the project's files for the tests of style.
     "quick": ["git"],
     "test": [
         "blender",
@@ -53,7 +53,7 @@ APT: dict[str, list[str]] = {
         "doctest-dev",
         "imagemagick",
         "libgl1-mesa-dri",
-        # For bare CHOLMOD, beside which the benchmarks measure the solver.
+        # For bare CHOLMOD, with which the benchmarks compare the solver.
         "libopenblas0-pthread",
         "make",
         # For other releases of Debian (systems.py).
@@ -61,7 +61,7 @@ APT: dict[str, list[str]] = {
         # Flamenco's job types are JavaScript.
         "nodejs",
         "python3-numpy",
-        # Counts instructions, for a limit on them.
+        # Counts instructions, which a test limits.
         "valgrind",
         "x11-utils",
         "xdotool",
@@ -71,16 +71,16 @@ APT: dict[str, list[str]] = {
     "cross": ["doctest-dev", "g++-mingw-w64-x86-64-posix", "lld-19"],
     "wine": ["wine", "wine64"],
 }
-# Ubuntu 22.04 has no such package: what it holds elsewhere comes with clang there.
+# Ubuntu 22.04 has no such package; clang contains its files there.
 IN_CLANG_OR_OWN_PACKAGE = "libclang-rt-dev"
 # Ubuntu has its browsers as snaps.
 IN_SOME_RELEASES = {IN_CLANG_OR_OWN_PACKAGE, "chromium"}
 CLANG_RUNTIME = "lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a"
-# Debian's own interpreter comes without these; another one (pyenv) brings them along.
+# Debian's own interpreter comes without these; other interpreters (pyenv) include them.
 APT_SYSTEM_PYTHON = ["python3-dev", "python3-venv"]
 
 PIP: dict[str, list[str]] = {
-    # bpy asks for NumPy 1; for Pythons that have none there is no bpy either.
+    # bpy requires NumPy 1; Pythons without NumPy 1 have no bpy either.
     "build": [
         "cmake>=3.22",
         "ninja",
@@ -95,32 +95,32 @@ PIP: dict[str, list[str]] = {
     # Google's library for Draco, and Pixar's for USD.
     "batch": ["DracoPy", "usd-core"],
     "demo": ["matplotlib", "scipy"],
-    # MkDocs 2 will have no plugins. Ruff lays out the signatures.
+    # MkDocs 2 will have no plugins. Ruff formats the signatures.
     "docs": ["mkdocs>=1.6,<2", "mkdocs-material>=9.6", "mkdocstrings[python]>=1", "ruff"],
-    # Markdown for the manual that the packages bring along.
+    # Markdown for the manual in the packages.
     "package": ["auditwheel", "markdown", "wheel"],
     "fuzz": ["scipy"],
-    # Other versions of clang-format, as newer systems have, format otherwise.
+    # Other versions of clang-format, as on newer systems, format differently.
     "quick": ["clang-format==14.0.6", "libigl", "mypy", "pytest", "ruff", "scikit-image", "scipy"],
-    # A cluster for the batch, of the kind that studios have.
+    # A cluster for the batch, as studios have it.
     "test": ["distributed"],
-    # The compiler is pinned, since equal sources are to give equal packages.
+    # The compiler is pinned so that equal sources give equal packages.
     "cross": ["lief", "setuptools", "wheel", "ziglang==0.14.1"],
     "wine": [],
 }
-# What `test --quick` runs: no Blender, no builds of its own.
+# The tests of `test --quick`: no Blender, no builds of their own.
 QUICK = "(core or module or style) and not slow"
 NO_BPY = "no bpy for this Python"
-# The Python inside the system's Blender looks for its library beside the first python3 on the path (pyenv puts its own
-# there) and must find the system's.
+# The Python inside the system's Blender looks for its library beside the first python3 on the path, which must be the
+# system's, not pyenv's.
 SYSTEM_PYTHON_FIRST = f"PATH=/usr/bin:{os.environ.get('PATH', '')}"
 NATIVE_INPUTS = ["CMakeLists.txt", "pyproject.toml", "native"]
-# A translation unit with CGAL, Eigen and pybind11 takes up to this much memory to compile.
+# Memory for compiling a translation unit with CGAL, Eigen and pybind11.
 COMPILER_MEMORY = 2 * 1024**3
 
 
 def set_up(*groups: str, native: bool = True) -> None:
-    """Install and build what the named groups of packages and the native module need; quick when all is there."""
+    """Install the named groups of packages and build the native module; quick if everything is up to date."""
     with steps.exclusive():
         install_system_packages(groups)
         make_venv()
@@ -138,7 +138,7 @@ def install_system_packages(groups: Sequence[str]) -> None:
     if sys.base_prefix == "/usr":
         wanted += APT_SYSTEM_PYTHON
     if not shutil.which("dpkg-query"):
-        print(f"- not a Debian system: make sure that it has what these packages hold: {' '.join(wanted)}")
+        print(f"- not a Debian system: make sure that it has the content of these packages: {' '.join(wanted)}")
         return
     query = subprocess.run(
         ["dpkg-query", "--show", "--showformat=${Package} ${db:Status-Status}\n"],
@@ -159,7 +159,7 @@ def install_system_packages(groups: Sequence[str]) -> None:
             f"  sudo apt-get install --no-install-recommends {' '.join(missing)}"
         )
     quiet = {"DEBIAN_FRONTEND": "noninteractive"}
-    # An interrupted installation leaves packages to configure.
+    # An interrupted installation leaves packages unconfigured.
     steps.run("completing earlier installations", [*prefix, "dpkg", "--configure", "-a"], log="apt", environ=quiet)
     apt = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-o", "DPkg::Lock::Timeout=300"]
     steps.run("apt-get update", [*apt, "update"], log="apt")
@@ -170,13 +170,13 @@ def install_system_packages(groups: Sequence[str]) -> None:
 
 
 def is_offered(package: str) -> bool:
-    """Tell whether apt knows a package."""
+    """Return whether apt knows a package."""
     show = ["apt-cache", "show", "--no-all-versions", package]
     return subprocess.run(show, capture_output=True, check=False).returncode == 0
 
 
 def as_root() -> list[str] | None:
-    """Return the words that make a command run as root, None where that is not possible."""
+    """Return the prefix that runs a command as root, None if that is not possible."""
     if os.geteuid() == 0:
         return []
     sudo = ["sudo", "-n"]
@@ -186,20 +186,20 @@ def as_root() -> list[str] | None:
 
 
 def make_venv() -> None:
-    """Make build/venv with the Python that runs this, anew when it is broken or of another version."""
+    """Make build/venv with the running Python; make it again if it is broken or for another version."""
     state = f"{sys.version_info[0]}.{sys.version_info[1]} {sys.base_prefix}"
     if steps.is_done("venv", state) and is_importable("pip"):
         return
     shutil.rmtree(VENV, ignore_errors=True)
     shutil.rmtree(steps.STAMPS, ignore_errors=True)
-    # scikit-build-core's CMake cache holds paths of the old environment.
+    # scikit-build-core's CMake cache contains paths of the old environment.
     shutil.rmtree(NATIVE_BUILD, ignore_errors=True)
     steps.run("making build/venv", [sys.executable, "-m", "venv", VENV], log="venv")
     steps.mark_done("venv", state)
 
 
 def is_importable(*modules: str) -> bool:
-    """Tell whether build/venv finds these modules, without loading them."""
+    """Return whether build/venv finds these modules, without loading them."""
     if not PYTHON.exists():
         return False
     find = f"import importlib.util as u, sys; sys.exit(not all(map(u.find_spec, {modules!r})))"
@@ -207,7 +207,7 @@ def is_importable(*modules: str) -> bool:
 
 
 def install_python_packages(group: str) -> None:
-    """Install one group with pip; where pip has no bpy for this Python, install the system's Blender instead."""
+    """Install one group with pip; if pip has no bpy for this Python, install the system's Blender instead."""
     state = steps.digest(PIP[group])
     if group == "bpy" and not PIP[group]:
         use_systems_blender()
@@ -225,20 +225,20 @@ def install_python_packages(group: str) -> None:
 
 
 def use_systems_blender() -> None:
-    """Install the system's Blender, in place of a bpy for this Python."""
+    """Install the system's Blender, since there is no bpy for this Python."""
     if not shutil.which("blender"):
         print(f"- pip has no bpy for Python {OWN_PYTHON[0]}.{OWN_PYTHON[1]}: using the system's Blender")
     install_system_packages(["blender"])
 
 
 def install_newest_bpy() -> None:
-    """Install the newest bpy, and pytest, for the Python of another system, into a folder for that one's path."""
+    """Install the newest bpy, and pytest, for the Python of another system, into a folder for its path."""
     requirements = [f"bpy=={NEWEST_BPY}", "pytest"]
     state = steps.digest(requirements)
     if steps.is_done(NEWEST_BPY_FOLDER.name, state) and NEWEST_BPY_FOLDER.is_dir():
         return
     shutil.rmtree(NEWEST_BPY_FOLDER, ignore_errors=True)
-    # Without the last, pip holds the Python that it runs in against what the packages ask for.
+    # Without the last option, pip checks the packages' requirements against its own Python.
     platforms = [f"--platform={name}_x86_64" for name in ("manylinux_2_28", "manylinux2014")]
     platform = ["--implementation=cp", *platforms, "--ignore-requires-python"]
     steps.run(
@@ -251,7 +251,7 @@ def install_newest_bpy() -> None:
 
 
 def install_older_bpy() -> None:
-    """Make an environment for every older bpy, where build/venv has one; the rest it finds in build/venv."""
+    """Make an environment for every older bpy, if build/venv has a bpy; other packages come from build/venv."""
     if not is_importable("bpy"):
         return
     for version in OLDER_BPY.get(OWN_PYTHON, ()):
@@ -264,18 +264,18 @@ def install_older_bpy() -> None:
         shutil.rmtree(folder, ignore_errors=True)
         steps.run(f"making build/{folder.name}", [sys.executable, "-m", "venv", folder], log="venv")
         steps.run(f"pip install bpy {version}", [python, "-m", "pip", "install", *requirements], log="pip")
-        # Last, since pip would take its packages for installed; after the folder's own ones on the path.
+        # Last, since pip would consider its packages installed; on the path they come after the folder's own.
         (site_packages(folder) / "shared.pth").write_text(f"{site_packages(VENV)}\n")
         steps.mark_done(folder.name, state)
 
 
 def site_packages(environment: Path) -> Path:
-    """Return the folder in which a virtual environment keeps its packages."""
+    """Return the folder of a virtual environment's packages."""
     return environment / "lib" / f"python{OWN_PYTHON[0]}.{OWN_PYTHON[1]}" / "site-packages"
 
 
 def bpy_environments() -> dict[str, Path]:
-    """Return the virtual environments by the version of bpy that they are for, the oldest first; none without bpy."""
+    """Return the virtual environments by their version of bpy, the oldest first; none without bpy."""
     if not is_importable("bpy"):
         return {}
     older = {version: BUILD / f"bpy-{version}" for version in OLDER_BPY.get(OWN_PYTHON, ())}
@@ -283,7 +283,7 @@ def bpy_environments() -> dict[str, Path]:
 
 
 def blender_command() -> list[str]:
-    """Return the words that run a Python script in Blender: bpy in build/venv, or the system's Blender."""
+    """Return the command that runs a Python script in Blender: bpy in build/venv, or the system's Blender."""
     if is_importable("bpy"):
         return [str(PYTHON)]
     return [
@@ -302,7 +302,7 @@ def blender_command() -> list[str]:
 
 @functools.cache
 def system_blender_version() -> tuple[int, ...]:
-    """Return the version of the system's Blender, (0,) where there is none."""
+    """Return the version of the system's Blender, (0,) if there is none."""
     if not shutil.which("blender"):
         return (0,)
     told = subprocess.run(["blender", "--version"], capture_output=True, text=True, check=False).stdout
@@ -311,19 +311,19 @@ def system_blender_version() -> tuple[int, ...]:
 
 
 def native_inputs() -> str:
-    """Return what the stamp of the native module holds."""
+    """Return the content of the native module's stamp."""
     own = (*NATIVE_INPUTS, Path(solver_libraries.__file__).relative_to(ROOT))
     cholmod = solver_libraries.state_of(solver_libraries.cholmod_of_system())
     return steps.digest([OPENBLAS, cholmod, *(ROOT / name for name in own)])
 
 
 def is_native_module_built() -> bool:
-    """Tell whether the module was built of its inputs as they are, and installed."""
+    """Return whether the module was built from its current inputs and installed."""
     return steps.is_done("native", native_inputs()) and is_importable("spectral_conformal")
 
 
 def build_native_module() -> None:
-    """Build the wheel of spectral_conformal and install it, when one of its inputs has changed."""
+    """Build the wheel of spectral_conformal and install it if one of its inputs has changed."""
     if is_native_module_built():
         return
     state = native_inputs()
@@ -350,27 +350,27 @@ def build_native_module() -> None:
 
 
 def compile_jobs() -> int:
-    """Return how many compilers may run at once."""
+    """Return the number of compilers that may run at once."""
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     return max(1, min(os.cpu_count() or 1, memory // COMPILER_MEMORY))
 
 
 def wheel() -> Path:
-    """Return the wheel of spectral_conformal that the set-up has built."""
+    """Return the wheel of spectral_conformal from the set-up."""
     wheels = sorted(WHEELS.glob("spectral_conformal-*.whl"))
     if len(wheels) != 1:
-        raise StepError(f"{WHEELS} should hold one wheel and holds {len(wheels)}; remove build/stamps/native.")
+        raise StepError(f"{WHEELS} should contain one wheel, not {len(wheels)}; remove build/stamps/native.")
     return wheels[0]
 
 
 def report_blas() -> None:
-    """Import the module and print the factorisation, the BLAS that it loads and the kernels that this runs."""
+    """Import the module and print its factorization, the BLAS that it loads and that BLAS's kernels."""
     show = "import json, spectral_conformal; print(json.dumps(spectral_conformal.build_info()))"
     result = subprocess.run([PYTHON, "-c", show], capture_output=True, text=True, check=False)
     if result.returncode:
         raise StepError(f"The built module cannot be imported:\n{result.stderr}")
     info = json.loads(result.stdout)
-    print(f"- factorisation: {info['factorization']}; BLAS: {info['blas']}; kernels: {info['kernel']}")
+    print(f"- factorization: {info['factorization']}; BLAS: {info['blas']}; kernels: {info['kernel']}")
 
 
 def run_pytest(arguments: Sequence[str]) -> int:
@@ -379,12 +379,12 @@ def run_pytest(arguments: Sequence[str]) -> int:
 
 
 def run_fuzzing(arguments: Sequence[str], *, native: bool) -> int:
-    """Call the module at random, or, native, run libFuzzer on the C++ code; return the exit code."""
+    """Call the module at random or, if native, run libFuzzer on the C++ code; return the exit code."""
     return run_python("-m", "tests.fuzz.run_native" if native else "tests.fuzz.run", *arguments)
 
 
 def run_python(*arguments: str | Path) -> int:
-    """Run Python of build/venv in the project's folder and return its exit code."""
+    """Run the Python of build/venv in the project's folder and return its exit code."""
     sys.stdout.flush()
     # cmake, ctest and ninja are those of the environment.
     command = ["env", f"{SYSTEM_PYTHON_FIRST}:{PYTHON.parent}", PYTHON, *arguments]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The licence texts of what others have written and a wheel contains, from the packages that it is from."""
+"""The license texts of third-party code in a wheel, from the packages of that code."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ DEBIAN_LICENCES = Path("/usr/share/common-licenses")
 
 
 def of_debian(package: str) -> Path:
-    """Return the file of a package of the system."""
+    """Return the license file of a system package."""
     return DEBIAN_COPYRIGHT / package / "copyright"
 
 
 def of_pip(folder: Path, package: str) -> Path:
-    """Return the file of a package that pip has installed into a folder."""
+    """Return the license file of a package that pip installed into a folder."""
     found = sorted(folder.glob(f"{package}-*.dist-info/licenses/LICENSE*"))
     return found[0] if found else folder / f"{package}-*.dist-info/licenses/LICENSE"
 
 
 def of_headers() -> dict[str, Path]:
-    """Return the files, by name, of the system's headers that are compiled in, and the long texts that they name."""
+    """Return the license files of the compiled-in system headers, by name, and the long texts that they name."""
     return {
         "cgal": of_debian("libcgal-dev"),
         "eigen": of_debian("libeigen3-dev"),
@@ -35,14 +35,14 @@ def of_headers() -> dict[str, Path]:
 
 
 def texts(files: Mapping[str, Path]) -> dict[str, bytes]:
-    """Read these files, named without suffix, and Boost's licence; return them by file name."""
+    """Read these files, named without suffix, and Boost's license; return them by file name."""
     if missing := [str(path) for path in files.values() if not path.is_file()]:
-        raise StepError(f"Licence texts that have to go into the wheel are missing: {', '.join(missing)}")
+        raise StepError(f"License texts for the wheel are missing: {', '.join(missing)}")
     return {**{f"{name}.txt": path.read_bytes() for name, path in sorted(files.items())}, "boost.txt": boost_licence()}
 
 
 def boost_licence() -> bytes:
-    """Return Boost's licence; Debian's list of all its authors has 2 MB."""
+    """Return Boost's license; Debian's list of all its authors has 2 MB."""
     (path,) = sorted(DEBIAN_COPYRIGHT.glob("libboost1.*-dev/copyright"))[:1]
     found = re.search(r"Boost Software License - Version 1\.0 - August.*(?:\n .*)+", path.read_text())
     if not found:

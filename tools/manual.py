@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manual that the packages bring along: the guide and all documents that it leads to, as plain pages.
+"""The manual in the packages: the guide and all documents that it links to, as plain pages.
 
-Blender's "Online Manual" of an operator or a setting opens it from disk; no server is asked. Run in build/venv, which
-has Markdown, as `python -m tools.manual FOLDER`; `files` does that.
+Blender's "Online Manual" of an operator or a setting opens it from disk, without a server. `files` runs this as
+`python -m tools.manual FOLDER` in build/venv, which has Markdown.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ pre {{ overflow-x: auto; padding: 0.6em; border: 1px solid #999; }}
 
 
 def files() -> dict[str, bytes]:
-    """Return the pages and their pictures by path in the manual; raise StepError where a link leads nowhere."""
+    """Return the pages and their pictures by path in the manual; raise StepError for a broken link."""
     with tempfile.TemporaryDirectory() as folder:
         steps.run_quietly("making the manual", [PYTHON, "-m", "tools.manual", folder], log="package")
         made = Path(folder)
@@ -47,7 +47,7 @@ def files() -> dict[str, bytes]:
 
 
 def _write(folder: Path) -> None:
-    """Write the first document and all that can be reached from it."""
+    """Write the first document and all documents that can be reached from it."""
     import markdown  # in build/venv only
 
     waiting, known = [FIRST], {FIRST}
@@ -61,7 +61,7 @@ def _write(folder: Path) -> None:
                 return match[0]
             path = (source.parent / target).resolve()
             if not path.is_file() or DOCUMENTS not in path.parents:
-                raise SystemExit(f"{source.name} leads to {target}, which is no file of docs/.")
+                raise SystemExit(f"{source.name} links to {target}, which is not a file in docs/.")
             relative = path.relative_to(DOCUMENTS).as_posix()
             if relative not in known:
                 known.add(relative)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The native module for the Pythons of other systems, whose wheels are made here: the library is compiled already."""
+"""The native module for the Pythons of other systems; their wheels reuse the compiled library."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ INPUTS = ("CMakeLists.txt", "native")
 
 
 def set_up() -> None:
-    """Make the other systems that this machine can have, and the module and the bpy for their Pythons."""
+    """Make the other systems that are possible on this machine, and the module and bpy for their Pythons."""
     with steps.exclusive():
         systems.make_all()
         made = [system for system in systems.wanted() if system.is_made]
@@ -28,7 +28,7 @@ def set_up() -> None:
 
 
 def site(version: str) -> Path:
-    """Return the folder with the module and the libraries that it needs, to be put on the path of such a Python."""
+    """Return the folder with the module and its libraries, for the path of such a Python."""
     return FOLDER / wheels.python_tag(version) / "site"
 
 
@@ -39,7 +39,7 @@ def repaired_wheel(version: str) -> Path:
 
 
 def build(system: System) -> None:
-    """Build the module for the Python of a system, unless its inputs are the same as before."""
+    """Build the module for the Python of a system, unless its inputs are unchanged."""
     version = system.python
     folder = FOLDER / wheels.python_tag(version)
     state = steps.digest([version, wheel(), Path(wheels.__file__), *(ROOT / name for name in INPUTS)])
@@ -54,10 +54,10 @@ def build(system: System) -> None:
 
 
 def compile_bindings(system: System, folder: Path) -> Path:
-    """Compile what converts between Python and the library, and link it to the library; return the extension module."""
+    """Compile the bindings and link them to the library; return the extension module."""
     version = system.python
     headers = system.folder / "usr" / "include"
-    # Debian keeps pyconfig.h in the folder of the architecture, beside that system's C library, not to be used.
+    # Debian keeps pyconfig.h in the architecture's folder, beside that system's C library, which must not be used.
     beside = folder / "headers" / "x86_64-linux-gnu"
     beside.mkdir(parents=True)
     (beside / f"python{version}").symlink_to(headers / "x86_64-linux-gnu" / f"python{version}")
@@ -87,7 +87,7 @@ def compile_bindings(system: System, folder: Path) -> Path:
 
 
 def pack(native: Path, version: str, folder: Path) -> Path:
-    """Make a wheel of the one for this Python with another extension module in it; return it."""
+    """Make a copy of this Python's wheel with another extension module; return it."""
     own_tag = packaging.python_tag(wheel())
     with wheels.unpacked(wheel(), folder) as content:
         (own,) = content.glob("spectral_conformal/_native*.so")

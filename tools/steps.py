@@ -26,7 +26,7 @@ class StepError(RuntimeError):
 
 @contextlib.contextmanager
 def progress(title: str) -> Iterator[None]:
-    """Print a line when the step starts and its duration when it ends."""
+    """Print a line at the start of the step, and its duration at the end."""
     print(f"- {title} ...", end=" ", flush=True)
     start = time.monotonic()
     try:
@@ -38,13 +38,13 @@ def progress(title: str) -> Iterator[None]:
 
 
 def run(title: str, command: Sequence[object], *, log: str, environ: Mapping[str, str] | None = None) -> None:
-    """Run a command as a step with its output in build/logs/<log>.log, appended; raise StepError when it fails."""
+    """Run a command as a step and append its output to build/logs/<log>.log; raise StepError if it fails."""
     with progress(title):
         run_quietly(title, command, log=log, environ=environ)
 
 
 def run_quietly(title: str, command: Sequence[object], *, log: str, environ: Mapping[str, str] | None = None) -> None:
-    """Do the same without a line of progress, as a part of a step."""
+    """Do the same without a line of progress, as part of a step."""
     LOGS.mkdir(parents=True, exist_ok=True)
     path = LOGS / f"{log}.log"
     words = [str(word) for word in command]
@@ -69,7 +69,7 @@ def run_quietly(title: str, command: Sequence[object], *, log: str, environ: Map
 
 
 def tail(path: Path, start: int) -> str:
-    """Return the last lines that were written to the log after byte `start`."""
+    """Return the last lines of the log after byte `start`."""
     with path.open("rb") as log:
         log.seek(start)
         lines = log.read().decode(errors="replace").splitlines()
@@ -77,7 +77,7 @@ def tail(path: Path, start: int) -> str:
 
 
 def digest(parts: Iterable[object]) -> str:
-    """Hash strings, and files by name and content, folders with all their files."""
+    """Hash strings, files by name and content, and folders with all their files."""
     result = hashlib.sha256()
     for part in parts:
         paths = [part] if isinstance(part, Path) else []
@@ -91,14 +91,14 @@ def digest(parts: Iterable[object]) -> str:
 
 
 def source_files(folder: Path) -> list[Path]:
-    """Return the files in a folder, sorted, without what Python and other tools keep there for themselves."""
+    """Return the files in a folder, sorted, without the caches of Python and other tools."""
     hidden = re.compile(r"\.|__pycache__$")
     files = (path for path in folder.rglob("*") if path.is_file())
     return sorted(path for path in files if not any(map(hidden.match, path.relative_to(folder).parts)))
 
 
 def is_done(name: str, state: str) -> bool:
-    """Tell whether the step was completed for this state of its inputs."""
+    """Return whether the step was completed for this state of its inputs."""
     path = STAMPS / name
     return path.is_file() and path.read_text() == state
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other releases of Debian, for the Blenders and Pythons that this one lacks, each in a folder under build/systems/."""
+"""Other Debian releases, for Blenders and Pythons that this one lacks, each in a folder under build/systems/."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from tools import steps
 from tools.steps import BUILD, ROOT, StepError
 
 FOLDER = BUILD / "systems"
-# Beside the project where there is one: meshes that some tests read.
+# Beside the project, if it exists: meshes for some tests.
 SHARED = ROOT.parent / "shared"
-# A shell whose mounts end with it. In a chroot the root is no mount that could be made private; it mostly is.
+# A shell whose mounts end with it. In a chroot, the root is no mount and cannot be made private; it usually is already.
 OWN_MOUNTS = ("unshare", "--mount", "--propagation", "unchanged", "sh", "-c")
 KEEP_PRIVATE = "mount --make-rprivate / 2>/dev/null"
 
@@ -31,9 +31,9 @@ class System:
     """A release of Debian with a Blender.
 
     Attributes:
-        suite: Debian's name of the release, and that of its folder.
-        packages: what is installed there.
-        serves: what the tests run in it, for the reader of a message.
+        suite: Debian's name of the release, and the name of its folder.
+        packages: the packages to install.
+        serves: what the tests run in it, for messages.
     """
 
     suite: str
@@ -47,12 +47,12 @@ class System:
 
     @property
     def is_made(self) -> bool:
-        """Tell whether it is there."""
+        """Return whether it exists."""
         return steps.is_done(self.folder.name, self.state) and self.folder.is_dir()
 
     @property
     def state(self) -> str:
-        """Return what its stamp holds."""
+        """Return the content of its stamp."""
         return steps.digest([self.suite, *self.packages])
 
     @property
@@ -60,14 +60,14 @@ class System:
         """Return the version of its Python, such as 3.13."""
         headers = [path.name for path in (self.folder / "usr" / "include").glob("python3.*")]
         if len(headers) != 1:
-            raise StepError(f"{self.folder} should have headers of one Python, not {headers}; remove that folder.")
+            raise StepError(f"{self.folder} should have headers of one Python, not {headers}; remove this folder.")
         return headers[0].removeprefix("python")
 
     def command(self, words: Sequence[object]) -> list[str]:
-        """Return the command that runs one in this system, at the same paths, in the folder of the project.
+        """Return the command that runs another one in this system, at the same paths, in the project's folder.
 
-        The project, temporary files and the meshes beside the project are those of this machine. What is mounted
-        for that is mounted for the command alone and is gone with it.
+        The project, temporary files and the meshes beside the project are those of this machine. Their mounts exist
+        only for the command and end with it.
         """
         shared = [path for path in (ROOT, Path(tempfile.gettempdir()), SHARED) if path.is_dir()]
         mounts = [(path, "--bind") for path in shared] + [(Path(path), "--rbind") for path in ("/proc", "/dev", "/sys")]
@@ -78,11 +78,11 @@ class System:
         return [*OWN_MOUNTS, script, str(self.folder), "env", f"--chdir={ROOT}", *map(str, words)]
 
 
-# What a wheel of bpy links to and does not bring along.
+# Libraries that a bpy wheel links to but does not contain.
 FOR_BPY = ("libgl1", "libice6", "libsm6", "libx11-6", "libxfixes3", "libxi6", "libxkbcommon0", "libxrender1")
 COMMON = ("blender", "python3-dev", "python3-numpy")
 TRIXIE = System("trixie", (*COMMON, *FOR_BPY), "Blender 4.3.2 and bpy 5.2.3, without a window")
-# Its Blender's own add-on for extensions needs three of them, which Debian's package does not ask for.
+# Blender's own add-on for extensions needs three of them, but Debian's package does not require them.
 FOR_EXTENSIONS = ("python3-cattr", "python3-requests", "python3-zstandard")
 SID = System(
     "sid",
@@ -93,13 +93,13 @@ ALL = (TRIXIE, SID)
 
 
 def wanted() -> tuple[System, ...]:
-    """Return the systems that this machine's own release does not stand for."""
+    """Return the systems other than this machine's own release."""
     release = re.search(r"^VERSION_CODENAME=(.*)$", release_file(), re.MULTILINE)
     return tuple(system for system in ALL if not release or system.suite != release[1])
 
 
 def obstacle() -> str | None:
-    """Return why no other system can be made here, None where it can."""
+    """Return why no other system can be made here, None if it can."""
     if not re.search(r"^ID=debian$", release_file(), re.MULTILINE):
         return "this is not Debian"
     if platform.machine() != "x86_64":
@@ -113,8 +113,8 @@ def obstacle() -> str | None:
 
 @functools.cache
 def has_own_mounts() -> bool:
-    """Tell whether a command can have mounts of its own, which nothing else sees."""
-    # A folder mounted on itself is shared with others as the mount is in which it lies.
+    """Return whether a command can have private mounts."""
+    # A folder mounted on itself is shared if the mount that contains it is shared.
     script = (
         f'{KEEP_PRIVATE} && exit 0; mount --bind "$0" "$0" || exit 1; '
         'grep -F " $0 " /proc/self/mountinfo | grep -q " shared:"; is_private=$?; umount "$0"; test $is_private -ne 0'
@@ -124,7 +124,7 @@ def has_own_mounts() -> bool:
 
 
 def left_out() -> list[str]:
-    """Return, for every wanted system that is not there, one line that says what is not tested without it and why."""
+    """Return one line for every missing system: what is not tested without it, and why it is missing."""
     reason = obstacle()
     return [
         f"not run: {system.serves}: "
@@ -135,7 +135,7 @@ def left_out() -> list[str]:
 
 
 def make_all() -> None:
-    """Make every system that is wanted and possible; a line says which is left out."""
+    """Make every wanted system that is possible; print a line for each that is skipped."""
     if obstacle():
         print("\n".join(f"- {line}" for line in left_out()))
         return
@@ -149,7 +149,7 @@ def make_all() -> None:
         try:
             attempt.result()
         except StepError as error:
-            # The other tests go on: unstable cannot always be installed.
+            # The other tests continue: unstable cannot always be installed.
             print(f"{error}\n- not run: {system.serves}")
 
 
@@ -157,7 +157,7 @@ def make(system: System) -> None:
     """Install a system into its folder."""
     shutil.rmtree(system.folder, ignore_errors=True)
     FOLDER.mkdir(parents=True, exist_ok=True)
-    # A mirror that lags behind has lists past their date; they are as good as others for a test.
+    # A mirror that lags behind has expired lists, which are good enough for a test.
     options = ['--aptopt=Acquire::Check-Valid-Until "false"', "--variant=apt"]
     steps.run_quietly(
         f"making build/systems/{system.suite}",
@@ -168,7 +168,7 @@ def make(system: System) -> None:
 
 
 def mirror(apt: Path = Path("/etc/apt")) -> str:
-    """Return the address from which this machine installs Debian's packages; `apt` is the folder that names it."""
+    """Return the address from which this machine installs Debian packages; `apt` is the folder that names it."""
     sources = [apt / "sources.list", *sorted((apt / "sources.list.d").glob("*"))]
     for path in sources:
         if path.suffix in {".list", ".sources"} and path.is_file():
@@ -179,11 +179,11 @@ def mirror(apt: Path = Path("/etc/apt")) -> str:
 
 
 def log_of(system: System) -> str:
-    """Return the path of the log of making a system, for messages."""
+    """Return the path of a system's installation log, for messages."""
     return f"build/logs/system-{system.suite}.log"
 
 
 def release_file() -> str:
-    """Return the text that says which system this machine runs."""
+    """Return the text that describes this machine's system."""
     path = Path("/etc/os-release")
     return path.read_text() if path.is_file() else ""

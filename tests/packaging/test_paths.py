@@ -84,5 +84,5 @@ def test_tags_of_a_wheel_are_read():
 def test_damaged_wheel_is_told(tmp_path):
     wheel = tmp_path / "spectral_conformal-0.1.0-cp311-cp311-manylinux_2_17_x86_64.whl"
     wheel.write_bytes(b"PK\x03\x04 and then nothing")
-    with pytest.raises(StepError, match="no whole wheel"):
+    with pytest.raises(StepError, match="wheel is incomplete"):
         packaging.legacy_files(wheel)
