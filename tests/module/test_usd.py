@@ -159,7 +159,7 @@ def test_all_else_is_as_it_was(name, tmp_path):
     asset = assets.read(path)
     assert sorted(mesh.name for mesh in asset.meshes) == sorted(MESHES)
     assert {mesh.name: mesh.scale for mesh in asset.meshes}["/World/Mirrored"] == pytest.approx(3)
-    assert asset.warnings == ["/World/Moving moves: it was unwrapped as it is at the first time."]
+    assert asset.warnings == ["/World/Moving is animated: it was unwrapped in its first state."]
     maps = maps_of(asset)
     new = tmp_path / f"new{suffix}"
     assets.write(new, asset, maps)

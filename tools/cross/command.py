@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`build_addon.py package --platforms`: from nothing to the zips of every system."""
+"""`build_addon.py package --platforms`: build the zips of every system from scratch."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from tools.steps import StepError
 
 
 def run(names: Sequence[str]) -> int:
-    """Make the wheels and the zips of these platforms; the zips of an earlier call are replaced."""
+    """Make the wheels and the zips of these platforms; replace the zips of an earlier call."""
     chosen = targets.named(names)
     if platform.machine() != "x86_64":
-        raise StepError(f"The compilers come for x86_64 only, and this is {platform.machine()}.")
+        raise StepError(f"The compilers exist only for x86_64; this machine is {platform.machine()}.")
     environment.set_up("build", "bpy", "package", "cross", native=False)
     with steps.exclusive():
         parts.fetch(chosen)

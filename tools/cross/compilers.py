@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The compilers by target, as CMake's toolchain files: MinGW for Windows, zig for the rest, LLVM's linker for macOS."""
+"""The compilers by target, as CMake toolchain files: MinGW for Windows, zig for the rest, LLVM's linker for macOS."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from tools.wheels import python_tag
 ZIG = site_packages(VENV) / "ziglang" / "zig"
 ZIG_CACHE = CROSS / "zig-cache"
 LINKER_OF_MACOS = "ld64.lld-19"
-# What a macOS bundle says it was built with; no SDK is needed.
+# The SDK that a macOS bundle names; none is needed.
 MACOS_SDK = "15.1"
-# No path of the machine that compiled goes into the binaries.
+# Binaries contain no path of this machine.
 COMMON_FLAGS = f"-ffile-prefix-map={ROOT}=."
-# Boost 1.74 uses what C++17 has deprecated and LLVM's library hides.
+# Boost 1.74 uses features that C++17 deprecated and LLVM's library hides.
 ZIG_DEFINITION = "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION"
 LOG = "cross-build"
 # Symbols of the C++ library in the module must not mix with those of Blender.
@@ -38,7 +38,7 @@ def toolchain(target: Target) -> Path:
         "CMAKE_C_FLAGS_INIT": COMMON_FLAGS,
         "CMAKE_CXX_FLAGS_INIT": COMMON_FLAGS,
         "CMAKE_INTERPROCEDURAL_OPTIMIZATION": "OFF",
-        # Libraries to link to and folders of headers are all given.
+        # All libraries and header folders are given explicitly.
         "CMAKE_FIND_USE_CMAKE_SYSTEM_PATH": "OFF",
         "CMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH": "OFF",
         **(mingw(target) if target.system == "Windows" else zig(target, folder)),
@@ -49,7 +49,7 @@ def toolchain(target: Target) -> Path:
         exports = folder / "exports.map"
         write(exports, LINUX_EXPORTS)
         settings["CMAKE_MODULE_LINKER_FLAGS_INIT"] = f"-s -Wl,--version-script={exports}"
-        # Beside the module, and not where OpenBLAS lay when it was linked.
+        # Beside the module, not in the folder of OpenBLAS at link time.
         settings |= {"CMAKE_BUILD_WITH_INSTALL_RPATH": "ON", "CMAKE_INSTALL_RPATH": "$ORIGIN"}
     path = folder / "toolchain.cmake"
     text = "".join(f"set({name} [==[{value}]==])\n" for name, value in settings.items())
@@ -62,7 +62,7 @@ def toolchain(target: Target) -> Path:
 
 
 def mingw(target: Target) -> dict[str, str]:
-    """Return the settings for MinGW; its libraries go into what it links, so that Windows needs none of them."""
+    """Return the settings for MinGW, which links its libraries statically, so that Windows needs none of them."""
     flags = "-static -static-libgcc -static-libstdc++ -Wl,--no-insert-timestamp"
     return {
         "CMAKE_C_COMPILER": program(f"{target.triple}-gcc-posix"),
@@ -70,13 +70,13 @@ def mingw(target: Target) -> dict[str, str]:
         "CMAKE_RC_COMPILER": program(f"{target.triple}-windres"),
         "CMAKE_EXE_LINKER_FLAGS_INIT": flags,
         "CMAKE_MODULE_LINKER_FLAGS_INIT": f"{flags} -s",
-        # The linker has left the symbols out; strip would put the time of the day in.
+        # The linker omits the symbols; strip would add the current time.
         "CMAKE_STRIP": "/bin/true",
     }
 
 
 def zig(target: Target, folder: Path) -> dict[str, str]:
-    """Return the settings for zig, which compiles by clang for any system and brings the headers along."""
+    """Return the settings for zig, which compiles with clang for any system and includes the headers."""
     compile_for = f"-target {target.triple}"
     commands = {"cc": compile_for, "c++": f"{compile_for} {ZIG_DEFINITION}", "ar": "", "ranlib": ""}
     for name, words in commands.items():
@@ -90,22 +90,22 @@ def zig(target: Target, folder: Path) -> dict[str, str]:
         "CMAKE_AR": f"{folder / 'ar'}",
         "CMAKE_RANLIB": f"{folder / 'ranlib'}",
         "CMAKE_STRIP": "/bin/true",
-        # To link a program for macOS would need a linker that knows more than ours.
+        # Our linker cannot link a program for macOS.
         "CMAKE_TRY_COMPILE_TARGET_TYPE": "STATIC_LIBRARY",
     }
 
 
 def macos(target: Target, folder: Path) -> dict[str, str]:
-    """Return the settings that link modules by LLVM's linker, since zig's own writes damaged bundles."""
+    """Return the settings that link modules with LLVM's linker, since zig's own writes damaged bundles."""
     words = [
         program(LINKER_OF_MACOS),
         f"-bundle -arch {target.processor} -platform_version macos {MACOS_MINIMUM} {MACOS_SDK}",
-        # Python's functions are those of the process that loads the module.
+        # Python's functions come from the process that loads the module.
         "-undefined dynamic_lookup -exported_symbol _PyInit__native -dead_strip -x -S",
         "-o <TARGET> <OBJECTS> <LINK_LIBRARIES>",
         *(str(path) for path in macos_libraries(target)),
     ]
-    # Of CMake's rules, a toolchain file cannot replace the one for modules: those for macOS are read after it.
+    # A toolchain file cannot replace CMake's rule for modules, because CMake reads the rules for macOS after it.
     rules = folder / "rules.cmake"
     write(rules, f"set(CMAKE_CXX_CREATE_SHARED_MODULE [==[{' '.join(words)}]==])\n")
     return {
@@ -117,7 +117,7 @@ def macos(target: Target, folder: Path) -> dict[str, str]:
 
 
 def macos_libraries(target: Target) -> list[Path]:
-    """Return C++'s library and that of the compiler, which zig builds once, and the symbols of macOS's own."""
+    """Return the C++ library and the compiler's library, which zig builds once, and the symbols of macOS's own."""
     cache = target.folder / "runtime"
     names = ("libc++.a", "libc++abi.a", "libcompiler_rt.a")
     state = steps.digest(["0.14.1", target.triple])
@@ -145,7 +145,7 @@ def program(name: str) -> str:
 
 
 def write(path: Path, text: str) -> None:
-    """Write a file unless it has this text: CMake configures anew when a file is newer than its cache."""
+    """Write a file unless it has this text: CMake reconfigures if a file is newer than its cache."""
     if not path.is_file() or path.read_text() != text:
         path.write_text(text)
 
@@ -163,7 +163,7 @@ def configure_and_build(
 
 
 def part_settings(target: Target) -> dict[str, object]:
-    """Return CMake's settings that name the parts which are the same for every build of a target."""
+    """Return CMake's settings for the parts that all builds of a target share."""
     headers = parts.headers()
     return {
         "CMAKE_TOOLCHAIN_FILE": toolchain(target),

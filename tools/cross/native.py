@@ -15,7 +15,7 @@ from tools.environment import VENV
 from tools.steps import ROOT
 from tools.wheels import python_tag
 
-# What CHOLMOD and native/src call of the BLAS and of LAPACK.
+# The functions of BLAS and LAPACK that CHOLMOD and native/src call.
 BLAS_FUNCTIONS = (
     *("dgemm_", "dgemv_", "dpotrf_", "dscal_", "dsyrk_", "dtrsm_", "dtrsv_"),
     *("zgemm_", "zgemv_", "zherk_", "zpotrf_", "zscal_", "ztrsm_", "ztrsv_"),
@@ -25,12 +25,12 @@ SOURCES = [
     ROOT / name for name in ("CMakeLists.txt", "native/include", "native/src", "native/seams", "native/bindings")
 ]
 TESTS = ROOT / "tests" / "native"
-# A translation unit with Eigen takes up to 2 GB: no more of them at once than the machine has room for.
+# A translation unit with Eigen takes up to 2 GB, so memory limits their number at a time.
 JOBS = min(2, os.cpu_count() or 1)
 
 
 def build(target: Target) -> None:
-    """Compile everything of a target that the wheels need; quick when nothing has changed."""
+    """Compile everything that a target's wheels need; quick if nothing has changed."""
     recipes = [path for path in steps.source_files(Path(__file__).parent) if path.name not in {"wine.py", "qemu.py"}]
     state = steps.digest([*SOURCES, *recipes])
     stamp = f"cross-native-{target.name}"
@@ -44,12 +44,12 @@ def build(target: Target) -> None:
 
 
 def module(target: Target, python: str) -> Path:
-    """Return where the native module for a Python is built."""
+    """Return the build folder of the native module for a Python."""
     return target.folder / python_tag(python) / target.module_name(python)
 
 
 def build_libraries(target: Target, settings: dict[str, object]) -> Path:
-    """Compile what does not depend on Python and return the folder of the static libraries."""
+    """Compile the parts that do not depend on Python and return the folder of the static libraries."""
     folder = target.folder / "libraries"
     only = {"SPECTRAL_CONFORMAL_PYTHON": "OFF"}
     compilers.configure_and_build(
@@ -75,7 +75,7 @@ def build_module(target: Target, python: str, settings: dict[str, object]) -> No
 
 
 def build_tests(target: Target) -> Path:
-    """Compile the C++ tests beside the libraries, and return the folder that holds the programs and their BLAS."""
+    """Compile the C++ tests beside the libraries, and return the folder of the programs and their BLAS."""
     settings = {**compilers.part_settings(target), **link_settings(target), "SPECTRAL_CONFORMAL_PYTHON": "OFF"}
     folder = target.folder / "tests"
     only = {"SPECTRAL_CONFORMAL_BUILT": target.folder / "libraries", "SPECTRAL_CONFORMAL_TESTS": "ON"}
@@ -92,7 +92,7 @@ def build_tests(target: Target) -> Path:
 
 
 def link_settings(target: Target) -> dict[str, object]:
-    """Return CMake's settings for CHOLMOD and OpenBLAS, building what they name."""
+    """Build CHOLMOD and OpenBLAS and return CMake's settings for them."""
     source = parts.suitesparse()
     settings = {
         "CMAKE_TOOLCHAIN_FILE": compilers.toolchain(target),
@@ -110,7 +110,7 @@ def link_settings(target: Target) -> dict[str, object]:
     blas = blas_to_link(target)
     return {
         "CHOLMOD_INCLUDE_DIR": include_folder(target, source),
-        # CHOLMOD's own calls of the BLAS are resolved by what follows it.
+        # The libraries after CHOLMOD resolve its calls of the BLAS.
         "CHOLMOD_LIBRARY": f"{library};{blas}",
         "OPENBLAS_LIBRARY": blas,
         "SPECTRAL_CONFORMAL_BLAS_PREFIX": target.blas_prefix,
@@ -118,7 +118,7 @@ def link_settings(target: Target) -> dict[str, object]:
 
 
 def include_folder(target: Target, source: Path) -> Path:
-    """Return a folder with the headers that cholmod.h includes, and nothing else."""
+    """Return a folder with only the headers that cholmod.h includes."""
     folder = target.folder / "include"
     folder.mkdir(parents=True, exist_ok=True)
     for origin in (source / "SuiteSparse_config" / "SuiteSparse_config.h", *source.glob("CHOLMOD/Include/*.h")):
@@ -133,7 +133,7 @@ def blas_of_wheel(target: Target) -> Path:
 
 
 def blas_to_ship(target: Target) -> Path:
-    """Return the file of OpenBLAS as it goes into the wheel."""
+    """Return the OpenBLAS file for the wheel."""
     origin = blas_of_wheel(target)
     if target.system != "Linux":
         return origin
@@ -153,7 +153,7 @@ def blas_to_ship(target: Target) -> Path:
 
 
 def blas_to_link(target: Target) -> Path:
-    """Return what the linker takes for OpenBLAS: the module will ask the system for its name in the wheel."""
+    """Return the file that the linker uses for OpenBLAS; the module will load it by its name in the wheel."""
     if target.system == "Linux":
         return blas_to_ship(target)
     folder = target.folder / "blas"
@@ -166,7 +166,7 @@ def blas_to_link(target: Target) -> Path:
     compilers.write(definitions, module_definition(target))
     path = folder / "libopenblas.dll.a"
     dlltool = compilers.program(f"{target.triple}-dlltool")
-    # Its members are named after a file for the time being, by default another one at every call.
+    # Its members are named after a temporary file, by default a different one in every call.
     command = [dlltool, "--temp-prefix", "openblas", "-d", definitions, "-l", path]
     if not path.is_file():
         subprocess.run(command, cwd=folder, check=True)
@@ -174,13 +174,13 @@ def blas_to_link(target: Target) -> Path:
 
 
 def module_definition(target: Target) -> str:
-    """Return the .def file of an import library under the name that OpenBLAS has in the wheel."""
+    """Return the .def file of an import library under OpenBLAS's name in the wheel."""
     return "\n".join([f"LIBRARY {target.blas_name}", "EXPORTS", *BLAS_FUNCTIONS, ""])
 
 
 def text_stub(target: Target) -> str:
-    """Return the .tbd file that stands for OpenBLAS at link time, so that the signed library stays as it is."""
-    # C's names have an underscore in front on macOS.
+    """Return the .tbd file that replaces OpenBLAS at link time, so that the signed library stays unchanged."""
+    # On macOS, C names begin with an underscore.
     symbols = ", ".join(f"_{target.blas_prefix}{name}" for name in BLAS_FUNCTIONS)
     platform = f"{target.processor}-macos"
     return (

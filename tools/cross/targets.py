@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The systems that packages are made for: compiler, tags, BLAS, and what was run on each."""
+"""The target systems of the packages: compiler, tags, BLAS, and the tests that were run on each."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MACOS_MINIMUM = "11.0"
 ALL = "all"
 # Blender 3.4 to 4.0 have Python 3.10; 4.1 to 5.0 have 3.11; from 5.1 on it is 3.13.
 PYTHONS = ("3.10", "3.11", "3.13")
-# The name of OpenBLAS in the wheel is the project's own: a process on Windows keeps one library per name.
+# OpenBLAS has our own name in the wheel, because a process on Windows loads one library per name.
 BLAS = "spectral_conformal_openblas"
 
 
@@ -38,12 +38,12 @@ class Target:
 
     @property
     def folder(self) -> Path:
-        """Where everything of this target is built."""
+        """The build folder of this target."""
         return CROSS / self.name
 
     @property
     def blas_prefix(self) -> str:
-        """What stands before the names of the BLAS's functions; Windows' library has the plain names as well."""
+        """The prefix of the BLAS's function names; Windows' library has the plain names as well."""
         return "" if self.system == "Windows" else "scipy_"
 
     def module_name(self, python: str) -> str:
@@ -51,7 +51,7 @@ class Target:
         return f"_native{self.module_suffix(python)}"
 
     def module_suffix(self, python: str) -> str:
-        """Return the ending of extension modules that a Python looks for."""
+        """Return a Python's suffix for extension modules."""
         tag = python_tag(python)
         name = tag if self.system == "Windows" else tag.replace("cp", "cpython-")
         return f".{name}-{self.python_suffix}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Put a target's wheels together: package, native module, OpenBLAS, and the licences of all that is in them."""
+"""Assemble a target's wheels: package, native module, OpenBLAS, and the licenses of all parts."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LOG = "cross-wheels"
 
 
 def make(target: Target) -> list[Path]:
-    """Write the wheels of a target, whose native part is built, to build/cross/wheels/ and return them."""
+    """Write the wheels of a target to build/cross/wheels/ and return them; its native part must be built."""
     WHEELS.mkdir(parents=True, exist_ok=True)
     origin = metadata()
     found = licences(target)
@@ -47,14 +47,14 @@ def pack(target: Target, python: str, origin: Path, found: dict[str, bytes]) -> 
         f"Wheel-Version: 1.0\nGenerator: spectral-unwrap\nRoot-Is-Purelib: false\nTag: {tag}\n"
     )
     for path in tree.rglob("*"):
-        # A module needs no permission to be run, and the zip records what permissions a file had.
+        # A module need not be executable, and the zip records permissions.
         path.chmod(0o755 if path.is_dir() else 0o644)
     pack_wheel(tree, WHEELS, log=LOG)
     return wheel(target, python)
 
 
 def wheel(target: Target, python: str) -> Path:
-    """Return where the wheel of a target for a Python lies."""
+    """Return the path of a target's wheel for a Python."""
     tag = python_tag(python)
     found = sorted(WHEELS.glob(f"spectral_conformal-*-{tag}-{tag}-{target.tag}.whl"))
     if len(found) != 1:
@@ -66,13 +66,13 @@ def wheel(target: Target, python: str) -> Path:
 
 
 def place(origin: Path, path: Path) -> None:
-    """Copy a file and make the folder for it."""
+    """Copy a file and create its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(origin, path)
 
 
 def metadata() -> Path:
-    """Return the .dist-info folder that the build backend makes of pyproject.toml."""
+    """Return the .dist-info folder that the build backend makes from pyproject.toml."""
     state = steps.digest([ROOT / "pyproject.toml", ROOT / "README.md", ROOT / "LICENSE"])
     if not steps.is_done("cross-metadata", state) or not any(METADATA.glob("*.dist-info")):
         shutil.rmtree(METADATA, ignore_errors=True)
@@ -86,7 +86,7 @@ def metadata() -> Path:
 
 
 def licences(target: Target) -> dict[str, bytes]:
-    """Return the licence texts, by file name, of what is compiled into the module and of OpenBLAS beside it."""
+    """Return the license texts, by file name, of the code compiled into the module and of OpenBLAS beside it."""
     source = parts.suitesparse()
     suitesparse = ("AMD", "CAMD", "CCOLAMD", "CHOLMOD", "COLAMD")
     files = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run programs for Windows under Wine: Windows' Python with packages, and Blender as its module bpy."""
+"""Run programs for Windows under Wine: Windows' Python with packages, and Blender as the module bpy."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ FOLDER = BUILD / "wine"
 PREFIX = FOLDER / "prefix"
 LOG = "wine"
 ENVIRONMENT = {"WINEPREFIX": str(PREFIX), "WINEARCH": "win64", "WINEDEBUG": "-all", "LC_ALL": "C.UTF-8"}
-# By Python: the Blender for Windows that has it.
+# By Python: the Blender for Windows with it.
 BPY = {"3.11": "5.0.1", "3.13": "5.2.3"}
 # pip does not see that pytest needs colorama on Windows.
 PACKAGES = ("colorama", "libigl", "pytest", "scipy")
-# Wine 8 has none of C's complex functions, which NumPy calls. Programs are made to load a library of our own in place
-# of Windows' math, under a name as long as that one, which stands in their files.
+# Wine 8 lacks C's complex functions, which NumPy calls. Programs load our own library instead of Windows' math library;
+# its name is patched into their files and has the same length.
 MATH = "api-ms-win-crt-math-l1-1-0.dll"
 OWN_MATH = "wine-crt-math-complex-l1-1.dll"
 COMPLEX_FUNCTIONS = (
@@ -34,23 +34,23 @@ COMPLEX_FUNCTIONS = (
 def run(
     words: Sequence[object], *, environ: Mapping[str, str] | None = None, folder: Path = BUILD, timeout: float = 300
 ) -> subprocess.CompletedProcess[str]:
-    """Run a program for Windows; what it prints goes through pipes, since Python under Wine cannot write to files."""
+    """Run a program for Windows; its output goes through pipes, since Python under Wine cannot write to files."""
     prefix()
     return emulated.run(["wine", *words], environ=environment(environ), folder=folder, timeout=timeout)
 
 
 def environment(more: Mapping[str, str] | None = None) -> dict[str, str]:
-    """Return the environment of programs under Wine, without what this machine's Python and Blender are told."""
+    """Return the environment of programs under Wine, without the variables of this machine's Python and Blender."""
     return emulated.environment({**ENVIRONMENT, **(more or {})})
 
 
 def windows_path(path: Path) -> str:
-    """Return a file's name as programs under Wine see it."""
+    """Return a file's path as programs under Wine see it."""
     return "Z:" + str(path.resolve()).replace("/", "\\")
 
 
 def prefix() -> None:
-    """Make the folder that stands for a Windows, once."""
+    """Make the folder of a Windows installation, once."""
     if steps.is_done("wine-prefix", "win10") and PREFIX.is_dir():
         return
     shutil.rmtree(PREFIX, ignore_errors=True)
@@ -61,12 +61,12 @@ def prefix() -> None:
 
 
 def stop() -> None:
-    """End what Wine keeps running for this prefix."""
+    """End Wine's background processes for this prefix."""
     subprocess.run(["wineserver", "-k"], env=environment(), check=False)
 
 
 def python(version: str, *, bpy: bool = False) -> Path:
-    """Return python.exe of a Windows Python with the packages that the tests need, or with bpy in an own folder."""
+    """Return python.exe of a Windows Python with the packages for the tests, or with bpy in a separate folder."""
     origin = parts.windows_python(version)
     folder = FOLDER / f"{'bpy' if bpy else 'python'}-{version}"
     requirements = [f"bpy=={BPY[version]}"] if bpy else PACKAGES
@@ -75,10 +75,10 @@ def python(version: str, *, bpy: bool = False) -> Path:
         return folder / "python.exe"
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(origin, folder, symlinks=True)
-    # It asks Windows for its version in a way that ends the process under Wine.
+    # Its query of the Windows version ends the process under Wine.
     (folder / "DLLs" / "_wmi.pyd").unlink(missing_ok=True)
     site = folder / "Lib" / "site-packages"
-    # What a package asks of Python, pip compares with the one that runs pip.
+    # pip compares a package's required Python with the Python that runs pip.
     steps.run(
         f"pip install {' '.join(requirements)} (for Windows, Python {version})",
         [PYTHON, "-m", "pip", "install", "--upgrade", "--target", site, "--platform", "win_amd64", "--implementation",
@@ -91,7 +91,7 @@ def python(version: str, *, bpy: bool = False) -> Path:
 
 
 def add_complex_functions(folder: Path) -> None:
-    """Make all libraries in the folder of a Python find C's complex functions."""
+    """Let all libraries in a Python's folder find C's complex functions."""
     library = FOLDER / "math" / OWN_MATH
     if not library.is_file():
         build_math(library.parent)
@@ -104,14 +104,14 @@ def add_complex_functions(folder: Path) -> None:
 
 
 def build_math(folder: Path) -> None:
-    """Build the library: complex functions of MinGW, all else by Wine's own."""
+    """Build the library: complex functions from MinGW, everything else from Wine's own library."""
     folder.mkdir(parents=True, exist_ok=True)
     source = folder / "complex.c"
     source.write_text(complex_source())
     definitions = folder / "math.def"
     definitions.write_text(math_definition(names_in_wine()))
     compiler = compilers.program(f"{targets.named(['windows-x64'])[0].triple}-gcc-posix")
-    # Under its final name last: an unfinished file would be taken for done.
+    # It gets its final name last, since an unfinished file would be considered done.
     part = folder / "part.dll"
     flags = ["-O2", "-shared", "-fno-builtin", "-static", "-s"]
     steps.run(
@@ -121,13 +121,13 @@ def build_math(folder: Path) -> None:
 
 
 def complex_source() -> str:
-    """Return C's source that takes the complex functions' addresses, so that the linker puts them in."""
+    """Return C source that takes the complex functions' addresses, so that the linker includes them."""
     names = [name + ending for name in COMPLEX_FUNCTIONS for ending in ("", "f")]
     return f"#include <complex.h>\nvoid *functions[] = {{{', '.join(f'(void *){name}' for name in names)}}};\n"
 
 
 def math_definition(names: Sequence[str]) -> str:
-    """Return the .def file: a long double is a double for Windows' compilers, and other names are Wine's."""
+    """Return the .def file: to Windows' compilers a long double is a double, and other names are Wine's."""
     own = {name + ending for name in COMPLEX_FUNCTIONS for ending in ("", "f", "l")}
     lines = [f"LIBRARY {OWN_MATH}", "EXPORTS"]
     for name in COMPLEX_FUNCTIONS:
@@ -136,8 +136,8 @@ def math_definition(names: Sequence[str]) -> str:
 
 
 def names_in_wine() -> list[str]:
-    """Return the names of all functions in Wine's library of C, which has those of mathematics."""
-    # lief is one of the packages of `cross`, which a bare Python does not have.
+    """Return the names of all functions in Wine's C library, which includes the math functions."""
+    # lief belongs to the packages of `cross`; a bare Python does not have it.
     import lief
 
     found = sorted(Path("/usr/lib").glob("*/wine/x86_64-windows/ucrtbase.dll"))

@@ -14,13 +14,13 @@ from tools.steps import BUILD, ROOT, StepError
 OUTPUT = BUILD / "demo"
 HERE = Path(__file__).resolve().parent
 SUFFIXES = (".obj", ".ply", ".stl", ".blend")
-# What the steps hand on to each other, and the add-on where Blender looks for it.
+# Files that the steps exchange, and the add-on where Blender looks for it.
 WORK = BUILD / "demo-work"
 RESULTS = ("mesh.obj", "mesh.blend", "uv_layout.png", "checker.png", "report.json")
 
 
 def check_mesh(mesh: Path | None) -> Path | None:
-    """Return the absolute path of the mesh; raise StepError when there is no such file or it cannot be read."""
+    """Return the absolute path of the mesh; raise StepError if it does not exist or cannot be read."""
     if mesh is None:
         return None
     found = paths.existing_file(mesh)
@@ -30,7 +30,7 @@ def check_mesh(mesh: Path | None) -> Path | None:
 
 
 def run(mesh: Path | None) -> int:
-    """Unwrap the mesh (Suzanne when None), write everything to build/demo/ and print the table."""
+    """Unwrap the mesh (Suzanne if None), write everything to build/demo/ and print the table."""
     for folder in (OUTPUT, WORK):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -56,10 +56,10 @@ def run(mesh: Path | None) -> int:
 
 
 def profile(scripts: Path) -> dict[str, str]:
-    """Make a folder of Blender's user scripts with the add-on; return what makes Blender and its Python find it all."""
+    """Make a folder of user scripts with the add-on; return the settings by which Blender and its Python find it."""
     addons = scripts / "addons"
     addons.mkdir(parents=True)
-    # Links: no copies that could be stale.
+    # Links, since copies could become stale.
     (addons / "spectral_unwrap").symlink_to(ROOT / "addon", target_is_directory=True)
     # Blender appends this folder to Python's path: the system's Blender finds the native module there, after its own.
     (addons / "modules").symlink_to(site_packages(VENV), target_is_directory=True)

@@ -19,22 +19,22 @@ SAMPLES = 16
 LIGHT_SQUARE = (0.80, 0.76, 0.68, 1)
 DARK_SQUARE = (0.02, 0.11, 0.20, 1)
 BACKDROP = (0.50, 0.52, 0.54, 1)
-# Turn about the vertical, degrees, and place in units of the model's size, of the two copies.
+# Rotation about the vertical in degrees, and position in units of the model's size, of the two copies.
 COPIES = ((24, -0.5), (152, 0.53))
 
 
 def main() -> None:
-    """Render the mesh.blend of the output folder that the job names to its checker.png."""
+    """Render mesh.blend in the job's output folder to checker.png there."""
     output = Path(json.loads(Path(sys.argv[-1]).read_text())["output"])
     bpy.ops.wm.open_mainfile(filepath=str(output / "mesh.blend"))
     target = bpy.context.view_layer.objects.active
     for item in list(bpy.context.scene.objects):
         if item != target:
             bpy.data.objects.remove(item)
-    # Importers keep the turn from Y-up to Z-up in the object.
+    # Importers store the rotation from Y-up to Z-up in the object.
     target.data.transform(target.matrix_world)
     corners = np.array([vertex.co for vertex in target.data.vertices])
-    # The picture is wide: the height of a model counts for more.
+    # The picture is wide, so the height of a model counts for more.
     size = float(((corners.max(axis=0) - corners.min(axis=0)) * (1, 1, 1.35)).max())
     centre = Vector((corners.max(axis=0) + corners.min(axis=0)) / 2)
     # The mesh itself at unit size about the origin: lights and camera need no scale.
@@ -55,14 +55,14 @@ def main() -> None:
 
 
 def shader_nodes(data: bpy.types.Material | bpy.types.World) -> bpy.types.Nodes:
-    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 will know no `use_nodes`."""
+    """Return the shader nodes of new data, which has them from 5.0 on; Blender 6 removes `use_nodes`."""
     if data.node_tree is None:
         data.use_nodes = True
     return data.node_tree.nodes
 
 
 def checker_material(mesh: bpy.types.Mesh) -> bpy.types.Material:
-    """Return a material with squares that are SQUARES to the model's size on average."""
+    """Return a material with, on average, SQUARES squares along the model's size."""
     material = bpy.data.materials.new("Checker")
     nodes = shader_nodes(material)
     links = material.node_tree.links
@@ -143,7 +143,7 @@ def add_camera() -> None:
 
 
 def looking_at_origin(place: Vector) -> Matrix:
-    """Return the matrix of an object at a place that looks along its -Z at the origin."""
+    """Return the matrix of an object at a position, with its -Z axis toward the origin."""
     return Matrix.Translation(place) @ (-place).to_track_quat("-Z", "Y").to_matrix().to_4x4()
 
 
@@ -156,7 +156,7 @@ def render(path: Path) -> None:
     scene.cycles.seed = 1
     scene.cycles.max_bounces = 4
     denoise(scene)
-    # The picture shows the colours of the squares as they are, not a film's.
+    # The picture shows the true colors of the squares, without a film look.
     scene.view_settings.view_transform = "Standard"
     scene.render.resolution_x, scene.render.resolution_y = RESOLUTION
     scene.render.resolution_percentage = 100
@@ -166,7 +166,7 @@ def render(path: Path) -> None:
 
 
 def denoise(scene: bpy.types.Scene) -> None:
-    """Turn on the denoiser, where this build of Blender has it (Debian's has not)."""
+    """Turn on the denoiser, if this build of Blender has it (Debian's does not)."""
     try:
         scene.cycles.denoiser = "OPENIMAGEDENOISE"
     except TypeError:

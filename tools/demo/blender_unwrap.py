@@ -34,14 +34,14 @@ IMPORTERS = {
 
 
 def main() -> None:
-    """Do the job that the last argument names."""
+    """Run the job that the last argument names."""
     job = json.loads(Path(sys.argv[-1]).read_text())
     work = Path(job["work"])
     bpy.ops.wm.read_factory_settings(use_empty=True)
     mesh_file = Path(job["mesh"]) if job["mesh"] else None
     target = load(mesh_file) if mesh_file else suzanne.add_suzanne()
     require_boundary(target.data)
-    # From the profile that the demonstration has made; the reason of a failure is printed.
+    # From the demonstration's profile; Blender prints the reason of a failure.
     if addon_utils.enable("spectral_unwrap") is None:
         sys.exit("The add-on could not be enabled; the reason is above")
     seconds, uvs = {}, {}
@@ -64,10 +64,10 @@ def main() -> None:
 
 
 def load(path: Path) -> bpy.types.Object:
-    """Return the meshes of a file as one object; borders of the file's UV islands become seams."""
+    """Return the meshes of a file as one object; the file's island borders become seams."""
     try:
         read(path)
-    # Importers written in Python raise whatever a damaged file makes them raise.
+    # Importers written in Python can raise any exception on a damaged file.
     except Exception as error:  # noqa: BLE001
         sys.exit(f"{path}: Blender cannot read this file: {last_line(error)}")
     suffix = path.suffix.lower()
@@ -98,19 +98,19 @@ def read(path: Path) -> None:
 
 
 def last_line(error: Exception) -> str:
-    """Return what an error says at its end, without the traceback that Blender puts before it."""
+    """Return the last line of an error, without the traceback that Blender puts before it."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
     return lines[-1] if lines else type(error).__name__
 
 
 def operator_named(name: str) -> Callable[..., set[str]] | None:
-    """Return the operator, None where this Blender has none of that name."""
+    """Return the operator, None if this Blender has none of that name."""
     group, function = name.split(".")
     return getattr(getattr(bpy.ops, group), function) if function in dir(getattr(bpy.ops, group)) else None
 
 
 def mark_uv_borders(mesh: bpy.types.Mesh) -> None:
-    """Mark as seams the edges whose two faces have different UVs there."""
+    """Mark edges as seams if their two faces have different UVs there."""
     edit = bmesh.new()
     edit.from_mesh(mesh)
     layer = edit.loops.layers.uv.active
@@ -124,7 +124,7 @@ def mark_uv_borders(mesh: bpy.types.Mesh) -> None:
 
 
 def require_boundary(mesh: bpy.types.Mesh) -> None:
-    """Stop when the mesh is closed all over and has no seams: no method can flatten it."""
+    """Stop if the mesh is closed and has no seams: no method can flatten it."""
     edit = bmesh.new()
     edit.from_mesh(mesh)
     if not any(edge.seam or len(edge.link_faces) != 2 for edge in edit.edges):
@@ -136,7 +136,7 @@ def unwrap(target: bpy.types.Object, name: str, operator: Callable[[], set[str]]
     """Unwrap all faces into a UV map of that name and return the operator's seconds."""
     mesh = target.data
     if name not in mesh.uv_layers:
-        # All zero: what a method leaves out shows as such.
+        # All zero, so that faces which a method skips are visible.
         mesh.uv_layers.new(name=name, do_init=False)
     mesh.uv_layers.active = mesh.uv_layers[name]
     bpy.ops.object.mode_set(mode="EDIT")

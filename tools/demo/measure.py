@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs in build/venv: distortion of every method's UVs, the UV layout as a picture, and report.json."""
+"""Runs in build/venv: measure the distortion of every method's UVs, draw the UV layout, and write report.json."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SPECTRAL = "Spectral Unwrap"
 
 
 def main() -> None:
-    """Measure what blender_unwrap.py has left."""
+    """Measure the output of blender_unwrap.py."""
     job = json.loads(Path(sys.argv[-1]).read_text())
     output, work = Path(job["output"]), Path(job["work"])
     facts = json.loads((work / "blender.json").read_text())
@@ -118,11 +118,11 @@ def signed_areas(corners: np.ndarray) -> np.ndarray:
 
 
 def draw_layout(corner_uv: np.ndarray, qc: np.ndarray, row: dict, path: Path) -> None:
-    """Draw the UV layout, every triangle in the colour of its QC."""
+    """Draw the UV layout, with every triangle in the color of its QC."""
     low, high = corner_uv.min(axis=(0, 1)), corner_uv.max(axis=(0, 1))
     proportion = float(np.clip((high - low)[0] / (high - low)[1], 0.6, 1.8))
     figure, axes = plt.subplots(figsize=(7.4 * proportion + 2, 8.2), dpi=150, layout="constrained")
-    # Nearly all triangles lie close to 1; the few above the last percentile share the last colour.
+    # Nearly all triangles lie close to 1; the few above the last percentile share the last color.
     limit = max(1.0 + 1e-6, row["p99_qc"])
     faces = PolyCollection(corner_uv, array=qc, cmap="viridis", clim=(1.0, limit), edgecolors="face", linewidths=0.15)
     axes.add_collection(faces)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suzanne as Blender ships her, with the seams that an artist would mark, subdivided to about 63,000 vertices."""
+"""Blender's Suzanne, with the seams that an artist would mark, subdivided to about 63,000 vertices."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SUBDIVISIONS = 3
 
 
 def add_suzanne() -> bpy.types.Object:
-    """Add Suzanne with seams, subdivided, every quad split into four triangles at its centre."""
+    """Add Suzanne with seams, subdivided, with every quad split into four triangles at its center."""
     bpy.ops.mesh.primitive_monkey_add()
     suzanne = bpy.context.object
     mesh = suzanne.data

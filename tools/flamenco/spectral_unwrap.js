@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Job type for Flamenco 3: goes into the folder `scripts` beside Flamenco Manager; docs/batch.md tells more.
+// Job type for Flamenco 3: copy it into the folder `scripts` beside Flamenco Manager; see docs/batch.md.
 
 const JOB_TYPE = {
     label: "Spectral Unwrap",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build the site of the documents with MkDocs; what leads nowhere is an error."""
+"""Build the site of the documents with MkDocs; a broken link is an error."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ SITE = BUILD / "site"
 
 
 def run() -> int:
-    """Write README.md, docs/ and the reference of the module to build/site/."""
+    """Write README.md, docs/ and the module's reference to build/site/."""
     build(SITE)
     print(f"- open {(SITE / 'index.html').relative_to(ROOT)}")
     return 0
 
 
 def build(folder: Path) -> None:
-    """Write the site to a folder, anew; raise StepError where a link leads nowhere or a name is not found."""
+    """Write the site to a new folder; raise StepError for a broken link or an unknown name."""
     command = [PYTHON, "-m", "mkdocs", "build", "--strict", "--clean"]
     paths = ["--config-file", ROOT / "mkdocs.yml", "--site-dir", folder]
-    # Ruff is asked for by its name.
+    # Ruff is called by its name.
     search = f"{PYTHON.parent}:{os.environ['PATH']}"
-    # What MkDocs' future holds is no part of the log.
+    # Keep announcements of future MkDocs versions out of the log.
     steps.run("building the site", [*command, *paths], log="docs", environ={"PATH": search, "NO_MKDOCS_2_WARNING": "1"})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What MkDocs calls while it builds the site: README.md becomes the first page, names in docstrings links."""
+"""Hooks of MkDocs for the site: README.md becomes the first page, and names in docstrings become links."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mkdocs.structure.pages import Page
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
-    """Add README.md as index.md, its links seen from docs/."""
+    """Add README.md as index.md, with its links relative to docs/."""
     readme = Path(config.config_file_path).with_name("README.md").read_text(encoding="utf-8")
     files.append(File.generated(config, "index.md", content=readme.replace("](docs/", "](")))
     return files
@@ -28,6 +28,6 @@ def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files
         name = span[1]
         return f'<a href="#spectral_conformal.{name}"><code>{name}</code></a>' if name in entries else span[0]
 
-    # Of what the compiled part defines, the reference reads no source.
+    # The reference has no source for the names in the compiled part.
     compiled = r'<autoref identifier="spectral_conformal\._native[^>]*>'
     return re.sub(rf"<code>(?:{compiled})?([\w.]+)(?:</autoref>)?</code>", linked, html)

@@ -101,7 +101,7 @@ class GltfAsset:
             primitives = [each for mesh in self.json.get("meshes", []) for each in mesh["primitives"]]
             present = {name for primitive in primitives for name in primitive["attributes"]}
             number = str(next(n for n in itertools.count() if f"{_UV_SET}{n}" not in present))
-            self._notes.append(f"glTF has no names of UV maps: {uv_map} is {_UV_SET}{number}.")
+            self._notes.append(f"glTF has no names for UV maps: {uv_map} is {_UV_SET}{number}.")
         return f"{_UV_SET}{int(number)}"
 
     @contextmanager
@@ -152,7 +152,7 @@ class GltfAsset:
             try:
                 data = base64.b64decode(uri.partition(",")[2], validate=True)
             except binascii.Error as error:
-                raise AssetError(f"{self.path}: a buffer is no base64: {error}.") from None
+                raise AssetError(f"{self.path}: a buffer is not valid base64: {error}.") from None
         else:
             data = (self.path.parent / unquote(uri)).read_bytes()
         if len(data) < buffer.get("byteLength", 0):
@@ -410,7 +410,7 @@ class _Edit:
             tangents = tangents_of(*vertices, coordinates * (1, -1), new_rows.reshape(-1, 3)).astype("<f4")
             accessor = {"componentType": _FLOAT, "type": "VEC4"}
             attributes["TANGENT"] = self._put(attributes["TANGENT"], accessor, tangents)
-            self._asset.warnings.append("Tangents belonged to the map that was replaced: they were computed again.")
+            self._asset.warnings.append("The tangents of the replaced map were recomputed.")
         at = 0
         for primitive, triangles in zip(primitives, group.triangles):
             primitive["attributes"] = attributes

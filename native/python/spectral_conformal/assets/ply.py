@@ -292,7 +292,7 @@ class PlyAsset(OneMeshAsset):
             line = self._header[last_column.line].decode("ascii", errors="replace").rstrip()
             free = [names for names in _VERTEX_UV if not set(names) & self._vertex.properties.keys()]
             if not free:
-                raise AssetError(f"{self.path}: vertices have properties of all names that UVs could have.")
+                raise AssetError(f"{self.path}: the vertices already use all property names for UVs; rename one.")
             new_lines = "".join(f"\nproperty {_NAMES[kind]} {name}" for name in free[0])
             changes.set_line(last_column.line, line + new_lines)
         copies = []

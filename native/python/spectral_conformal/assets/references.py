@@ -47,7 +47,7 @@ def copy_along(source: Path, target: Path, names: Iterable[str]) -> list[str]:
         if not (origin / name).is_file():
             continue
         if elsewhere(name, source, target) != name or PurePosixPath(name).is_absolute():
-            warnings.append(f"{name} stays where it is, above the folder of {source.name}, which names it.")
+            warnings.append(f"{name} was not copied, because it is outside the folder of {source.name}.")
             continue
         there = goal / name
         if not there.exists():

@@ -192,7 +192,7 @@ class _Mesh:
         self._mesh: UsdGeom.Mesh = UsdGeom.Mesh(prim)
         self._time = Usd.TimeCode.EarliestTime()
         if self._mesh.GetPointsAttr().GetNumTimeSamples() > 1:
-            asset._tell(f"{prim.GetPath()} moves: it was unwrapped as it is at the first time.")
+            asset._tell(f"{prim.GetPath()} is animated: it was unwrapped in its first state.")
         self._positions = self._numbers(self._mesh.GetPointsAttr(), np.float64).reshape(-1, 3)
         sizes = self._numbers(self._mesh.GetFaceVertexCountsAttr(), np.int64)
         indices = self._numbers(self._mesh.GetFaceVertexIndicesAttr(), np.int64)

@@ -70,9 +70,7 @@ def write(
         partial.replace(os.path.realpath(target))
     except (assets.AssetError, OSError) as error:
         reason = str(error).replace(str(partial), target.name).replace(partial.name, target.name)
-        raise OSError(
-            f"It cannot be written, or is not read again as it was written; is the disk full? {reason}"
-        ) from error
+        raise OSError(f"It cannot be written, or does not read back as written; is the disk full? {reason}") from error
     finally:
         partial.unlink(missing_ok=True)
     return written.meshes, asset.warnings

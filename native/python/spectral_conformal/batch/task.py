@@ -118,7 +118,7 @@ def _run(request: Request, settings: BatchSettings, phases: _Phases, report: dic
     if asset.suffix != source.suffix.lower() and not settings.usd_over:
         report["warnings"].append(f"{source.suffix} holds no UVs: written as {target.suffix}.")
     elif asset.suffix != target.suffix.lower():
-        report["warnings"].append(f"Written as {target.suffix}, which of {source.suffix} has the meshes alone.")
+        report["warnings"].append(f"Written as {target.suffix}, with only the meshes of the {source.suffix} file.")
     maps = _unwrap(asset, settings, phases, report) if settings.unwrap else _keep(asset, settings.layout, phases)
     with phases("write"):
         written, warnings = files.write(target, asset, maps)

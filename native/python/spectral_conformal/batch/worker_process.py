@@ -196,7 +196,7 @@ class WorkerProcess:
         report = self._await(_START_SECONDS)
         if report["status"] != worker.READY and report["failure"]["kind"] != "memory":
             last = "".join(f"\n  {line}" for line in report["failure"]["log"])
-            raise StartError(f"No worker gets ready: {report['failure']['message']}. It said:{last}")
+            raise StartError(f"No worker becomes ready: {report['failure']['message']}. Its output:{last}")
         return report
 
     def _await(self, seconds: float | None) -> dict[str, Any]:

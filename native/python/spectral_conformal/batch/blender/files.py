@@ -62,14 +62,14 @@ class BlenderAsset:
             self.meshes.append(checked(path, meshes.read(item, uv_map)))
             self._names.append(mesh.name)
             if meshes.has_extenders(mesh):
-                self.warnings.append(f"The extenders of {mesh.name} were not used: they act in Blender's window.")
+                self.warnings.append(f"The extenders of {mesh.name} were ignored: only the add-on applies them.")
         if self.suffix == BLEND and bpy.data.version[:2] != bpy.app.version[:2]:
             before, now = (".".join(map(str, version[:2])) for version in (bpy.data.version, bpy.app.version))
-            self.warnings.append(f"The file was of Blender {before}, and is of {now} now.")
+            self.warnings.append(f"The file was saved by Blender {before}, and now by {now}.")
         if linked:
-            self.warnings.append(f"Left alone, since other files hold them: {', '.join(sorted(linked))}.")
+            self.warnings.append(f"Left unchanged, because they belong to linked files: {', '.join(sorted(linked))}.")
         if not self.meshes:
-            raise AssetError(f"{path.name}: there is no mesh with faces in it that is its own.")
+            raise AssetError(f"{path.name}: has no mesh of its own with faces; there is nothing to unwrap.")
 
     def _open(self) -> bool:
         """Let Blender read the file, and leave edit mode; return whether the file was in edit mode."""
@@ -128,7 +128,7 @@ class BlenderAsset:
                 or again.corner_uv is None
                 or not np.allclose(again.corner_uv[corners], uv_map.uv[corners], rtol=1e-6, atol=1e-6)
             ):
-                raise OSError(f"{written.path.name}: what was written is not what is read again; is the disk full?")
+                raise OSError(f"{written.path.name}: does not read back as written; is the disk full?")
 
 
 def _operator(name: str) -> Any:  # noqa: ANN401 - Blender's own type has no name
@@ -161,4 +161,4 @@ def _call(name: str, arguments: dict[str, Any], path: Path) -> None:
         reason = lines or [type(error).__name__]
         raise AssetError(f"{path.name}: {name} failed: {reason[-1]}") from error
     if "FINISHED" not in status:
-        raise AssetError(f"{path.name}: {name} was cancelled.")
+        raise AssetError(f"{path.name}: {name} was canceled.")
