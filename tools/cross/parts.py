@@ -209,7 +209,7 @@ def apt_source(package: str, name: str, sha256: str) -> Path:
     for path in (Path("/etc/apt/sources.list"), *Path("/etc/apt/sources.list.d").glob("*")):
         if path.suffix in {".list", ".sources"} and path.is_file():
             (sources / path.name).write_text(source_packages(path.read_text()))
-    # The machine's own lists stay unchanged. A stale mirror may have expired lists; the hash identifies the right archive.
+    # The machine's own lists stay unchanged. A stale mirror may have expired lists; the hash checks the archive.
     options = {
         "Dir::Etc::sourcelist": os.devnull,
         "Dir::Etc::sourceparts": sources,
