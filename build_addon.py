@@ -18,27 +18,25 @@ from tools.steps import StepError
 
 
 def parse(arguments: list[str] | None = None) -> argparse.Namespace:
-    """Read the command line; arguments that some commands do not know are those of what they run."""
+    """Parse the command line; some commands pass unknown arguments on to the program that they run."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
-    command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and picture it under build/demo/")
-    command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; Suzanne when left out")
-    commands.add_parser("batch", help="unwrap many files: INPUTS... --out DIR; --help tells what else", add_help=False)
+    command = commands.add_parser("demo", help="unwrap a mesh in Blender, measure and draw it under build/demo/")
+    command.add_argument("mesh", nargs="?", type=Path, help=".obj, .ply, .stl or .blend; by default Suzanne")
+    commands.add_parser("batch", help="unwrap many files: INPUTS... --out DIR; see its --help", add_help=False)
     command = commands.add_parser("test", help="run all tests; further arguments go to pytest", add_help=False)
-    command.add_argument("--quick", action="store_true", help="in under two minutes what needs no Blender")
+    command.add_argument("--quick", action="store_true", help="only quick tests without Blender, in under two minutes")
     command = commands.add_parser(
         "fuzz", help="call the module at random; further arguments: --cases, --seed, --case", add_help=False
     )
     command.add_argument(
         "--native", action="store_true", help="libFuzzer on the C++ code instead; arguments: --runs, --seed, --input"
     )
-    commands.add_parser(
-        "fuzz-scenes", help="random scenes through the operators; --help tells what else", add_help=False
-    )
-    commands.add_parser("docs", help="make a site of the documents, with a reference of the module, in build/site/")
+    commands.add_parser("fuzz-scenes", help="call the operators in random scenes; see its --help", add_help=False)
+    commands.add_parser("docs", help="build the documents and the module's reference as a site in build/site/")
     command = commands.add_parser("package", help="write the installable zips to build/packages/")
     command.add_argument(
-        "--wheels", type=Path, metavar="FOLDER", help="take the self-contained wheels of any platforms from this folder"
+        "--wheels", type=Path, metavar="FOLDER", help="use the self-contained wheels in this folder, for any platforms"
     )
     command.add_argument(
         "--platforms", nargs="+", metavar="NAME", help="compile for these systems, such as windows-x64, or for `all`; "
