@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -437,14 +436,15 @@ class Unfolder {
   bool dangles(int edge, const std::vector<int>& joined, int a, int b) {
     double hinge = 0;
     for (const int e : joined) hinge += graph_.edges()[static_cast<std::size_t>(e)].length;
-    double narrower = std::numeric_limits<double>::infinity();
+    // The smaller net first: as a rule it is narrow, and the other need not be looked at.
+    if (net(b).faces.size() < net(a).faces.size()) std::swap(a, b);
     for (const int i : {a, b}) {
       const auto [p, q] = ends(edge, i);
       const Complex half = 0.5 * hinge * (q - p) / std::abs(q - p);
       const Complex middle = 0.5 * (p + q);
-      narrower = std::min(narrower, net(i).triangles.width_along(middle - half, middle + half, 1 / min_hinge));
+      if (hinge >= min_hinge * net(i).triangles.width_along(middle - half, middle + half, 1 / min_hinge)) return false;
     }
-    return hinge < min_hinge * narrower;
+    return true;
   }
 
   const Piece& piece_;

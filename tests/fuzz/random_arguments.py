@@ -9,6 +9,7 @@ import inspect
 
 import numpy as np
 import spectral_conformal as sc
+from spectral_conformal import _options
 
 
 class Interrupted(Exception):
@@ -113,7 +114,7 @@ class Kept(sc.hosts.KeptMaps):
 PARAMETERS = {
     "vertices": lambda rng, mesh: mesh.vertices,
     "triangles": lambda rng, mesh: mesh.triangles,
-    "face_offsets": lambda rng, mesh: mesh.offsets,
+    "faces": lambda rng, mesh: mesh.offsets,
     "corner_vertices": lambda rng, mesh: mesh.corners,
     "seam_edges": seam_edges,
     "selected_faces": selected_faces,
@@ -156,14 +157,21 @@ def parameters_of(function):
 
     Without `options`, whose fields are parameters, too.
     """
-    listed = inspect.signature(function).parameters.values()
-    return {p.name: p.default is inspect.Parameter.empty for p in listed if p.name not in ("self", "options")}
+    listed = inspect.signature(function).parameters
+    names = {name: p.default is inspect.Parameter.empty for name, p in listed.items()}
+    # Offsets, not faces by vertices; other tests compare these.
+    if "faces" in names:
+        names["corner_vertices"] = True
+    if "changes" in names:
+        options = listed["changes"].annotation[len("Unpack[") : -1]
+        names.update(dict.fromkeys(sorted(getattr(_options, options).__optional_keys__), False))
+    return {name: needed for name, needed in names.items() if name not in ("self", "options", "changes")}
 
 
 def random_arguments(rng, mesh, function):
     """Sensible arguments: those that must be given and some of the others."""
     names = parameters_of(function)
-    makers = POLYGON_PARAMETERS if "face_offsets" in names else PARAMETERS
+    makers = POLYGON_PARAMETERS if "faces" in names else PARAMETERS
     share = rng.uniform(0, 0.5)
     arguments = {name: makers[name](rng, mesh) for name, needed in names.items() if needed or rng.random() < share}
     if "pinned_corners" in arguments:
