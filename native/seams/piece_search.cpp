@@ -234,7 +234,13 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
   cutter->settle(functional, progress);
-  if (!(value(*cutter) < found)) return;
+  // The limits hold for it as for the search.
+  const MapQuality& quality = cutter->quality();
+  const MapQuality& before = cutter_->quality();
+  if (quality.mean_qc > std::max(mesh_.options.qc_limit, before.mean_qc) ||
+      quality.energy > std::max(mesh_.options.energy_limit, before.energy) || !(value(*cutter) < found)) {
+    return;
+  }
   cutter_ = std::move(cutter);
   cuts_ = chains_as_cuts(cutter_->seams());
 }
