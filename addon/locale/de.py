@@ -451,7 +451,7 @@ TEXTS = {
     "overlapping": "überlappend",
     "flipped": "umgedreht",
     "{name}: {faces}, nothing to measure": "{name}: {faces}, nichts zu messen",
-    "Angles off by {mean} on average, {worst} at worst": "Winkel weichen im Mittel um {mean} ab, höchstens um {worst}",
+    "Angles off {mean}, worst {worst}": "Winkelfehler {mean}, höchstens {worst}",
     "{name}: {faces}": "{name}: {faces}",
     "Sizes vary by {percent} %": "Größen schwanken um {percent} %",
     "{flipped} flipped, {overlapping} overlapping": "{flipped} umgedreht, {overlapping} überlappend",

@@ -154,10 +154,9 @@ def steps():
     yield from press("key", "ctrl+z", "key", "Tab", "key", "x")
     screenshot("suggest_seams_fewer")
     assert bpy.context.mode == "EDIT_MESH"
-    # Elsewhere Blender works, and nothing is applied: beside the mesh, in the sidebar, over the UV editor.
+    # Elsewhere Blender works, and nothing is applied: beside the mesh, over the UV editor.
     point_at("VIEW_3D", 0.08, 0.1)
     yield from press("click", 1)
-    yield from click_sidebar(TAB)
     point_at("IMAGE_EDITOR")
     yield from press("click", WHEEL_UP)
     assert shown[0].count == fewer

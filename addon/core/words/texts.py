@@ -441,7 +441,8 @@ def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
     name, faces = translate(label), _count(numbers.faces, _FACES)
     if math.isnan(numbers.mean_qc):
         return (translate("{name}: {faces}, nothing to measure").format(name=name, faces=faces),)
-    angles = translate("Angles off by {mean} on average, {worst} at worst")
+    # Short: the legend has to fit beside panels.
+    angles = translate("Angles off {mean}, worst {worst}")
     lines = [
         translate("{name}: {faces}").format(name=name, faces=faces),
         angles.format(mean=_angles(numbers.mean_qc), worst=_angles(numbers.max_qc)),

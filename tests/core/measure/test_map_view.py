@@ -118,7 +118,7 @@ def test_equal_arrays_are_equal():
 def test_legend_has_a_line_for_what_there_is():
     numbers = MapView(grid()).numbers()
     lines = texts.legend_numbers("Shown", numbers)
-    assert lines == ("Shown: 16 faces", "Angles off by 0.0 % on average, 0.0 % at worst", "Sizes vary by 0.0 %")
+    assert lines == ("Shown: 16 faces", "Angles off 0.0 %, worst 0.0 %", "Sizes vary by 0.0 %")
     nothing = MapView(changed(grid(), uv=np.full((64, 2), np.nan))).numbers()
     assert texts.legend_numbers("Shown", nothing) == ("Shown: 16 faces, nothing to measure",)
 
