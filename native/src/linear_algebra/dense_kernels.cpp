@@ -42,11 +42,11 @@ bool is_small(const DenseBlock<Scalar>& block) {
 }
 
 template <class Scalar>
-using Matrix = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
+using StridedMatrix = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
 
 template <class Scalar>
 bool eliminate_small_columns(const DenseBlock<Scalar>& block) {
-  Matrix<Scalar> a(block.values, block.height, block.width, Eigen::OuterStride<>(block.height));
+  StridedMatrix<Scalar> a(block.values, block.height, block.width, Eigen::OuterStride<>(block.height));
   for (Eigen::Index j = 0; j < a.cols(); ++j) {
     const double pivot = std::real(a(j, j));
     if (!(pivot > 0)) return false;
@@ -65,8 +65,8 @@ bool eliminate_small_columns(const DenseBlock<Scalar>& block) {
 template <class Scalar>
 void multiply_small(const DenseBlock<Scalar>& block, Scalar* target) {
   const int n = block.below();
-  const Matrix<Scalar> b(block.values + block.width, n, block.width, Eigen::OuterStride<>(block.height));
-  Matrix<Scalar> c(target, n, n, Eigen::OuterStride<>(n));
+  const StridedMatrix<Scalar> b(block.values + block.width, n, block.width, Eigen::OuterStride<>(block.height));
+  StridedMatrix<Scalar> c(target, n, n, Eigen::OuterStride<>(n));
   for (Eigen::Index j = 0; j < c.cols(); ++j) {
     auto column = c.col(j).tail(c.rows() - j);
     column.setZero();

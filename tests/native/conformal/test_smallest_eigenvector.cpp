@@ -9,7 +9,7 @@ TEST_SUITE_BEGIN("smallest_eigenvector");
 
 namespace {
 
-struct Solved {
+struct SolvedEigenproblem {
   Patch patch{bumpy_grid(9, 7)};
   ConformalEnergy energy = patch.energy(Weights::uniform);
   BoundaryForm boundary = boundary_form(patch.outer(), patch.positions, BoundaryMeasure::length);
@@ -25,7 +25,7 @@ struct Solved {
 }  // namespace
 
 TEST_CASE("lambda is the quotient of Eq. 5, and no other vector has a smaller one") {
-  Solved solved;
+  SolvedEigenproblem solved;
   const Eigenvector v = solved.of({solved.boundary});
   REQUIRE(v.converged);
   CHECK((v.residual < 1e-10 && v.change < v.change_limit && v.solves > 0));
@@ -37,7 +37,7 @@ TEST_CASE("lambda is the quotient of Eq. 5, and no other vector has a smaller on
 }
 
 TEST_CASE("soft constraints that do nothing leave the eigenvector, and the next solve begins with it") {
-  Solved solved;
+  SolvedEigenproblem solved;
   const Eigenvector plain = solved.of({solved.boundary});
   ExtendedForm none(solved.boundary);
   none.add_extender({{3}, {40}, 0.0});
@@ -50,7 +50,7 @@ TEST_CASE("soft constraints that do nothing leave the eigenvector, and the next 
 }
 
 TEST_CASE("with B = A lambda is the quotient of the area form") {
-  Solved solved;
+  SolvedEigenproblem solved;
   const Eigenvector v = solved.of({solved.boundary, nullptr, true});
   REQUIRE(v.converged);
   CHECK(v.lambda == doctest::Approx(solved.energy.value(v.z) / solved.energy.area_form(v.z)));
