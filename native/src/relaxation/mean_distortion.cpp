@@ -14,7 +14,7 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double triangle_nanoseconds = 40;
+constexpr double measuring_nanoseconds = 40;
 /// More parts would share more vertices and hardly employ more threads.
 constexpr std::size_t max_parts = 32;
 
@@ -52,7 +52,7 @@ void MeanDistortion::for_each_part(const Work& work) {
     work(parts_.front());
     return;
   }
-  const double nanoseconds = triangle_nanoseconds * static_cast<double>(parts_.front().triangles.capacity());
+  const double nanoseconds = measuring_nanoseconds * static_cast<double>(parts_.front().triangles.capacity());
   run_in_parallel(
       n,
       [&](int i, const Progress&) {
@@ -65,7 +65,7 @@ void MeanDistortion::for_each_part(const Work& work) {
 MeanDistortion::MeanDistortion(const ConformalEnergy& energy, const ComplexVector& z, double relative_smoothing) {
   const DistortionElements elements(energy.triangles(), energy.energy_shapes(), energy.triangle_weights(),
                                     energy.n_virtual());
-  const double work = triangle_nanoseconds * static_cast<double>(elements.size());
+  const double work = measuring_nanoseconds * static_cast<double>(elements.size());
   const std::size_t n_parts =
       std::clamp(static_cast<std::size_t>(work / shared_nanoseconds), std::size_t{1}, max_parts);
   parts_.resize(n_parts);

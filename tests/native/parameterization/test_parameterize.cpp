@@ -229,7 +229,7 @@ TEST_CASE("the fields tell what was solved, and fallbacks can be forbidden") {
     CHECK(asked.attempts == 2);
     SolveOptions once = strict;
     once.second_attempt = false;
-    const Parameterization asked_once = Solver(patch.chart, patch.positions, options).solve(once, {});
+    const Parameterization asked_once = Solver(patch.chart, patch.positions, PatchOptions()).solve(once, {});
     CHECK(asked_once.attempts == 1);
     CHECK(count_flipped(patch, asked_once.z) == 0);
   }
