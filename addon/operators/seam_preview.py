@@ -90,11 +90,11 @@ class SeamPreview:
         """Keep what happens over a 3D viewport, but for view keys and navigation gizmos; panels and editors work."""
         if event.type in _EVERYWHERE:
             return False
-        area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
-        if area is None or area.type != "VIEW_3D":
+        found = _viewport_at(context, event)
+        if found is None:
             return True
         is_key = event.type in _VIEW_KEYS and not (event.ctrl or event.alt)
-        return is_key or _is_on_gizmos(context, area, region, event)
+        return is_key or _is_on_gizmos(context, *found, event)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Handle the keys that change the number of cuts or end the choice; a click on the mesh applies it."""
@@ -161,9 +161,10 @@ class SeamPreview:
 
     def _is_on_mesh(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Return whether the mouse is on one of the meshes in a 3D viewport."""
-        area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
-        if area is None or area.type != "VIEW_3D":
+        found = _viewport_at(context, event)
+        if found is None:
             return False
+        area, region = found
         points = under_mouse.ray(area, region, event.mouse_x - region.x, event.mouse_y - region.y)
         for edit_mesh in self._target.edit_meshes:
             edited = edit_mesh.edit_object
@@ -205,6 +206,12 @@ class _Measured:
     maps: dict[str, np.ndarray]
 
 
+def _viewport_at(context: bpy.types.Context, event: bpy.types.Event) -> tuple[bpy.types.Area, bpy.types.Region] | None:
+    """Return the 3D viewport under the mouse and its main region; None if there is none."""
+    found = editors.region_at(context.screen, event.mouse_x, event.mouse_y)
+    return found if found is not None and found[0].type == "VIEW_3D" else None
+
+
 def _is_on_gizmos(
     context: bpy.types.Context, area: bpy.types.Area, region: bpy.types.Region, event: bpy.types.Event
 ) -> bool:
@@ -220,9 +227,10 @@ def _is_on_gizmos(
 
 def _zoom(context: bpy.types.Context, event: bpy.types.Event, delta: int) -> bool:
     """Zoom the 3D viewport under the mouse, as the wheel does; return whether there is one."""
-    area, region = editors.region_at(context.screen, event.mouse_x, event.mouse_y) or (None, None)
-    if area is None or area.type != "VIEW_3D":
+    found = _viewport_at(context, event)
+    if found is None:
         return False
+    area, region = found
     with context.temp_override(area=area, region=region):
         bpy.ops.view3d.zoom("EXEC_DEFAULT", delta=delta, use_cursor_init=False)
     return True

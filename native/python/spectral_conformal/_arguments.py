@@ -166,14 +166,18 @@ def checked_progress(progress: Progress | None) -> Progress | None:
     return progress
 
 
+def _kind_of(error: Exception) -> type[Exception]:
+    """Return the kind of error to raise where a conversion raised this one."""
+    return TypeError if isinstance(error, TypeError) else ValueError
+
+
 def checked_array(values: npt.ArrayLike, name: str) -> np.ndarray:
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked values; fill them or leave them out.")
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
-        kind = TypeError if isinstance(error, TypeError) else ValueError
-        raise kind(f"{name} is no regular array: {error}.") from error
+        raise _kind_of(error)(f"{name} is no regular array: {error}.") from error
     if array.ndim and len(array) > _SIZE_LIMIT + 1:  # offsets have one more entry
         raise ValueError(
             f"{name} has {len(array)} rows; at most {_SIZE_LIMIT} can be numbered. Split the mesh into several."
@@ -260,8 +264,9 @@ def checked_extenders(extenders: Extenders | None, method: str, n_vertices: int)
             first, second, strength = extender
             i, j, strength = operator.index(first), operator.index(second), float(strength)
         except (TypeError, ValueError, OverflowError) as error:
-            kind = TypeError if isinstance(error, TypeError) else ValueError
-            raise kind(f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}.") from error
+            raise _kind_of(error)(
+                f"extenders must be (vertex, vertex, strength) triples, but has {extender!r}."
+            ) from error
         if not (0 <= i < n_vertices and 0 <= j < n_vertices):
             raise ValueError(f"Extender {k} joins the vertices {i} and {j}, but there are {n_vertices} vertices.")
         if i == j:
@@ -355,8 +360,9 @@ def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, f
             index = operator.index(vertex)
             u, v = (float(x) for x in position)
         except (TypeError, ValueError, OverflowError) as error:
-            kind = TypeError if isinstance(error, TypeError) else ValueError
-            raise kind(f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}.") from error
+            raise _kind_of(error)(
+                f"pins must map vertex indices to (u, v), but has {vertex!r}: {position!r}."
+            ) from error
         if not 0 <= index < n_vertices:
             raise ValueError(f"Vertex {index} is pinned, but there are {n_vertices} vertices.")
         if not (np.isfinite(u) and np.isfinite(v)):
