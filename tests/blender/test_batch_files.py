@@ -138,7 +138,7 @@ def test_what_cannot_be_selected_is_mapped_all_the_same(blend):
         assert report["totals"]["overlaps"] == 0
     for name in ("hidden_faces", "pose_mode"):
         assert report_of(folder, f"{name}.blend")["totals"]["islands"] == 6, name
-    assert "no mesh with faces" in report_of(folder, "nothing.blend")["failure"]["message"]
+    assert "no mesh of its own with faces" in report_of(folder, "nothing.blend")["failure"]["message"]
 
 
 def test_meshes_that_cannot_be_unwrapped_are_named_and_the_others_mapped(blend):
@@ -215,7 +215,7 @@ def test_relative_paths_hold_from_where_the_file_lies(blender, tmp_path):
         written = tmp_path / "in" / "a.blend" if options else tmp_path / "out" / "a.blend" / "a.blend"
         paths = in_blender(blender, tmp_path, PATHS, written)
         assert len(paths) == 2 and all(path.startswith("//") and is_there for path, is_there in paths), paths
-        assert any("other files hold them" in warning for warning in report_of(tmp_path, "a.blend")["warnings"])
+        assert any("they belong to linked files" in warning for warning in report_of(tmp_path, "a.blend")["warnings"])
 
 
 MAKE_FBX = """

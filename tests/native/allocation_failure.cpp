@@ -28,12 +28,12 @@ namespace {
 
 // Of all threads.
 std::atomic<long> countdown{0};         // the allocation that fails; 0 or less: none
-std::atomic<long> counted{0};           // allocations since the last reset
+std::atomic<long> allocations{0};       // allocations since the last reset
 std::atomic<long> alive{0};             // allocated and not yet freed
 std::atomic<std::size_t> requested{0};  // bytes since the last reset
 
 bool fails(std::size_t size) {
-  ++counted;
+  ++allocations;
   requested += size;
   return countdown > 0 && countdown-- == 1;
 }
@@ -110,7 +110,7 @@ enum class End { done, out_of_memory, failed };
 /// Runs a task whose n-th allocation fails; 0: none.
 End run(const std::function<void()>& task, long n) {
   countdown = n;
-  counted = 0;
+  allocations = 0;
   End end = End::done;
   try {
     task();
@@ -131,7 +131,7 @@ void fail_in_turn(
   REQUIRE(run(task, 0) == End::done);  // what is made once
   after();
   REQUIRE(run(task, 0) == End::done);
-  const long all = counted;
+  const long all = allocations;
   after();
   REQUIRE(all > 10);
   // All of the first, then growing steps: what comes later repeats itself.

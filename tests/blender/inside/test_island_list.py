@@ -169,9 +169,10 @@ def test_list_report_and_legend_have_one_worst(shape, reports):
     view = map_view.MapView(read_map.read_map(bpy.context, edited))
     ((_, text),) = [pair for pair in reports() if pair[1].startswith("Unwrapped")]
     _, angles, *_ = texts.legend_numbers(texts.LEGEND_MESH, view.numbers())
-    assert angles.removeprefix("Angles ") in text, (angles, text)
+    mean, worst = angles.removeprefix("Angles off ").split(", worst ")
+    assert f"angles off by {mean} on average, {worst} at worst" in text, (angles, text)
     worst = max(float(row.split("/")[1].split()[0]) for row in rows())
-    assert angles.endswith(f", {worst:g} % at worst"), (angles, rows())
+    assert angles.endswith(f", worst {worst:g} %"), (angles, rows())
     assert np.isclose(100.0 * (view.qc.max() - 1.0), worst, atol=0.6)
 
 
