@@ -48,6 +48,19 @@ struct Motion {
   Complex operator()(Complex z) const { return turn * z + shift; }
 };
 
+/// What two lines leave of a triangle: each adds a corner, and, should rounding have it cross every side, as many as
+/// there are.
+class ClippedTriangle {
+ public:
+  void push_back(Complex corner) { corners_[size_++] = corner; }
+  const Complex* begin() const { return corners_.data(); }
+  const Complex* end() const { return corners_.data() + size_; }
+
+ private:
+  std::array<Complex, 12> corners_;
+  std::size_t size_ = 0;
+};
+
 /// Triangles in the plane that others can be tested against, while more come in: trees of sizes that fall by half at
 /// least, so that each triangle is placed into a new tree a logarithmic number of times.
 class TriangleForest {
@@ -74,39 +87,36 @@ class TriangleForest {
     }
     return false;
   }
-  /// How far the triangles reach along a segment, within `hinge_depth` times its length from it; not looked at farther
-  /// from its middle along it than `reach` times the length.
-  double width_along(Complex from, Complex to, double reach) const {
+  /// Whether the triangles reach farther along a segment than `widest`, at least its length, within `hinge_depth` times
+  /// its length from it.
+  bool is_wider_along(Complex from, Complex to, double widest) const {
     const double length = std::abs(to - from);
     const Complex direction = (to - from) / length;
     const Complex middle = 0.5 * (from + to);
-    const double window = reach * length;
     double low = 0.5 * -length;
     double high = 0.5 * length;
     const double depth = hinge_depth * length;
     const Complex across = direction * Complex(0, depth);
-    const Complex along = direction * window;
+    const Complex along = direction * widest;
     const PlaneBox box = PlaneBox::of(
         {middle + along + across, middle + along - across, middle - along + across, middle - along - across});
     for (const Grove& grove : groves_) {
       grove.tree.for_each_meeting(box, [&](int i) {
-        std::vector<Complex> polygon;
+        ClippedTriangle polygon;
         for (const Complex corner : grove.triangles[static_cast<std::size_t>(i)].corners) {
           polygon.push_back((corner - middle) * std::conj(direction));
         }
-        // Multiplied by the unit, the part of the plane that is kept lies left of minus `limit`.
-        for (const auto& [unit, limit] : {std::pair{Complex(1), window}, std::pair{Complex(-1), window},
-                                          std::pair{Complex(0, 1), depth}, std::pair{Complex(0, -1), depth}}) {
-          polygon = clipped(polygon, unit, limit);
-        }
-        for (const Complex corner : polygon) {
-          low = std::min(low, corner.real());
-          high = std::max(high, corner.real());
-        }
-        return true;
+        polygon = clipped(clipped(polygon, 1, depth), -1, depth);
+        const auto [first, last] = std::minmax_element(polygon.begin(), polygon.end(),
+                                                       [](Complex p, Complex q) { return p.real() < q.real(); });
+        if (first == polygon.end() || first->real() > widest || last->real() < -widest) return true;
+        low = std::min(low, std::max(first->real(), -widest));
+        high = std::max(high, std::min(last->real(), widest));
+        return high - low <= widest;
       });
+      if (high - low > widest) return true;
     }
-    return high - low;
+    return false;
   }
   std::vector<PlaneTriangle> moved(const Motion& motion) const {
     std::vector<PlaneTriangle> result;
@@ -124,14 +134,14 @@ class TriangleForest {
     BoxTree tree;
   };
 
-  /// The part of a convex polygon where the real part of z * unit is at most `limit` (Sutherland and Hodgman 1974).
-  static std::vector<Complex> clipped(const std::vector<Complex>& polygon, Complex unit, double limit) {
-    std::vector<Complex> result;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Complex p = polygon[i];
-      const Complex q = polygon[(i + 1) % polygon.size()];
-      const double over_p = (p * unit).real() - limit;
-      const double over_q = (q * unit).real() - limit;
+  /// The part of a polygon where sign * y is at most `limit` (Sutherland and Hodgman 1974).
+  static ClippedTriangle clipped(const ClippedTriangle& polygon, double sign, double limit) {
+    ClippedTriangle result;
+    for (const Complex* at = polygon.begin(); at != polygon.end(); ++at) {
+      const Complex p = *at;
+      const Complex q = at + 1 == polygon.end() ? *polygon.begin() : at[1];
+      const double over_p = sign * p.imag() - limit;
+      const double over_q = sign * q.imag() - limit;
       if (over_p <= 0) result.push_back(p);
       if ((over_p < 0 && over_q > 0) || (over_p > 0 && over_q < 0))
         result.push_back(p + (q - p) * (over_p / (over_p - over_q)));
@@ -442,7 +452,7 @@ class Unfolder {
       const auto [p, q] = ends(edge, i);
       const Complex half = 0.5 * hinge * (q - p) / std::abs(q - p);
       const Complex middle = 0.5 * (p + q);
-      if (hinge >= min_hinge * net(i).triangles.width_along(middle - half, middle + half, 1 / min_hinge)) return false;
+      if (!net(i).triangles.is_wider_along(middle - half, middle + half, hinge / min_hinge)) return false;
     }
     return true;
   }
