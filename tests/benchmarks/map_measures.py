@@ -30,7 +30,7 @@ class Measures:
 
 def measure(vertices: np.ndarray, offsets: np.ndarray, corners: np.ndarray, uv: np.ndarray) -> Measures:
     """Measure a map: vertices (V, 3), faces as in `spectral_conformal.unwrap`, uv (corners, 2)."""
-    island, seams = _islands(offsets, corners, uv)
+    island, seams = islands_and_seams(offsets, corners, uv)
     defects = spectral_conformal.map_defects(offsets, corners, uv)
     triangles = _fans(offsets, uv)
     area = _areas(vertices[corners], triangles)
@@ -86,7 +86,7 @@ def _energy(points: np.ndarray, uv: np.ndarray, triangles: np.ndarray) -> float:
     return float(2 * np.sqrt(np.average(squares, weights=area) * np.average(inverse, weights=area)))
 
 
-def _islands(offsets: np.ndarray, corners: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def islands_and_seams(offsets: np.ndarray, corners: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(faces,) number of each face's island, and (n, 2) vertices of the edges that part islands or a slit."""
     n_faces = len(offsets) - 1
     following = np.arange(len(corners)) + 1

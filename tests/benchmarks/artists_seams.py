@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Suggested seams beside those of the artists who made a model's own UV map.
+
+    build/venv/bin/python -m pip install pybullet          # its data has textured models
+    apt-get download assimp-testmodels && dpkg -x assimp-testmodels*.deb build/models
+    build/venv/bin/python -m tests.benchmarks.artists_seams [file or folder ...]
+
+Without arguments, the models of both where they are. A model counts if it has a UV map on all faces, whose seams are
+neither absent nor around every other face, as those of projections and light maps are.
+Vertices at one position are one. A line per model and method, then the means.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+import spectral_conformal
+from scipy.spatial import cKDTree
+from spectral_conformal import assets
+from spectral_conformal._measuring import next_corner
+from spectral_conformal.assets import welding
+
+from tests.benchmarks import map_measures
+
+SHARP = np.radians(35)
+FLAT = np.radians(1)
+NEAR = 0.005
+"""Of a model's size (the bounding box's diagonal): seams this close are one to an artist."""
+MIN_FACES, MAX_FACES = 60, 60_000
+
+
+@dataclass(frozen=True)
+class SeamMeasures:
+    """Of the seams of one model; shares are of their length.
+
+    Attributes:
+        flat: on edges whose faces are within a degree of one plane.
+        sharp: on edges of 35 degrees and more.
+        found: within half a percent of the size of an artist's seam.
+        kept: `found`, or sharp.
+        covered: share of the artist's length that has a suggested seam within the same distance.
+        length: over the root of the area.
+        islands: of the map.
+        worst: the largest quasi-conformal distortion of the map, NaN for the artist's.
+    """
+
+    flat: float
+    sharp: float
+    found: float
+    kept: float
+    covered: float
+    length: float
+    islands: float
+    worst: float
+
+
+@dataclass(frozen=True)
+class Model:
+    """A polygon mesh (vertices, face_offsets, corner_vertices), and its artist's seams (S, 2)."""
+
+    name: str
+    vertices: np.ndarray
+    offsets: np.ndarray
+    corners: np.ndarray
+    seams: np.ndarray
+    islands: int
+
+
+def models(paths: list[Path]) -> Iterator[Model]:
+    """Read the models that count, each mesh of a file by itself."""
+    seen = set()
+    for path in paths:
+        try:
+            meshes = assets.read(path).meshes
+        except (assets.AssetError, OSError):
+            continue
+        for number, mesh in enumerate(meshes):
+            model = _model(f"{path.parent.name}/{path.stem}" + (f" {number}" if len(meshes) > 1 else ""), mesh)
+            if model is not None and (key := (len(model.vertices), len(model.offsets), len(model.seams))) not in seen:
+                seen.add(key)
+                yield model
+
+
+def _model(name: str, mesh: assets.AssetMesh) -> Model | None:
+    offsets, n_faces = mesh.face_offsets, len(mesh.face_offsets) - 1
+    if mesh.corner_uv is None or not MIN_FACES <= n_faces <= MAX_FACES or not mesh.has_uv().all():
+        return None
+    vertex_of = welding.coincident_vertices(mesh.vertices, offsets, mesh.corner_vertices, 1e-6)
+    corners = vertex_of[mesh.corner_vertices]
+    island, seams = map_measures.islands_and_seams(offsets, corners, mesh.corner_uv)
+    edges = np.unique(welding.face_edges(offsets, corners), axis=0)
+    islands = int(island.max()) + 1
+    if (
+        len(seams) == 0
+        or len(seams) > len(edges) / 3
+        or islands > n_faces / 4
+        or np.ptp(mesh.corner_uv, axis=0).min() <= 0
+    ):
+        return None
+    return Model(name, mesh.vertices, offsets, corners, seams, islands)
+
+
+def _face_areas(model: Model) -> np.ndarray:
+    """Return the vector area of every face, (faces, 3)."""
+    first = model.offsets[:-1]
+    at = model.vertices[model.corners]
+    out = at - at[first].repeat(np.diff(model.offsets), axis=0)
+    return 0.5 * np.add.reduceat(np.cross(out, out[next_corner(model.offsets)]), first)
+
+
+def angles(model: Model, edges: np.ndarray) -> np.ndarray:
+    """Return the angle between the faces of each edge, in radians; 0 where there are not two."""
+    offsets, corners = model.offsets, model.corners
+    normals = _face_areas(model)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    of_edge: dict[tuple[int, int], list[int]] = {}
+    face = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    for (a, b), f in zip(welding.face_edges(offsets, corners).tolist(), face.tolist(), strict=True):
+        of_edge.setdefault((a, b), []).append(f)
+    result = []
+    for a, b in np.sort(edges, axis=1).tolist():
+        faces = of_edge.get((a, b), [])
+        cosine = normals[faces[0]] @ normals[faces[1]] if len(faces) == 2 else 1.0
+        result.append(np.arccos(np.clip(cosine, -1, 1)))
+    return np.array(result)
+
+
+def _samples(model: Model, edges: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return points on edges (n, 3), at most `step` apart, and the length that each stands for (n,)."""
+    start, end = model.vertices[edges[:, 0]], model.vertices[edges[:, 1]]
+    length = np.linalg.norm(end - start, axis=1)
+    count = np.maximum(np.ceil(length / step).astype(int), 1)
+    edge = np.repeat(np.arange(len(edges)), count)
+    along = (np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[edge]
+    return start[edge] + along[:, None] * (end - start)[edge], (length / count)[edge]
+
+
+def measure(model: Model, seams: np.ndarray, islands: int, worst: float) -> SeamMeasures:
+    """Measure seams (S, 2) of a model beside its artist's."""
+    if len(seams) == 0:
+        return SeamMeasures(0, 0, 0, 0, 0, 0, islands, worst)
+    size = float(np.linalg.norm(np.ptp(model.vertices[np.unique(model.corners)], axis=0)))
+    points, weights = _samples(model, seams, 0.5 * NEAR * size)
+    theirs, their_weights = _samples(model, model.seams, 0.5 * NEAR * size)
+    near = cKDTree(theirs).query(points)[0] <= NEAR * size
+    near_ours = cKDTree(points).query(theirs)[0] <= NEAR * size
+    length = np.linalg.norm(model.vertices[seams[:, 0]] - model.vertices[seams[:, 1]], axis=1)
+    count = np.maximum(np.ceil(length / (0.5 * NEAR * size)).astype(int), 1)
+    angle = angles(model, seams)
+    sharp = np.repeat(angle >= SHARP, count)
+    area = np.linalg.norm(_face_areas(model), axis=1).sum()
+    return SeamMeasures(
+        flat=float(np.average(angle <= FLAT, weights=length)),
+        sharp=float(np.average(angle >= SHARP, weights=length)),
+        found=float(np.average(near, weights=weights)),
+        kept=float(np.average(near | sharp, weights=weights)),
+        covered=float(np.average(near_ours, weights=their_weights)),
+        length=float(length.sum() / np.sqrt(area)),
+        islands=islands,
+        worst=worst,
+    )
+
+
+def suggested(model: Model) -> SeamMeasures:
+    """Suggest seams from nothing, unwrap, and measure."""
+    seams = spectral_conformal.suggest_seams(model.vertices, model.offsets, model.corners)
+    result = spectral_conformal.unwrap(model.vertices, model.offsets, model.corners, seam_edges=seams)
+    worst = max((chart.max_qc for chart in result.charts if np.isfinite(chart.max_qc)), default=float("nan"))
+    return measure(model, seams, len(result.charts), worst)
+
+
+def given_paths(arguments: list[str]) -> list[Path]:
+    """Return the files named, or those of the packages that are there."""
+    roots = [Path(argument) for argument in arguments]
+    if not roots:
+        found = importlib.util.find_spec("pybullet_data")
+        roots = [Path(found.origin).parent] if found and found.origin else []
+        roots += [Path(folder) for folder in ("build/models", "/usr/share/assimp/models") if Path(folder).is_dir()]
+    paths = [path for root in roots for path in (sorted(root.rglob("*")) if root.is_dir() else [root])]
+    return [path for path in paths if path.suffix.lower() in assets.READABLE]
+
+
+def main() -> int:
+    """Print the table."""
+    names = [field.name for field in fields(SeamMeasures)]
+    print(f"| model | faces | seams | {' | '.join(names)} |\n|{'---|' * (len(names) + 3)}", flush=True)
+    totals: dict[str, list[SeamMeasures]] = {"artist": [], "suggested": []}
+    for model in models(given_paths(sys.argv[1:])):
+        for whose, each in (
+            ("artist", measure(model, model.seams, model.islands, float("nan"))),
+            ("suggested", suggested(model)),
+        ):
+            totals[whose].append(each)
+            cells = " | ".join(f"{value:.2f}" for value in astuple(each))
+            print(f"| {model.name} | {len(model.offsets) - 1} | {whose} | {cells} |", flush=True)
+    if not totals["artist"]:
+        print("No model counts: see the module's docstring for packages that have some.")
+        return 1
+    for whose, found in totals.items():
+        cells = " | ".join(f"{value:.2f}" for value in np.mean([astuple(each) for each in found], axis=0))
+        print(f"| mean of {len(found)} | | {whose} | {cells} |")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
