@@ -13,6 +13,8 @@ SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"
 
 SELECT_DISTORTED_OPERATOR = "uv.spectral_select_distorted"
 
+SELECT_STRETCHED_OPERATOR = "uv.spectral_select_stretched"
+
 INSPECT_OPERATOR = "uv.spectral_inspect"
 
 STORE_OPERATOR = "mesh.spectral_store_distortion"

@@ -48,6 +48,11 @@ TEXTS = {
     "From Islands": "Aus Inseln",
     "Nothing unwrapped yet": "Noch nichts abgewickelt",
     "Select Island": "Insel auswählen",
+    "Select Stretched Faces": "Gestreckte Flächen auswählen",
+    "Select the visible faces that the active UV map stretches to more than twice their width": (
+        "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
+    ),
+    "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
     "Select Most Distorted": "Am stärksten verzerrte auswählen",
     "Select the visible faces that the active UV map distorts most": (
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map am stärksten verzerrt"
@@ -480,13 +485,13 @@ TEXTS = {
     "No Flip: {changes}; angles there off by {after} on average, {before} before": (
         "Umdrehen verhindern: {changes}; Winkel weichen dort im Mittel um {after} ab, vorher um {before}"
     ),
-    "{n} island has faces stretched to more than twice their width, {worst} times at worst; add seams there": (
-        "{n} Insel hat Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens auf das "
-        "{worst}-Fache; dort Nähte hinzufügen"
+    "{n} face is stretched to more than twice its width, {worst} times ({operator}); add seams there": (
+        "{n} Fläche ist auf mehr als das Doppelte ihrer Breite gestreckt, auf das {worst}-Fache ({operator}); dort "
+        "Nähte hinzufügen"
     ),
-    "{n} islands have faces stretched to more than twice their width, {worst} times at worst; add seams there": (
-        "{n} Inseln haben Flächen, die auf mehr als das Doppelte ihrer Breite gestreckt sind, schlimmstens auf "
-        "das {worst}-Fache; dort Nähte hinzufügen"
+    "{n} faces are stretched to more than twice their width, up to {worst} times ({operator}); add seams there": (
+        "{n} Flächen sind auf mehr als das Doppelte ihrer Breite gestreckt, bis auf das {worst}-Fache ({operator}); "
+        "dort Nähte hinzufügen"
     ),
     "{n} face is too small for the precision of Blender's UVs; add seams that flatten its island, or raise "
     "Angle to Area": (

@@ -13,6 +13,7 @@ from .select import (
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,
     UV_OT_spectral_select_failed,
+    UV_OT_spectral_select_stretched,
 )
 from .store_distortion import MESH_OT_spectral_store_distortion
 from .suggest_seams import UV_OT_spectral_suggest_seams
@@ -23,6 +24,7 @@ _CLASSES = (
     UV_OT_spectral_select_failed,
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,
+    UV_OT_spectral_select_stretched,
     UV_OT_spectral_inspect,
     UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_store_distortion,

@@ -6,8 +6,10 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
+from ..core.choices import LOOK_ANGLE
 from ..core.measure import defects
 from ..core.measure.map_view import MapView, worst
+from ..core.measure.summary import STRAINED_QC
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
@@ -47,8 +49,7 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Measure the maps of all meshes in edit mode together and select the worst faces, or islands."""
-        arrays = {each.data: read_map(context, each) for each in context.objects_in_mode_unique_data}
-        views = {mesh: MapView(found) for mesh, found in arrays.items() if found is not None}
+        views = _views(context)
         if not views:
             self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
@@ -57,6 +58,41 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
         selection.select_shown(context, dict(zip(views, chosen)), self.extend)
         self.report({"INFO"}, texts.selected_worst(sum(int(faces.sum()) for faces in chosen)))
         return {"FINISHED"}
+
+
+class UV_OT_spectral_select_stretched(ReportingOperator, bpy.types.Operator):
+    """Select the visible faces that the report of an unwrap warns of."""
+
+    bl_idname = names.SELECT_STRETCHED_OPERATOR
+    bl_label = texts.SELECT_STRETCHED_LABEL
+    bl_description = texts.SELECT_STRETCHED_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    extend: BoolProperty(**texts.EXTEND_PROPERTY)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode."""
+        return context.mode == "EDIT_MESH"
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Measure the maps of all meshes in edit mode and select faces beyond the limit of the warning."""
+        views = _views(context)
+        if not views:
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
+            return {"CANCELLED"}
+        chosen = worst(list(views.values()), LOOK_ANGLE, 0.0, False, STRAINED_QC)
+        count = sum(int(faces.sum()) for faces in chosen)
+        if count:
+            selection.select_shown(context, dict(zip(views, chosen)), self.extend)
+        self.report({"INFO"}, texts.selected_stretched(count))
+        return {"FINISHED"}
+
+
+def _views(context: bpy.types.Context) -> dict[bpy.types.Mesh, MapView]:
+    """Return the maps of the meshes in edit mode that have one."""
+    arrays = {each.data: read_map(context, each) for each in context.objects_in_mode_unique_data}
+    return {mesh: MapView(found) for mesh, found in arrays.items() if found is not None}
 
 
 class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):

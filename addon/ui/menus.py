@@ -58,7 +58,12 @@ def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 def _draw_selectors(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
-    for operator in (names.SELECT_FAILED_OPERATOR, names.SELECT_DEFECTS_OPERATOR, names.SELECT_DISTORTED_OPERATOR):
+    for operator in (
+        names.SELECT_FAILED_OPERATOR,
+        names.SELECT_DEFECTS_OPERATOR,
+        names.SELECT_STRETCHED_OPERATOR,
+        names.SELECT_DISTORTED_OPERATOR,
+    ):
         draw_operator(self.layout, operator)
 
 

@@ -48,11 +48,12 @@ class _Island:
 
 
 class _LastResult(Remembered):
-    """The islands of the list, in its order, and what was reported of the last result, as (level, text)."""
+    """The islands of the list, in its order; the reports of the last result, and if they warn of stretched faces."""
 
     def __init__(self) -> None:
         self.islands: list[_Island] = []
         self.lines: list[tuple[str, str]] = []
+        self.has_stretched = False
 
 
 def _last() -> _LastResult:
@@ -64,12 +65,14 @@ def show(
     solutions: Sequence[Solution],
     reports: Sequence[tuple[str, str]],
     others_stay: bool = False,
+    has_stretched: bool = False,
 ) -> None:
     """Make these solutions, and what was reported of them as (level, text), the last result.
 
-    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list.
+    With `others_stay` islands of other faces, which have not been unwrapped again, stay in the list. `has_stretched` if
+    the reports warn of stretched faces.
     """
-    _last().lines = list(reports)
+    _last().lines, _last().has_stretched = list(reports), has_stretched
     charts = [solution.charts for solution in solutions]
     others = _others(edit_meshes, [edit_mesh.polygons.selected_faces for edit_mesh in edit_meshes])
     _fill([*(others if others_stay else ()), *_islands_of(edit_meshes, charts)])
@@ -126,6 +129,11 @@ def _fill(islands: Sequence[_Island]) -> None:
 def lines() -> list[tuple[str, str]]:
     """Return what was reported of the last result, as (level, text)."""
     return _last().lines
+
+
+def has_stretched() -> bool:
+    """Return whether the reports of the last result warn of stretched faces."""
+    return _last().has_stretched
 
 
 def select(context: bpy.types.Context, index: int) -> None:

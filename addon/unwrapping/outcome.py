@@ -4,7 +4,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..core.measure.summary import Summary, summarize
+from ..core.measure.summary import Strain, strain, summarize
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
 from ..core.words import texts
@@ -36,6 +36,10 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
     """
     edit_meshes, solutions = written.edit_meshes, written.solutions
     summary = summarize(solutions, [edit_mesh.edit_object.name for edit_mesh in edit_meshes])
+    found = Strain(0, 1.0)
+    # Stretching on request strains all islands.
+    if written.settings.options.stretch == 1.0:
+        found = strain([edit_mesh.polygons for edit_mesh in edit_meshes], solutions)
     pairs = (
         ("INFO", translate(texts.NOTHING_SELECTED_MEANS_ALL) if all_visible else ""),
         ("INFO", texts.repairs(summary)),
@@ -43,24 +47,21 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
         ("INFO", texts.pinned(summary)),
         ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
         *(("INFO", note) for note in _notes(edit_meshes, written.settings)),
-        *(("WARNING", warning) for warning in _warnings(summary, edit_meshes, written.settings, solutions)),
+        *(("WARNING", warning) for warning in _warnings(edit_meshes, written.settings, solutions)),
         ("WARNING", translate(texts.PACKED_BESIDE_FAILED) if written.placement.left_tile else ""),
         ("WARNING", texts.without_bounds(written.placement.without_bounds)),
+        ("WARNING", texts.strained(found)),
         ("WARNING", texts.failures(summary)),
     )
     reports = [(level, text) for level, text in pairs if text]
     last_result.remember(edit_meshes, solutions)
-    island_list.show(edit_meshes, solutions, reports, others_stay)
+    island_list.show(edit_meshes, solutions, reports, others_stay, has_stretched=found.faces > 0)
     return Outcome(summary.solved > 0, reports)
 
 
-def _warnings(
-    summary: Summary, edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]
-) -> tuple[str, ...]:
-    """Return the warnings about islands, extenders and stretching."""
+def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Sequence[Solution]) -> tuple[str, ...]:
+    """Return the warnings about small faces, extenders and stretching."""
     warnings = [
-        # Stretching on request strains all islands.
-        texts.strained(summary) if settings.options.stretch == 1.0 else "",
         texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
         texts.too_small(sum(solution.too_small_faces for solution in solutions)),
         texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),

@@ -4,15 +4,17 @@
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import native
+from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.solution import Solution, are_solved, column_of_all
 from ..words.translation import translate
 
-# Squares of a texture become rectangles of twice their width, which is obvious in spite of a good average.
+# The angles of a face are off by 100 %: squares of a texture become rectangles of twice their width, which is obvious
+# however good the average is.
 STRAINED_QC = 2.0
 # Reasons for which the solver rejects charts that more seams would cut open.
 _LACK_OF_SEAMS = {"closed", "handles", "border_of_two"}
@@ -26,7 +28,6 @@ class Summary:
         solved: number of solved charts.
         mean_qc: quasi-conformal distortion averaged over the solved area, 1 where angles are kept.
         max_qc: largest quasi-conformal distortion of a face.
-        strained: number of solved charts with a face beyond STRAINED_QC.
         flipped: number of faces with a flipped triangle.
         overlapping: number of faces that overlap others of their chart.
         unfolded: number of flipped triangles that were unfolded on request.
@@ -42,7 +43,6 @@ class Summary:
     solved: int
     mean_qc: float
     max_qc: float
-    strained: int
     flipped: int
     overlapping: int
     unfolded: int
@@ -71,6 +71,34 @@ def mean_qc(solutions: Sequence[Solution]) -> float:
     return native.measuring().area_mean(qc, area)
 
 
+class Strain(NamedTuple):
+    """How many solved faces are distorted beyond STRAINED_QC, and the quasi-conformal distortion of the worst one."""
+
+    faces: int
+    max_qc: float
+
+
+def strain(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution]) -> Strain:
+    """Return the strain of the maps of the selected faces of the meshes.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    faces, worst = 0, 1.0
+    for mesh, solution in zip(meshes, solutions):
+        # The worst triangle of each chart is known; only where it is beyond the limit, faces are measured.
+        of_charts = column_of_all([solution], "max_qc")[are_solved([solution])]
+        if not (of_charts > STRAINED_QC).any():
+            continue
+        solved = mesh.selected_faces & solution.solved_corners[mesh.face_offsets[:-1]]
+        measured = native.spectral_conformal().face_distortion(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, solution.uv, selected_faces=solved
+        )
+        strained = measured.qc[solved & (measured.area > 0.0) & (measured.qc > STRAINED_QC)]
+        faces, worst = faces + len(strained), max([worst, *strained.tolist()])
+    return Strain(faces, worst)
+
+
 def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
     """Add up the charts of all meshes; `names` are those of the meshes' objects, in the same order."""
 
@@ -87,7 +115,6 @@ def summarize(solutions: Sequence[Solution], names: Sequence[str]) -> Summary:
         solved=int(np.count_nonzero(solved)),
         mean_qc=mean_qc(solutions),
         max_qc=max(of("max_qc")[solved].tolist(), default=float("nan")),
-        strained=int(np.count_nonzero(of("max_qc")[solved] > STRAINED_QC)),
         flipped=sum(of("flipped")[solved].tolist()),
         overlapping=sum(of("overlapping")[solved].tolist()),
         unfolded=sum(of("unfolded")[unfolded].tolist()),

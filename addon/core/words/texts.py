@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..measure.defects import Defects
     from ..measure.map_view import IslandNumbers
     from ..measure.quality import MapQuality
-    from ..measure.summary import Summary
+    from ..measure.summary import Strain, Summary
 
 UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
@@ -57,6 +57,10 @@ CLEAR_SEAMS_LABEL = "Clear Selected"
 SEAMS_FROM_ISLANDS_LABEL = "From Islands"
 NO_RESULT_LABEL = "Nothing unwrapped yet"
 SELECT_ISLAND_LABEL = "Select Island"
+SELECT_STRETCHED_LABEL = "Select Stretched Faces"
+SELECT_STRETCHED_DESCRIPTION = (
+    "Select the visible faces that the active UV map stretches to more than twice their width"
+)
 SELECT_DISTORTED_LABEL = "Select Most Distorted"
 SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map distorts most"
 INSPECT_LABEL = "Inspect Map"
@@ -477,6 +481,13 @@ def island_failed(faces: int) -> str:
 ISLAND_GONE = "The faces of this island have changed; unwrap again"
 
 
+def selected_stretched(faces: int) -> str:
+    """Return what Select Stretched Faces says."""
+    if not faces:
+        return translate("No stretched faces, selection unchanged")
+    return translate("Selected {faces}").format(faces=_count(faces, _FACES))
+
+
 def selected_worst(faces: int) -> str:
     """Return what Select Most Distorted says."""
     return translate("Selected {faces}").format(faces=_count(faces, _FACES))
@@ -525,15 +536,16 @@ def unfolded(summary: Summary) -> str:
     return sentence.format(changes=changes, before=_angles(before), after=_angles(after))
 
 
-def strained(summary: Summary) -> str:
-    """Return the warning about islands with strongly stretched faces; empty for none."""
-    if not summary.strained:
+def strained(strain: Strain) -> str:
+    """Return the warning about strongly stretched faces; empty for none."""
+    if not strain.faces:
         return ""
     forms = (
-        "{n} island has faces stretched to more than twice their width, {worst} times at worst; add seams there",
-        "{n} islands have faces stretched to more than twice their width, {worst} times at worst; add seams there",
+        "{n} face is stretched to more than twice its width, {worst} times ({operator}); add seams there",
+        "{n} faces are stretched to more than twice their width, up to {worst} times ({operator}); add seams there",
     )
-    return _count(summary.strained, forms, worst=format(summary.max_qc, ".3g"))
+    worst, operator = format(strain.max_qc, ".3g"), translate(SELECT_STRETCHED_LABEL)
+    return _count(strain.faces, forms, worst=worst, operator=operator)
 
 
 def too_small(faces: int) -> str:

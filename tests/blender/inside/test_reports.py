@@ -109,7 +109,23 @@ def test_faces_that_are_bent_far_more_than_the_rest_are_a_warning_and_the_last_l
     bpy.ops.uv.spectral_unwrap()
     *_, (level, text) = reports()
     assert level == "Warning"
-    assert "stretched to more than twice their width" in text
+    count, rest = text.split(" ", 1)
+    assert rest.startswith("faces are stretched to more than twice their width, up to ")
+    # One click selects them, that many and no others.
+    assert bpy.ops.uv.spectral_select_stretched() == {"FINISHED"}
+    assert sum(face.select for face in bm.faces) == int(count) > 0
+    assert not all(face.select for face in bm.faces)
+
+
+def test_where_nothing_is_stretched_there_is_nothing_to_select(reports):
+    grid = scenes.grid(3, 3)
+    scenes.edit(grid)
+    bpy.ops.uv.spectral_unwrap()
+    scenes.select_faces(grid, [4])
+    reports()
+    assert bpy.ops.uv.spectral_select_stretched() == {"FINISHED"}
+    assert reports() == [("Info", "No stretched faces, selection unchanged")]
+    assert [face.index for face in scenes.edit_mesh(grid).faces if face.select] == [4]
 
 
 def test_the_notice_on_scale_is_the_last_line(reports):

@@ -77,7 +77,7 @@ def test_closed_meshes_are_cut_and_unwrapped_from_nothing(make, reports):
     qc, area = scenes.quasi_conformal(solid)
     assert np.average(qc, weights=area) < 1.3
     reported = reports()
-    about_quality = "stretched to more than twice their width"
+    about_quality = "stretched to more than twice"
     assert [text for level, text in reported if level != "Info" and about_quality not in text] == []
     assert any(text.startswith("Unwrapped ") for _, text in reported)
 

@@ -8,7 +8,7 @@ import pytest
 import spectral_conformal
 from spectral_unwrap.core.measure.defects import Defects
 from spectral_unwrap.core.measure.quality import MapQuality
-from spectral_unwrap.core.measure.summary import summarize
+from spectral_unwrap.core.measure.summary import Strain, summarize
 from spectral_unwrap.core.solve.solution import Solution
 from spectral_unwrap.core.words import texts, translation
 from spectral_unwrap.locale import TABLES
@@ -231,8 +231,7 @@ def test_what_is_infinite_is_said_in_words():
     assert text.startswith("Unwrapped 1 island: angles off beyond measure, because faces shrink to nothing; ")
 
 
-@pytest.mark.parametrize(("worst", "said"), [((1.9, 1.2), False), ((12.4, 1.2), True)])
-def test_islands_with_faces_that_are_bent_far_are_a_warning(worst, said):
-    warning = texts.strained(summary(*(solved(max_qc=qc) for qc in worst)))
-    assert ("1 island has faces stretched" in warning and "12.4" in warning) is said
-    assert bool(warning) is said
+def test_stretched_faces_are_a_warning_with_their_number():
+    assert texts.strained(Strain(0, 1.0)) == ""
+    assert texts.strained(Strain(1, 12.4)).startswith("1 face is stretched to more than twice its width, 12.4 times")
+    assert "Select Stretched Faces" in texts.strained(Strain(3, 12.4))

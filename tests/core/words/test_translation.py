@@ -14,7 +14,7 @@ from spectral_unwrap.core import native
 from spectral_unwrap.core.measure.defects import Defects
 from spectral_unwrap.core.measure.map_view import IslandNumbers
 from spectral_unwrap.core.measure.quality import MapQuality
-from spectral_unwrap.core.measure.summary import Summary
+from spectral_unwrap.core.measure.summary import Strain, Summary
 from spectral_unwrap.core.words import texts, translation
 from spectral_unwrap.locale import TABLES
 
@@ -129,7 +129,6 @@ def looked_up():
 def summary(count=0, **changed):
     """Return a summary in which everything that is counted has happened so often."""
     once = {"solved": count, "flipped": count, "overlapping": count, "unfolded": count, "embedded": count}
-    once["strained"] = count
     reasons = {"failures": Counter(A=count), "repairs": Counter(A=count), "pinned": Counter(lscm=count, spectral=1)}
     rest = {"mean_qc": 1.5, "max_qc": 2.0, "mean_qc_change": (1.5, 1.25), "refused": ("A: B",)}
     return Summary(**{**once, **reasons, **rest, **changed})
@@ -168,7 +167,8 @@ CALLS = {
     "too_small": [(0,), (1,), (2,)],
     "failures": [(summary(1),), (summary(2),), (summary(1, lacks_seams=True),)],
     "repairs": [(summary(1),), (summary(2),)],
-    "strained": [(summary(0),), (summary(1),), (summary(2),)],
+    "strained": [(Strain(count, 2.5),) for count in (0, 1, 2)],
+    "selected_stretched": [(0,), (1,), (2,)],
     "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
     "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],
     "broken_extenders": [(["A"],), (["A", "B"],)],
