@@ -237,7 +237,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
     const Complex part = s.antiholomorphic_part(z[b] - z[a], z[c] - z[a]);
     const double scale = weight(t) / (4 * s.area());
     sum += scale * std::norm(part);
-    s.add_gradient(triangles_[t], 0, scale * part, result.data());
+    s.add_gradient(triangles_[t], scale * part, result.data());
   }
   still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;

@@ -38,9 +38,13 @@ struct TriangleShape {
     const Complex by_d1(x2 * (g.imag() - h.imag()) + y2 * (g.real() + h.real()),
                         x2 * (h.real() - g.real()) + y2 * (g.imag() + h.imag()));
     const Complex by_d2(x1 * (h.imag() - g.imag()), x1 * (g.real() - h.real()));
-    gradient[corners[1]] += by_d1;
-    gradient[corners[2]] += by_d2;
-    gradient[corners[0]] -= by_d1 + by_d2;
+    add_gradient_by_sides(corners, by_d1, by_d2, gradient);
+  }
+  /// The same with g = 0, for conformal energies.
+  void add_gradient(const std::array<int, 3>& corners, Complex h, Complex* gradient) const {
+    const Complex by_d1(y2 * h.real() - x2 * h.imag(), x2 * h.real() + y2 * h.imag());
+    const Complex by_d2(x1 * h.imag(), -x1 * h.real());
+    add_gradient_by_sides(corners, by_d1, by_d2, gradient);
   }
 
   /// Cotangents of the angles at the corners, times 2 |T|: the dot products of the two sides at each corner.
@@ -53,6 +57,14 @@ struct TriangleShape {
   /// The relative height below which a triangle is degenerate: cotangents reach its inverse, and 1e10 leaves six of
   /// sixteen digits in a sum with terms of order 1.
   static constexpr double min_height = 1e-10;
+
+ private:
+  static void add_gradient_by_sides(const std::array<int, 3>& corners, Complex by_d1, Complex by_d2,
+                                    Complex* gradient) {
+    gradient[corners[1]] += by_d1;
+    gradient[corners[2]] += by_d2;
+    gradient[corners[0]] -= by_d1 + by_d2;
+  }
 };
 
 /// The local isometric frame of a triangle in 3D. A triangle with a relative height below min_height gets that height,

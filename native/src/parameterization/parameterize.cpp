@@ -98,6 +98,14 @@ PatchMap unsolved(const SolveTask& task) {
   return map;
 }
 
+/// Stage: fixes the similarity that the energy leaves free, unless the map is placed already.
+PatchMap placed(const SolveTask& task, PatchMap map) {
+  if (map.rejection || map.result.z.size() > 0) return map;
+  map.found = placed_map(task.patch.problem, std::move(map.found), map.result.timings);
+  map.take_found();
+  return map;
+}
+
 /// Stage: adds the remarks on the patch and on the precision of the map.
 PatchMap remarked(const SolveTask& task, PatchMap map) {
   const PreparedPatch& patch = task.patch;
@@ -190,6 +198,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // if it fails its checks
   map = polished(task, std::move(map), part(solving, 0.95, 1.0));            // on to a lower mean QC
   map = replaced(task, std::move(map), part(solving, 0.95, 0.95));           // by another map if it was rejected
+  map = placed(task, std::move(map));                                        // centered, upright, in the size in 3D
   map = unfolded(task, std::move(map), part(progress, 0.5, 1.0));            // or embedded if there is none
   if (map.rejection) throw SolveFailure(*map.rejection);
   map = measured_blend(task, std::move(map));

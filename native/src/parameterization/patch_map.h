@@ -45,10 +45,10 @@ struct SolveTask {
 
 /// What the stages of a solve (parameterize.cpp) pass on: a map, or why there is none yet, and its history.
 struct PatchMap {
-  Parameterization result;        ///< z is empty if there is no map
+  Parameterization result;        ///< z is empty if there is no map, or it is not yet placed
   std::optional<Step> rejection;  ///< why there is none
   SpectralMap found;              ///< as its solve left it, except z
-  SpectralMap with_free_holes;    ///< see hole_rigidity.h; its z is empty if there is none
+  SpectralMap with_free_holes;    ///< see hole_rigidity.h; `whole` is empty if there is none
 
   void add(const Step& step) { result.steps.push_back(step); }
   /// Takes the map of a solve, or the reason for its rejection. options: those of the solve.

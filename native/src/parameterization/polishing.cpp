@@ -34,16 +34,15 @@ SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const 
   for (const double fraction : {1.0, 0.5, 0.25}) {
     SpectralMap moved = map;
     moved.whole = map.whole + fraction * (end - map.whole);
-    moved.z = moved.whole.head(patch.n_vertices);
+    const ComplexVector z = moved.whole.head(patch.n_vertices);
     const MapNumbers numbers = map_numbers(problem, moved.whole);
-    if (numbers.turning_number != map.turning_number || !(signed_area(energy, moved.z) > 0) || covers_more(moved.z) ||
-        !(mean_qc(moved.z) < mean_qc_before)) {
+    if (numbers.turning_number != map.turning_number || !(signed_area(energy, z) > 0) || covers_more(z) ||
+        !(mean_qc(z) < mean_qc_before)) {
       continue;
     }
     moved.eigenvalue = numbers.eigenvalue;
     moved.residual = numbers.residual;
     moved.polish_steps = steps;
-    place(problem, moved.z);
     map = std::move(moved);
     break;
   }
@@ -58,13 +57,14 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
   const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
   if (map.rejection || !task.options.polish || !task.is_free() || is_shaped) return map;
   Parameterization& result = map.result;
-  map.found.z = std::move(result.z);
   map.found = polished_map(prepared.problem, std::move(map.found), progress, result.timings);
-  if (map.with_free_holes.z.size() > 0) {
+  if (map.with_free_holes.whole.size() > 0) {
     SpectralMap free = polished_map(prepared.problem, std::move(map.with_free_holes), progress, result.timings);
-    const Distortion of_rigid = chart_distortion(patch, map.found.z);
-    const Distortion of_free = chart_distortion(patch, free.z);
-    const bool covers_more = may_cover_itself(patch, free.z) && !may_cover_itself(patch, map.found.z);
+    const ComplexVector rigid_z = map.found.whole.head(patch.n_vertices);
+    const ComplexVector free_z = free.whole.head(patch.n_vertices);
+    const Distortion of_rigid = chart_distortion(patch, rigid_z);
+    const Distortion of_free = chart_distortion(patch, free_z);
+    const bool covers_more = may_cover_itself(patch, free_z) && !may_cover_itself(patch, rigid_z);
     if (of_free.mean_qc < of_rigid.mean_qc && of_free.n_flipped() <= of_rigid.n_flipped() && !covers_more) {
       map.found = std::move(free);
       result.hole_rigidity = 0;

@@ -57,8 +57,12 @@ SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, 
   if (map.rejection != Rejection::none) return map;
   problem.earlier.z = map.whole;
   watch.lap("eigenproblem");
+  return map;
+}
 
-  // Place it: the energy leaves a similarity free.
+SpectralMap placed_map(const SpectralProblem& problem, SpectralMap map, Timings& timings) {
+  if (map.rejection != Rejection::none || map.z.size() > 0) return map;
+  Stopwatch watch(timings);
   map.z = map.whole.head(problem.patch->n_vertices);
   place(problem, map.z);
   watch.lap("placement");

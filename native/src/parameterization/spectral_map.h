@@ -14,8 +14,8 @@ namespace spectral_conformal {
 /// A map of a patch, or why there is none.
 struct SpectralMap {
   Rejection rejection = Rejection::none;
-  ComplexVector z;        ///< (V,) after placement (placement.h); empty if rejected
-  ComplexVector whole;    ///< with virtual vertices, before placement; also for Rejection::winding
+  ComplexVector whole;    ///< with virtual vertices, up to a similarity; also for Rejection::winding
+  ComplexVector z;        ///< (V,) the same map placed (placement.h); empty before placed_map, or if rejected
   double eigenvalue = 0;  ///< in the units of the input
   double residual = 0;    ///< see SolveRecord
   double shift = 0;       ///< s of L + s M
@@ -34,5 +34,9 @@ SpectralProblem spectral_problem(std::shared_ptr<const NormalizedPatch> patch, W
 /// start from it.
 SpectralMap spectral_map(SpectralProblem& problem, const SolveOptions& options, const Pins& attractors,
                          const Attempt& attempt, const Progress& progress, Timings& timings);
+
+/// Fixes the similarity that the energy leaves free (placement.h), as the last step, after all that changes the map.
+/// Does nothing to a map that is placed or was rejected.
+SpectralMap placed_map(const SpectralProblem& problem, SpectralMap map, Timings& timings);
 
 }  // namespace spectral_conformal

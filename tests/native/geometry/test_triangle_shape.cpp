@@ -65,6 +65,11 @@ TEST_CASE("a gradient by the corners is the adjoint of the two parts") {
   const double by_parts = dot(g, shape.holomorphic_part(d1, d2)) + dot(h, shape.antiholomorphic_part(d1, d2));
   const double by_corners = dot(gradient[3] - 1.0, z[0]) + dot(gradient[0] - 1.0, z[1]) + dot(gradient[2] - 1.0, z[2]);
   CHECK(by_corners == doctest::Approx(by_parts).epsilon(1e-13));
+  // Without a holomorphic part.
+  std::array<Complex, 4> two_parts{}, one_part{};
+  shape.add_gradient({3, 0, 2}, 0, h, two_parts.data());
+  shape.add_gradient({3, 0, 2}, h, one_part.data());
+  CHECK(one_part == two_parts);
 }
 
 TEST_CASE("a triangle below the least height is lifted to it, whichever side is its longest") {

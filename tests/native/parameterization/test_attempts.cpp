@@ -39,9 +39,9 @@ TEST_CASE("the stages solve what is neither pinned nor rejected, and say that th
   CHECK((!map.rejection && map.result.steps.empty() && map.result.attempts == 1));
   PatchMap rejected;
   rejected.rejection = Step{};
-  CHECK(spectral(task, rejected, {}).result.z.size() == 0);
+  CHECK(spectral(task, rejected, {}).found.whole.size() == 0);
   task.options.method = Method::lscm;
-  CHECK(spectral(task, {}, {}).result.z.size() == 0);
+  CHECK(spectral(task, {}, {}).found.whole.size() == 0);
 }
 
 TEST_SUITE_END();

@@ -53,8 +53,8 @@ TEST_CASE("of the maps without flips that with the least mean QC stands in") {
     Timings timings;
     for (SpectralProblem* other : {&clamped, &vertex, &inverse_area}) {
       const SpectralMap map = attempted_map(*other, {}, {}, {}, timings);
-      if (map.rejection != Rejection::none || count_flipped(patch, map.z) > 0) continue;
-      CHECK(mean_qc <= chart_distortion(*problem.patch, map.z).mean_qc);
+      if (map.rejection != Rejection::none || count_flipped(patch, map.whole) > 0) continue;
+      CHECK(mean_qc <= chart_distortion(*problem.patch, map.whole).mean_qc);
     }
   }
 }

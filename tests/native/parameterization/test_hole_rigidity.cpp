@@ -46,7 +46,7 @@ struct Solved {
     options.hole_rigidity = rigidity;
     return map_with_rigid_holes(problem, options, {}, timings);
   }
-  double mean_qc(const SpectralMap& map) const { return chart_distortion(*problem.patch, map.z).mean_qc; }
+  double mean_qc(const SpectralMap& map) const { return chart_distortion(*problem.patch, map.whole).mean_qc; }
 };
 
 }  // namespace
@@ -58,7 +58,7 @@ TEST_CASE("a rigidity that the patch bears is taken as it is") {
   SolveOptions options;
   options.hole_rigidity = 1;
   const SpectralMap again = attempted_map(solved.problem, options, {}, {}, solved.timings);
-  CHECK(difference_up_to_similarity(rigid.map.z, again.z) < 1e-7);
+  CHECK(difference_up_to_similarity(rigid.map.whole, again.whole) < 1e-7);
 }
 
 TEST_CASE("one that it does not bear is lowered to a fourth, and again") {
@@ -74,7 +74,7 @@ TEST_CASE("one that it does not bear is lowered to a fourth, and again") {
   REQUIRE(rigid.map.rejection == Rejection::none);
   CHECK(rigid.rigidity < 1e4);
   CHECK(rigid.attempts > 1);
-  CHECK(count_flipped(solved.patch, rigid.map.z) <= count_flipped(solved.patch, free.map.z));
+  CHECK(count_flipped(solved.patch, rigid.map.whole) <= count_flipped(solved.patch, free.map.whole));
   double borne = 1e4;
   while (borne > rigid.rigidity) borne /= 4;
   CHECK((rigid.rigidity == 0 || rigid.rigidity == borne));
@@ -87,7 +87,7 @@ TEST_CASE("without one, that of the least mean QC is chosen, and the map of free
   REQUIRE(chosen.rigidity > 0);
   REQUIRE(chosen.free);
   CHECK(solved.mean_qc(chosen.map) < solved.mean_qc(free.map));
-  CHECK(difference(chosen.free->z, free.map.z) < 1e-6);
+  CHECK(difference_up_to_similarity(chosen.free->whole, free.map.whole) < 1e-6);
   for (const double rigidity : {0.1, 1.0, 10.0}) {
     CHECK(solved.mean_qc(chosen.map) <= solved.mean_qc(solved.with(rigidity).map) + 1e-9);
   }
@@ -127,7 +127,7 @@ TEST_CASE("choosing can be stopped at every report") {
 TEST_CASE("the stage says what a rigidity was lowered to") {
   PreparedPatch patch = prepared(problem_of(Patch(hat())));
   SolveTask task{patch, {}, {}, {}, {}};
-  CHECK(with_rigid_holes(task, {}, {}).result.z.size() == 0);
+  CHECK(with_rigid_holes(task, {}, {}).found.whole.size() == 0);
   task.options.hole_rigidity = 1e8;
   const PatchMap map = with_rigid_holes(task, {}, {});
   REQUIRE_FALSE(map.rejection);

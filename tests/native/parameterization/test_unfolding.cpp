@@ -13,7 +13,7 @@ TEST_CASE("a map without folds is left as it is, one with a fold is unfolded, no
   const Patch patch(bumpy_grid(6, 6));
   SpectralProblem problem = problem_of(patch);
   Timings timings;
-  const ComplexVector z = attempted_map(problem, {}, {}, {}, timings).z;
+  const ComplexVector z = attempted_map(problem, {}, {}, {}, timings).whole;
   const UnfoldedMap same = unfold(problem, {}, z, {}, {});
   CHECK_FALSE(same.changed);
   CHECK(same.mean_qc == same.mean_qc_before);
