@@ -19,12 +19,16 @@ namespace {
 /// Returns the edges, the offset of each cut in them, and the message.
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
-                  std::optional<Array<double>> vertex_preference, const py::object& given_options,
-                  const py::object& progress) {
+                  std::optional<Array<double>> vertex_preference, std::optional<Array<int>> avoided_edges,
+                  const py::object& given_options, const py::object& progress) {
   const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
   const PolygonMesh mesh = arrays.view();
   SeamSuggestionOptions options = seam_options_of(given_options);
   if (vertex_preference) options.vertex_preference = vertex_preference->data();
+  if (avoided_edges) {
+    options.avoided_edges = reinterpret_cast<const std::array<int, 2>*>(avoided_edges->data());
+    options.n_avoided_edges = static_cast<int>(avoided_edges->shape(0));
+  }
   const Progress callback = progress_of(progress);
   SeamSuggestion suggestion;
   {

@@ -56,7 +56,11 @@ SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
 
 SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredPieces& parts,
                            const std::vector<int>& given_vertices)
-    : options(options), parts(parts), given_vertices(given_vertices), coarse_options(with_less_energy(options)) {
+    : options(options),
+      parts(parts),
+      given_vertices(given_vertices),
+      avoided(options, parts.symmetry, given_vertices),
+      coarse_options(with_less_energy(options)) {
   if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
     const double piece_area = piece.area();
@@ -179,7 +183,10 @@ std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const P
   std::vector<int> given_vertices;
   given_vertices.reserve(piece.vertices.size());
   for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);
-  return cost_factors(mesh_.options, graph, given_vertices);
+  std::vector<double> factors = cost_factors(mesh_.options, graph, given_vertices);
+  // Filled pieces have all vertices of the piece; only coarse copies have fewer.
+  mesh_.avoided.raise(graph, piece, piece.vertices.size() < this->piece().vertices.size(), factors);
+  return factors;
 }
 
 /// Goes on with the next finer level, cut as the one before.

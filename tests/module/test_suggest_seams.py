@@ -162,6 +162,46 @@ def test_seams_keep_out_of_sight_and_follow_painted_weights():
     assert centre(vertex_preference=-wanted)[2] < -0.1
 
 
+def mesh_edges(mesh):
+    """The edges of a mesh of quads, (E, 2), each once, the smaller vertex first."""
+    quads = mesh[2].reshape(-1, 4)
+    return np.unique(np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1), axis=0)
+
+
+def as_set(edges):
+    return set(map(tuple, np.sort(edges, axis=1).tolist()))
+
+
+def test_avoided_edges_are_not_cut():
+    mesh = closed_creature()
+    edges = mesh_edges(mesh)
+    before = as_set(sc.suggest_seams(*mesh))
+    in_front = edges[mesh[0][edges].mean(1)[:, 1] < -0.2]
+    for avoided in (in_front, np.array(sorted(before))[:, ::-1]):
+        assert before & as_set(avoided)
+        seams = sc.suggest_seams(*mesh, avoided_edges=avoided)
+        assert len(seams) > 0
+        assert not as_set(seams) & as_set(avoided)
+        charts = sc.unwrap(*mesh, seam_edges=seams).charts
+        assert all(chart.status == "solved" and chart.flipped + chart.overlapping == 0 for chart in charts)
+
+
+def test_avoided_edges_are_cut_where_nothing_could_be_unwrapped_otherwise():
+    mesh = closed_creature()
+    edges = mesh_edges(mesh)
+    seams = sc.suggest_seams(*mesh, avoided_edges=edges)
+    assert len(seams) > 0
+    assert all(chart.status == "solved" for chart in sc.unwrap(*mesh, seam_edges=seams).charts)
+    assert len(seams) < len(sc.suggest_seams(*mesh))
+
+
+def test_avoided_pairs_that_are_no_edges_change_nothing():
+    mesh = closed_creature()
+    seams = sc.suggest_seams(*mesh)
+    for avoided in (np.zeros((0, 2), int), [[0, len(mesh[0]) - 1]]):
+        np.testing.assert_array_equal(sc.suggest_seams(*mesh, avoided_edges=avoided), seams)
+
+
 def strip_round_corners():
     """A flat strip in a spiral of right angles, bent to a cone so that its map covers itself."""
     turns = np.linspace(0, 3.6 * np.pi, 120)
@@ -318,6 +358,7 @@ def test_progress_and_cancelling():
         ({"energy_limit": 3.9}, ValueError, "energy_limit must be a number of at least 4"),
         ({"front": (0, 1)}, ValueError, "front must be three finite numbers"),
         ({"vertex_preference": [2.0]}, ValueError, "vertex_preference must be"),
+        ({"avoided_edges": [[0, 10**6]]}, ValueError, "avoided_edges has the vertex"),
         ({"weights": "heavy"}, ValueError, "weights must be one of"),
         ({"factorization": "lu"}, ValueError, "factorization must be one of"),
         ({"progress": 3}, TypeError, "progress must be callable"),

@@ -28,6 +28,11 @@ struct SeamSuggestionOptions {
   /// (n_vertices,) in [-1, 1], or null: positive attracts seams, negative repels them, 0 leaves the choice to the
   /// distortion. An edge whose ends have the mean p costs 8^-p times as much.
   const double* vertex_preference = nullptr;
+  /// (n_avoided_edges,) vertex pairs in any order, or null: edges whose cost is multiplied by 1e6, so that paths make
+  /// every detour around them; cuts to a distorted vertex inside may still take them. Pairs that are no edges are
+  /// ignored.
+  const std::array<int, 2>* avoided_edges = nullptr;
+  int n_avoided_edges = 0;
   PatchOptions map;  ///< of the maps whose distortion is measured
 };
 

@@ -1,4 +1,4 @@
-"""What all measurements of meshes and maps share: averages over the surface, and the next corner of a face."""
+"""What all measurements of meshes and maps share: averages over the surface, corners and edges of faces."""
 
 from __future__ import annotations
 
@@ -13,6 +13,12 @@ def next_corner(face_offsets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
     following = np.arange(1, face_offsets[-1] + 1, dtype=np.int64)
     following[face_offsets[1:] - 1] = face_offsets[:-1]
     return following
+
+
+def edge_keys(edges: npt.NDArray[np.integer], n_vertices: int) -> npt.NDArray[np.int64]:
+    """Return one number per edge, (N,), the same for both directions, given its two vertices, (N, 2)."""
+    ends = np.sort(edges.astype(np.int64).reshape(-1, 2), axis=1)
+    return ends[:, 0] * n_vertices + ends[:, 1]
 
 
 def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) -> float:

@@ -78,6 +78,7 @@ def suggest_seams(
     seam_edges: _Indices | None,
     selected_faces: _Flags | None,
     vertex_preference: _Floats | None,
+    avoided_edges: _Indices | None,
     options: SeamOptions,
     progress: Progress | None,
 ) -> tuple[_Indices, _Indices, str]: ...

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Faces, Progress
+from ._measuring import edge_keys, next_corner
 from ._options import SeamOptionChanges, SeamOptions, changed
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ def suggest_seams(
     seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
     vertex_preference: npt.ArrayLike | None = None,
+    avoided_edges: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> npt.NDArray[np.int32]:
@@ -60,6 +62,8 @@ def suggest_seams(
         selected_faces: (faces,) bool; by default all faces. Only edges between two selected faces are proposed.
         vertex_preference: (V,) from -1 to 1: above 0 attracts seams to the vertex, below 0 repels them, 0 leaves the
             choice to the distortion. An edge whose ends have the mean p counts as 8^-p times as long.
+        avoided_edges: (A, 2) vertex pairs: edges that become seams only in components that could not be unwrapped
+            otherwise, or not without flips or overlaps. Pairs that are no edges are ignored.
         progress: as in `parameterize`.
 
     Returns:
@@ -83,6 +87,7 @@ def suggest_seams(
         seam_edges=seam_edges,
         selected_faces=selected_faces,
         vertex_preference=vertex_preference,
+        avoided_edges=avoided_edges,
         progress=progress,
     )
     if cuts.message:
@@ -99,6 +104,7 @@ def suggest_cuts(
     seam_edges: npt.ArrayLike | None = None,
     selected_faces: npt.ArrayLike | None = None,
     vertex_preference: npt.ArrayLike | None = None,
+    avoided_edges: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> Cuts:
@@ -110,9 +116,69 @@ def suggest_cuts(
     used = changed(options, SeamOptions(), changes, SeamOptionChanges, suggest_cuts)
     polygons = _arguments.checked_polygon_mesh(vertices, faces, corner_vertices, seam_edges, selected_faces)
     preference = _arguments.checked_preference(vertex_preference, len(polygons[0]))
+    avoided = None
+    if avoided_edges is not None:
+        avoided = _arguments.checked_indices(avoided_edges, "avoided_edges", 2, len(polygons[0]))
     edges, offsets, message = _native.suggest_seams(
-        *polygons, preference, used.with_energy_limit(), _arguments.checked_progress(progress)
+        *polygons, preference, avoided, used.with_energy_limit(), _arguments.checked_progress(progress)
     )
-    cuts = Cuts(np.split(edges, offsets[1:-1]) if len(edges) else [])
-    cuts.message = message
-    return cuts
+    cuts = np.split(edges, offsets[1:-1]) if len(edges) else []
+    if avoided is not None:
+        cuts = _without_avoided(polygons, cuts, avoided, used, progress)
+    result = Cuts(cuts)
+    result.message = message
+    return result
+
+
+def _without_avoided(
+    polygons: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None],
+    cuts: list[np.ndarray],
+    avoided: np.ndarray,
+    options: SeamOptions,
+    progress: Progress | None,
+) -> list[np.ndarray]:
+    """Return the cuts without as many avoided edges as possible, those of the last cuts first.
+
+    A chart that has lost avoided edges must be solved, and neither flip nor overlap. Bisection finds how many of the
+    first cuts keep theirs.
+    """
+    # Here, because that file imports this one.
+    from ._unwrapping import unwrap
+
+    vertices, offsets, corners, seams, selected = polygons
+    n = len(vertices)
+    unwanted = edge_keys(avoided, n)
+    is_avoided = [np.isin(edge_keys(cut, n), unwanted) for cut in cuts]
+    sides = edge_keys(np.stack([corners, corners[next_corner(offsets)]], axis=1), n)
+    given = [np.zeros((0, 2), np.int32) if seams is None else seams]
+
+    def first_whole(count: int) -> list[np.ndarray]:
+        rest = [cut[~flags] for cut, flags in zip(cuts[count:], is_avoided[count:])]
+        return cuts[:count] + rest
+
+    def is_sound(count: int) -> bool:
+        solved = unwrap(
+            vertices,
+            offsets,
+            corners,
+            seam_edges=np.concatenate([*given, *first_whole(count)]),
+            selected_faces=selected,
+            weights=options.weights,
+            boundary=options.boundary,
+            factorization=options.factorization,
+            progress=progress,
+        )
+        bad = np.array([c.status != "solved" or c.flipped > 0 or c.overlapping > 0 for c in solved.charts] + [False])
+        of_bad = sides[np.repeat(bad[solved.chart_of_face], np.diff(offsets))]
+        lost = [edge_keys(cut[flags], n) for cut, flags in zip(cuts[count:], is_avoided[count:])]
+        return not np.isin(np.concatenate(lost), of_bad).any()
+
+    candidates = [0, *(index + 1 for index, flags in enumerate(is_avoided) if flags.any())]
+    # With all candidates nothing is lost. Losing all comes first: parts of a cut may be worse than none of it.
+    low, high = 0, len(candidates) - 1
+    if high > 0 and is_sound(0):
+        high = 0
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (low, middle) if is_sound(candidates[middle]) else (middle + 1, high)
+    return [cut for cut in first_whole(candidates[low]) if len(cut)]
