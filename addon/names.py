@@ -28,6 +28,10 @@ ATTRIBUTES = {
 }
 COLORS_SUFFIX = "_colors"
 
+SEAM_WISH_OPERATOR = "mesh.spectral_seam_wish"
+# Integer attribute of edges: 1 for "cut here", 2 for "never here".
+SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
+
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 
 LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"

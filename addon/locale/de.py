@@ -53,6 +53,42 @@ TEXTS = {
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map auf mehr als das Doppelte ihrer Breite streckt"
     ),
     "No stretched faces, selection unchanged": "Keine gestreckten Flächen, Auswahl unverändert",
+    "Wish for Seams": "Nähte wünschen",
+    "Set where Suggest Seams cuts, and where never, on the selected edges": (
+        "Für die ausgewählten Kanten festlegen, wo „Nähte vorschlagen“ schneidet und wo nie"
+    ),
+    "Wish": "Wunsch",
+    "What Suggest Seams does with the selected edges": "Was „Nähte vorschlagen“ mit den ausgewählten Kanten macht",
+    "Cut Here": "Hier schneiden",
+    "Suggest Seams makes the selected edges seams": "„Nähte vorschlagen“ macht die ausgewählten Kanten zu Nähten",
+    "Never Here": "Hier nie",
+    "Suggest Seams does not cut the selected edges": "„Nähte vorschlagen“ schneidet die ausgewählten Kanten nicht",
+    "Clear Wishes": "Wünsche löschen",
+    "Suggest Seams decides about the selected edges": "„Nähte vorschlagen“ entscheidet über die ausgewählten Kanten",
+    "No edges selected": "Keine Kanten ausgewählt",
+    "{wish}: {edges}": "{wish}: {edges}",
+    "{n} edge": "{n} Kante",
+    "{n} edges": "{n} Kanten",
+    "{n} edge is cut in spite of Never Here: without it an island could not be unwrapped, or would overlap itself": (
+        "{n} Kante wird trotz „Hier nie“ geschnitten: sonst ließe sich eine Insel nicht abwickeln oder überlappte sich"
+    ),
+    "{n} edges are cut in spite of Never Here: without them an island could not be unwrapped, or would overlap "
+    "itself": (
+        "{n} Kanten werden trotz „Hier nie“ geschnitten: sonst ließe sich eine Insel nicht abwickeln oder überlappte "
+        "sich"
+    ),
+    "How seams are found": "Wie Nähte gefunden werden",
+    "By Distortion": "Nach Verzerrung",
+    "Cut where that lowers distortion most": "Dort schneiden, wo es die Verzerrung am meisten senkt",
+    "By Angle": "Nach Winkel",
+    "Cut the edges whose faces enclose an angle": "Die Kanten schneiden, deren Flächen einen Winkel einschließen",
+    "Sharp Angle": "Scharfer Winkel",
+    "Angle between two faces from which their edge is a seam": (
+        "Winkel zwischen zwei Flächen, ab dem ihre Kante eine Naht ist"
+    ),
+    "No seams to suggest: no edge is as sharp": "Keine Nähte vorzuschlagen: keine Kante ist so scharf",
+    "{edges} from {degrees}° on, length {length}": "{edges} ab {degrees}°, Länge {length}",
+    "Searching ...": "Suche läuft ...",
     "Select Most Distorted": "Am stärksten verzerrte auswählen",
     "Select the visible faces that the active UV map distorts most": (
         "Die sichtbaren Flächen auswählen, die die aktive UV-Map am stärksten verzerrt"

@@ -9,6 +9,7 @@ from .extenders import (
     MESH_OT_spectral_extender_remove,
 )
 from .inspect_map import UV_OT_spectral_inspect
+from .seam_wish import MESH_OT_spectral_seam_wish
 from .select import (
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,
@@ -27,6 +28,7 @@ _CLASSES = (
     UV_OT_spectral_select_stretched,
     UV_OT_spectral_inspect,
     UV_OT_spectral_suggest_seams,
+    MESH_OT_spectral_seam_wish,
     MESH_OT_spectral_store_distortion,
     MESH_OT_spectral_extender_add,
     MESH_OT_spectral_extender_adjust,

@@ -2,6 +2,7 @@
 """The preview of suggested seams: how many to take, and what they would bring."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import bpy
 import numpy as np
@@ -19,10 +20,12 @@ from ..core.solve.worker import Worker
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..overlay import map_overlay, under_mouse
+from ..overlay.coming_layout import ComingLayout, outline
 from ..overlay.seam_lines import SeamLines
 from ..session import edit_meshes, kept_maps
 from ..ui.progress import HeaderText, clear_status, show_status
 from ..unwrapping.seams import Target
+from .job_operator import Work
 
 # Keys that change the number of cuts, as in Blender's Loop Cut, by one or by a tenth of all.
 _STEPS = {
@@ -31,8 +34,12 @@ _STEPS = {
 }
 _LEAPS = {"PAGE_UP": 1, "PAGE_DOWN": -1}
 _LEAP = 0.1
+# Degrees by which a leap changes the angle of seams; a step changes it by one.
+_LEAP_DEGREES = 10
 # Maps kept for the overlay, so that going back is fast and memory stays limited.
 _KEPT_MAPS = 8
+# Stands for the map without any cuts; 0 has those that are always made.
+_UNCUT = -1
 _SIGNS = {"+": 1, "-": -1}
 _APPLY = {"RET", "NUMPAD_ENTER"}
 # Keys that the preview answers wherever the mouse is.
@@ -51,35 +58,56 @@ def length_text(context: bpy.types.Context, length: float) -> str:
     return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
 
 
+class Settings(Protocol):
+    """The settings of the search, which may change while the preview runs."""
+
+    @property
+    def factor(self) -> float:
+        """The allowed factor between scale and median."""
+
+    @property
+    def angle(self) -> float | None:
+        """The angle of the seams in degrees; None for seams by distortion."""
+
+    def turn(self, degrees: float) -> None:
+        """Change the angle of the seams."""
+
+    def changed(self) -> Work | None:
+        """Return a search for another suggestion if the settings have changed since the last call, else None."""
+
+
 class SeamPreview:
     """Asks how many of the suggested cuts to take, shows them, and measures in a thread what they bring.
 
     A `job_operator.Choice`.
 
     Attributes:
-        count: number of shown cuts, at least 1.
+        count: number of shown cuts; at least 1 if nothing else is suggested.
     """
 
-    def __init__(self, target: Target, suggestion: Suggestion, count: int, factor: float) -> None:
-        """Begin with the first `count` cuts; `factor` is the allowed factor between scale and median."""
+    def __init__(self, target: Target, suggestion: Suggestion, count: int, settings: Settings) -> None:
+        """Begin with the first `count` cuts."""
         self.count = count
         self._target = target
         self._suggestion = suggestion
-        self._factor = factor
-        self._measured: dict[int, MapQuality] = {}
+        self._settings = settings
+        self._searching: Worker[Suggestion] | None = None
+        self._measured: dict[int, _Measured] = {}
         # Some of their maps, by object, for the overlay; and the count that it shows.
         self._maps: dict[int, dict[str, np.ndarray]] = {}
         self._overlaid: int | None = None
+        self._laid_out: int | None = None
         self._keys: HeaderText | None = None
         self._measuring: Worker[dict[int, _Measured]] | None = None
         # Read now, because the measuring thread must not touch Blender.
         self._names = [edit_mesh.edit_object.name_full for edit_mesh in target.edit_meshes]
-        self._lines = SeamLines(target.edit_meshes, suggestion)
+        self._lines = SeamLines(target.edit_meshes)
+        self._layout = ComingLayout()
 
     @property
-    def answer(self) -> int:
-        """How many cuts to take."""
-        return self.count
+    def answer(self) -> tuple[Suggestion, int]:
+        """The suggestion, and how many of its cuts to take."""
+        return self._suggestion, self.count
 
     def begin(self, context: bpy.types.Context) -> None:
         """Show the cuts, and the keys in the header of the editor."""
@@ -101,7 +129,8 @@ class SeamPreview:
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
         if event.type in _APPLY or (event.type == "LEFTMOUSE" and self._is_on_mesh(context, event)):
-            return {"FINISHED"}
+            # What is shown is not what the settings ask for while a search runs.
+            return {"FINISHED"} if self._searching is None else {"RUNNING_MODAL"}
         step = self._step(event)
         if step and not event.ctrl:
             self.change(context, step)
@@ -110,52 +139,92 @@ class SeamPreview:
         return {"RUNNING_MODAL"} if step and _zoom(context, event, step) else {"PASS_THROUGH"}
 
     def change(self, context: bpy.types.Context, by: int) -> None:
-        """Show more cuts, or fewer if `by` is negative."""
-        self.count = min(max(self.count + by, 1), len(self._suggestion.cuts))
-        if self._measuring is not None:
-            self._measuring.cancel()
-            self._measuring = None
-        self._lines.show(context, self.count)
+        """Show more cuts, or fewer if `by` is negative; by angle, lower or raise the angle."""
+        if by and self._settings.angle is not None:
+            self._settings.turn(-by)
+        else:
+            least = 0 if self._suggestion.fixed else 1
+            self.count = min(max(self.count + by, least), len(self._suggestion.cuts))
+        self._stop_measuring()
+        self._lines.show(context, self._suggestion, self.count)
         self.update(context)
 
     def update(self, context: bpy.types.Context) -> None:
-        """Show in the status bar what is known."""
+        """Follow the settings, and show in the status bar what is known."""
+        threads = user_preferences.read("threads", 0)
+        search = self._settings.changed()
+        if search is not None:
+            self._stop_measuring()
+            if self._searching is not None:
+                self._searching.cancel()
+            self._searching = Worker(search, threads)
+        if self._searching is not None:
+            if not self._searching.wait(0.0):
+                show_status(context, texts.preview_status(translate(texts.SEARCHING)))
+                return
+            self._suggestion, self._searching = self._searching.result(), None
+            self.count = len(self._suggestion.cuts)
+            # All is new but the map without cuts.
+            self._measured, self._maps, self._overlaid, self._laid_out = {}, {}, None, None
+            self._lines.show(context, self._suggestion, self.count)
         if self._measuring is not None and self._measuring.wait(0.0):
             for count, found in self._measuring.result().items():
-                self._measured[count], self._maps[count] = found.quality, found.maps
+                self._measured[count], self._maps[count] = found, found.maps
             self._measuring = None
-        if map_overlay.is_on():
-            self._overlay(context)
-        missing = {0, self.count} - set(self._measured)
-        if map_overlay.is_on() and self.count not in self._maps:
+        self._show_map(context)
+        missing = {_UNCUT, self.count} - set(self._measured)
+        if self.count not in self._maps:
             missing.add(self.count)
         if missing and self._measuring is None:
-            threads = user_preferences.read("threads", 0)
-            self._measuring = Worker(lambda progress: self._measure(sorted(missing), progress), threads)
-        length, total = (
-            length_text(context, cuts.length) for cuts in (self._suggestion.part(0, self.count), self._suggestion)
-        )
-        parts = [texts.preview(self.count, len(self._suggestion.cuts), length, total)]
+            suggestion, factor = self._suggestion, self._settings.factor
+            self._measuring = Worker(
+                lambda progress: self._measure(suggestion, factor, sorted(missing), progress), threads
+            )
+        parts = [self._shown_cuts(context)]
         if not missing:
-            parts.append(texts.expected(self._measured[0], self._measured[self.count], self._factor))
-        show_status(context, texts.preview_status("; ".join(parts)))
+            before, after = self._measured[_UNCUT], self._measured[self.count]
+            parts.append(texts.islands(after.islands))
+            parts.append(texts.expected(before.quality, after.quality, self._settings.factor))
+        parts.append(texts.refused_wishes(self._suggestion.refused_wishes))
+        show_status(context, texts.preview_status("; ".join(filter(None, parts))))
+
+    def _shown_cuts(self, context: bpy.types.Context) -> str:
+        """Return what is shown, in words."""
+        shown, everything = self._suggestion.part(0, self.count), self._suggestion
+        length, total = (length_text(context, cuts.length) for cuts in (shown, everything))
+        if self._settings.angle is not None:
+            edges = sum(len(cut.edges) for cut in shown.fixed)
+            return texts.preview_by_angle(self._settings.angle, edges, length)
+        return texts.preview(self.count, len(everything.cuts), length, total)
+
+    def _stop_measuring(self) -> None:
+        if self._measuring is not None:
+            self._measuring.cancel()
+            self._measuring = None
 
     def end(self, context: bpy.types.Context) -> None:
         """Remove everything shown."""
-        if self._measuring is not None:
-            self._measuring.cancel()
+        self._stop_measuring()
+        if self._searching is not None:
+            self._searching.cancel()
         self._lines.remove()
+        self._layout.remove()
         map_overlay.preview(context, {})
         if self._keys is not None:
             self._keys.end()
         clear_status(context)
 
-    def _overlay(self, context: bpy.types.Context) -> None:
-        """Show the map that the cuts would bring in the overlay."""
+    def _show_map(self, context: bpy.types.Context) -> None:
+        """Show the map that the cuts would bring in the overlay, and its layout in the UV editors."""
         for count in list(self._maps)[:-_KEPT_MAPS]:
             if count != self.count:
                 del self._maps[count]
-        if self.count in self._maps and self._overlaid != self.count:
+        if self.count not in self._maps:
+            return
+        if self._laid_out != self.count:
+            self._laid_out = self.count
+            self._layout.show(context, self._measured[self.count].layout)
+        if map_overlay.is_on() and self._overlaid != self.count:
             self._overlaid = self.count
             map_overlay.preview(context, self._maps[self.count])
 
@@ -180,30 +249,51 @@ class SeamPreview:
     def _step(self, event: bpy.types.Event) -> int:
         """Return by how many cuts a key changes their number, 0 for other keys."""
         if event.type in _LEAPS:
+            if self._settings.angle is not None:
+                return _LEAPS[event.type] * _LEAP_DEGREES
             return _LEAPS[event.type] * max(1, round(_LEAP * len(self._suggestion.cuts)))
         return _STEPS.get(event.type, _SIGNS.get(event.ascii, 0))
 
-    def _measure(self, counts: list[int], progress: Progress) -> dict[int, "_Measured"]:
-        """Measure the maps after the first `counts` cuts each; any thread may call this."""
-        measured = {}
+    def _measure(
+        self, suggestion: Suggestion, factor: float, counts: list[int], progress: Progress
+    ) -> dict[int, "_Measured"]:
+        """Measure the maps after the first `counts` cuts each, _UNCUT for none; any thread may call this."""
+        measured, polygons, settings = {}, self._target.polygons, self._target.settings
+        margin = None if settings.keep_in_place else settings.margin
         for count in counts:
-            meshes = seam_suggestion.cut_open(self._target.polygons, self._suggestion.part(0, count))
-            solutions = solve_all(meshes, self._target.settings.options, progress, kept_maps.of_session())
-            placed = place(self._target.polygons, solutions, False, False).uv
+            meshes = polygons
+            if count != _UNCUT:
+                meshes = seam_suggestion.cut_open(polygons, suggestion.part(0, count))
+            solutions = solve_all(meshes, settings.options, progress, kept_maps.of_session())
+            # As it will be written.
+            placed = place(polygons, solutions, settings.keep_in_place, settings.turn_to_pack, margin).uv
             maps = {
                 name: np.where(solution.solved_corners[:, None], uv, 0.0)
                 for name, uv, solution in zip(self._names, placed, solutions)
             }
-            measured[count] = _Measured(quality.measure(meshes, solutions, self._factor), maps)
+            lines = [
+                outline(mesh, uv, solution.solved_corners) for mesh, uv, solution in zip(polygons, placed, solutions)
+            ]
+            islands = sum(len(solution.charts) for solution in solutions)
+            measured[count] = _Measured(quality.measure(meshes, solutions, factor), islands, maps, lines)
         return measured
 
 
 @dataclass(frozen=True)
 class _Measured:
-    """The quality of a map, and its UVs, (C, 2), by the full name of the object."""
+    """A map.
+
+    Attributes:
+        quality: of the map.
+        islands: their number.
+        maps: its UVs, (C, 2), by the full name of the object.
+        layout: the edges of its faces, per mesh.
+    """
 
     quality: MapQuality
+    islands: int
     maps: dict[str, np.ndarray]
+    layout: list[np.ndarray]
 
 
 def _viewport_at(context: bpy.types.Context, event: bpy.types.Event) -> tuple[bpy.types.Area, bpy.types.Region] | None:

@@ -1,26 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that marks the seams that lower the distortion most, and unwraps."""
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import names, session
 from ..core.measure.summary import summarize
-from ..core.seams.suggestion import Options, Preferences, Search, Suggestion
+from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Options, Preferences, Search, Suggestion, Wishes
 from ..core.solve.progress import Progress
 from ..core.solve.solution import Solution, solve_all
 from ..core.words import texts
 from ..core.words.translation import translate
+from ..edit_mesh import seam_wishes
 from ..live import following
 from ..session import Remembered
+from ..ui import seam_settings
 from ..unwrapping import outcome, seams, steps
 from ..unwrapping.last_settings import last_settings
 from ..unwrapping.seams import Target
-from .job_operator import Done, Job, JobOperator
+from .job_operator import Done, Job, JobOperator, Work
 from .seam_preview import SeamPreview, length_text
 
 
@@ -40,6 +44,18 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
     bl_description = texts.SUGGEST_SEAMS_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
+    method: EnumProperty(
+        **texts.SEAM_METHOD_PROPERTY,
+        items=texts.SEAM_METHODS,
+        default=BY_DISTORTION,
+    )
+    sharp_angle: FloatProperty(
+        **texts.SHARP_ANGLE_PROPERTY,
+        default=math.radians(30.0),
+        min=0.0,
+        max=math.pi,
+        subtype="ANGLE",
+    )
     size_variation: FloatProperty(
         **texts.SIZE_VARIATION_PROPERTY,
         default=2.0,
@@ -91,16 +107,10 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay out Adjust Last Operation."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in ("size_variation", "angle_distortion", "max_length", "keep_front"):
-            layout.prop(self, name)
-        layout.prop_search(self, "seam_group", context.edit_object, "vertex_groups")
-        if self.seam_group:
-            layout.prop(self, "seam_group_use")
-        for name in ("cuts", "unwrap"):
-            layout.prop(self, name)
+        seam_settings.draw(self.layout, self, context.edit_object)
+        if self.method == BY_DISTORTION:
+            self.layout.prop(self, "cuts")
+        self.layout.prop(self, "unwrap")
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Search, let the artist choose how many cuts to take, solve with them, mark and write."""
@@ -108,21 +118,22 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
         if target is None:
             self.report({"WARNING"}, translate(texts.NO_VISIBLE_FACES))
             return {"CANCELLED"}
-        options = self._options(target)
-        preferences = ()
-        if self.seam_group:
-            preferences = seams.read_preferences(target, self.seam_group, self.seam_group_use == "PREFER")
-        found = (yield lambda report_progress: _find(target, options, preferences, report_progress)).result
-        if not found.suggestion.cuts:
-            return self._report_nothing(target, found)
-        total = len(found.suggestion.cuts)
+        question = _question(self, target)
+        suggestion = (yield lambda report_progress: _find(target, question, report_progress)).result
+        # Of an angle that finds nothing a lower one may be chosen.
+        may_change = is_interactive and self.method == BY_ANGLE
+        if suggestion.is_empty and not may_change:
+            return (yield from self._report_nothing(target, suggestion))
+        total = len(suggestion.cuts)
         count = min(self.cuts or total, total)
         done = None
         if is_interactive:
-            done = yield SeamPreview(target, found.suggestion, count, self.size_variation)
-            context, count = done.context, done.result
-            self.cuts = 0 if count == total else count
-        cuts = found.suggestion.part(0, count)
+            done = yield SeamPreview(target, suggestion, count, _Sidebar(self, target))
+            context, (suggestion, count) = done.context, done.result
+            if suggestion.is_empty:
+                return (yield from self._report_nothing(target, suggestion))
+            self.cuts = 0 if count == len(suggestion.cuts) else count
+        cuts = suggestion.part(0, count)
         start, solutions = time.perf_counter(), None
         if self.unwrap:
             target = self._current(context, target, done)
@@ -163,52 +174,108 @@ class UV_OT_spectral_suggest_seams(JobOperator, bpy.types.Operator):
             seams.mark(target, cuts)
         else:
             written = seams.write(context, target, cuts, solutions, following.not_following)
-        self.report({"INFO"}, texts.marked(len(cuts.cuts), length_text(context, cuts.length)))
-        self._report_refused(target, cuts)
+        length = length_text(context, cuts.length)
+        reports = [("INFO", texts.marked(len(cuts.cuts), sum(len(cut.edges) for cut in cuts.fixed), length))]
+        reports.append(("WARNING", texts.without_suggestion(cuts.errors, target.names)))
+        reports.append(("WARNING", texts.refused_wishes(cuts.refused_wishes)))
         if written is not None:
-            for level, text in outcome.finish(written, time.perf_counter() - start).reports:
+            reports += outcome.finish(written, time.perf_counter() - start).reports
+        # Blender shows the last one in the status bar: warnings come last.
+        for level, text in sorted(reports, key=lambda report: report[0] == "WARNING"):
+            if text:
                 self.report({level}, text)
         return {"FINISHED"}
 
-    def _options(self, target: Target) -> Options:
+    def _report_nothing(self, target: Target, suggestion: Suggestion) -> Job:
+        """Report that there are no seams, and why islands cannot be unwrapped."""
+        if not all(suggestion.errors):
+            self.report({"INFO"}, texts.nothing_to_suggest(self.method, self.max_length > 0.0))
+        refused = texts.without_suggestion(suggestion.errors, target.names)
+        if refused:
+            self.report({"WARNING"}, refused)
         options = target.settings.options
-        # At 1, edges of faces toward the front count as seven times as long.
-        front = (0.0, -6.0 * self.keep_front, 0.0) if self.keep_front else None
-        return Options(
-            self.size_variation,
-            self.angle_distortion,
-            self.max_length or None,
-            options.weights,
-            options.boundary,
-            front,
-        )
-
-    def _report_nothing(self, target: Target, found: "_Found") -> set[str]:
-        if not all(found.suggestion.errors):
-            self.report({"INFO"}, texts.nothing_to_suggest(self.max_length > 0.0))
-        self._report_refused(target, found.suggestion)
-        failures = texts.failures(summarize(found.uncut, target.names))
+        uncut = (yield lambda report_progress: solve_all(target.polygons, options, report_progress)).result
+        failures = texts.failures(summarize(uncut, target.names))
         if failures:
             self.report({"WARNING"}, failures)
         return {"CANCELLED"}
 
-    def _report_refused(self, target: Target, suggestion: Suggestion) -> None:
-        refused = texts.without_suggestion(suggestion.errors, target.names)
-        if refused:
-            self.report({"WARNING"}, refused)
-
 
 @dataclass(frozen=True)
-class _Found:
-    """A suggestion; without cuts also the solutions of the meshes, for what cannot be unwrapped."""
+class _Question:
+    """Everything besides the meshes that the seams depend on."""
 
-    suggestion: Suggestion
-    uncut: Sequence[Solution] = ()
+    options: Options
+    preferences: Preferences
+    wishes: Sequence[Wishes]
 
 
-def _find(target: Target, options: Options, preferences: Preferences, report_progress: Progress) -> _Found:
+def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the operator
+    """Return what to search for with the operator's properties; reads from Blender."""
+    options = target.settings.options
+    # At 1, edges of faces toward the front count as seven times as long.
+    front = (0.0, -6.0 * chosen.keep_front, 0.0) if chosen.keep_front else None
+    wanted = Options(
+        chosen.size_variation,
+        chosen.angle_distortion,
+        chosen.max_length or None,
+        options.weights,
+        options.boundary,
+        front,
+        method=chosen.method,
+        sharp_angle=chosen.sharp_angle if chosen.method == BY_ANGLE else 0.0,
+    )
+    preferences = ()
+    if chosen.seam_group:
+        preferences = seams.read_preferences(target, chosen.seam_group, chosen.seam_group_use == "PREFER")
+    return _Question(wanted, preferences, seams.read_wishes(target))
+
+
+def _find(target: Target, question: _Question, report_progress: Progress) -> Suggestion:
     """Search for cuts; any thread may call this."""
-    suggestion = session.of(Searched).search.suggest(target.polygons, options, report_progress, preferences)
-    if suggestion.cuts:
-        return _Found(suggestion)
-    return _Found(suggestion, solve_all(target.polygons, target.settings.options, report_progress))
+    return session.of(Searched).search.suggest(
+        target.polygons, question.options, report_progress, question.preferences, question.wishes
+    )
+
+
+class _Sidebar:
+    """The settings in the sidebar, which the running preview follows; a `seam_preview.Settings`."""
+
+    def __init__(self, operator: Any, target: Target) -> None:  # noqa: ANN401 - the operator
+        """Show those of the operator in the sidebar."""
+        self._operator, self._target = operator, target
+        self._shown = seam_settings.last()
+        for name in seam_settings.NAMES:
+            if getattr(self._shown, name) != getattr(operator, name):
+                setattr(self._shown, name, getattr(operator, name))
+        self._values = self._read()
+
+    def changed(self) -> Work | None:
+        """Return a new search if the settings or the wishes have changed since the last call, else None."""
+        values = self._read()
+        if values == self._values:
+            return None
+        self._values = values
+        for name in seam_settings.NAMES:
+            setattr(self._operator, name, getattr(self._shown, name))
+        target, question = self._target, _question(self._operator, self._target)
+        return lambda report_progress: _find(target, question, report_progress)
+
+    @property
+    def factor(self) -> float:
+        """The allowed factor between scale and median."""
+        return self._operator.size_variation
+
+    @property
+    def angle(self) -> float | None:
+        """The angle of the seams in degrees; None for seams by distortion."""
+        return math.degrees(self._operator.sharp_angle) if self._operator.method == BY_ANGLE else None
+
+    def turn(self, degrees: float) -> None:
+        """Change the angle of the seams, in the sidebar, too."""
+        angle = math.degrees(self._shown.sharp_angle) + degrees
+        self._shown.sharp_angle = math.radians(min(max(round(angle), 0.0), 180.0))
+
+    def _read(self) -> tuple:
+        values = (getattr(self._shown, name) for name in seam_settings.NAMES)
+        return (*values, session.of(seam_wishes.Changes).count)

@@ -27,17 +27,17 @@ _THROUGH_MESH = 0.25
 class SeamLines:
     """The cuts of a suggestion as lines in all 3D viewports."""
 
-    def __init__(self, edit_meshes: Sequence[EditMesh], suggestion: Suggestion) -> None:
+    def __init__(self, edit_meshes: Sequence[EditMesh]) -> None:
         """Show nothing yet."""
         self._edit_meshes = edit_meshes
-        self._suggestion = suggestion
+        self._suggestion = Suggestion((), ())
         self._batches: list[tuple[gpu.types.GPUBatch, float, float]] | None = None
         self._count = 0
         self._handle: DrawHandler | None = None
 
-    def show(self, context: bpy.types.Context, count: int) -> None:
+    def show(self, context: bpy.types.Context, suggestion: Suggestion, count: int) -> None:
         """Draw the first `count` cuts in full, the others fainter."""
-        self._count, self._batches = count, None
+        self._suggestion, self._count, self._batches = suggestion, count, None
         # Background mode draws nothing.
         if self._handle is None and not bpy.app.background:
             self._handle = DrawHandler(bpy.types.SpaceView3D, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL)

@@ -25,11 +25,18 @@ class UV_MT_spectral(bpy.types.Menu):
         draw_operator(layout, names.STORE_OPERATOR)
         layout.separator()
         layout.operator_context = "EXEC_REGION_WIN"
+        _draw_wishes(layout)
+        layout.separator()
         draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR).index = -1
         layout.operator_context = "EXEC_REGION_WIN"
         draw_operator(layout, names.REMOVE_EXTENDER_OPERATOR).broken = False
+
+
+def _draw_wishes(layout: bpy.types.UILayout) -> None:
+    for wish, label, _ in texts.SEAM_WISHES:
+        draw_operator(layout, names.SEAM_WISH_OPERATOR, text=label).wish = wish
 
 
 def _draw_invoked(layout: bpy.types.UILayout, operator: str) -> None:
@@ -48,6 +55,11 @@ def _draw_unwrap(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
 def _draw_suggest_seams(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
     self.layout.separator()
     _draw_invoked(self.layout, names.SUGGEST_SEAMS_OPERATOR)
+
+
+def _draw_edges(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    _draw_suggest_seams(self, context)
+    _draw_wishes(self.layout)
 
 
 def _draw_work(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -73,7 +85,7 @@ def _entries() -> list[tuple[str, str, Callable]]:
         (names.UV_EDITOR_UNWRAP_MENU, "prepend", _draw_unwrap),
         (names.VIEWPORT_UNWRAP_MENU, "append", _draw_work),
         (names.UV_EDITOR_MENU, "append", _draw_work),
-        (names.VIEWPORT_EDGE_MENU, "append", _draw_suggest_seams),
+        (names.VIEWPORT_EDGE_MENU, "append", _draw_edges),
         (names.UV_EDITOR_SELECT_MENU, "append", _draw_selectors),
         (names.VIEWPORT_SELECT_BY_TRAIT_MENU, "append", _draw_selectors),
     ]

@@ -11,7 +11,7 @@ from ..core import choices
 from ..core.words import texts
 from ..extenders import storage
 from ..unwrapping import island_list
-from . import unwrap_settings
+from . import seam_settings, unwrap_settings
 from .icons import draw_operator
 
 
@@ -100,6 +100,24 @@ class _SeamsPanel(_Panel):
         row = column.row(align=True)
         row.operator("uv.seams_from_islands", text=texts.SEAMS_FROM_ISLANDS_LABEL)
         row.operator("mesh.mark_seam", text=texts.CLEAR_SEAMS_LABEL).clear = True
+        row = column.row(align=True)
+        for wish, label, _ in texts.SEAM_WISHES:
+            if wish == "CLEAR":
+                row.operator(names.SEAM_WISH_OPERATOR, text="", icon="X").wish = wish
+            else:
+                row.operator(names.SEAM_WISH_OPERATOR, text=label).wish = wish
+
+
+class _SeamSettingsPanel(_Panel):
+    """The settings of the next search for seams; they change the running preview."""
+
+    bl_label = texts.SETTINGS_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part, parent = "seam_settings", "seams"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the settings."""
+        seam_settings.draw(self.layout, seam_settings.last(), context.edit_object, is_narrow=True)
 
 
 class _UnwrapPanel(_Panel):
@@ -269,6 +287,7 @@ def _panels() -> list[type]:
     """Return all panels, in the order of work, those with parents after these."""
     parts = (
         _SeamsPanel,
+        _SeamSettingsPanel,
         _UnwrapPanel,
         _SettingsPanel,
         _AdvancedPanel,

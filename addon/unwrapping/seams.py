@@ -10,9 +10,10 @@ import bpy
 import numpy as np
 
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.seams.suggestion import Suggestion
+from ..core.seams.suggestion import Suggestion, Wishes
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
+from ..edit_mesh import seam_wishes
 from ..edit_mesh.read import EditMesh
 from . import steps
 from .steps import WhileWriting, Written
@@ -68,6 +69,15 @@ def _preference(edit_mesh: EditMesh, group: str, sign: float) -> np.ndarray | No
         return None
     weights = [vertex[layer].get(found.index, 0.0) for vertex in bm.verts]
     return sign * np.clip(np.array(weights, dtype=np.float64), 0.0, 1.0)
+
+
+def read_wishes(target: Target) -> list[Wishes]:
+    """Return per mesh which edges are to become seams, and which are not."""
+    found = []
+    for edit_mesh in target.edit_meshes:
+        edges, wishes = seam_wishes.of_edges(edit_mesh.mesh)
+        found.append(Wishes(edges[wishes == seam_wishes.CUT], edges[wishes == seam_wishes.NEVER]))
+    return found
 
 
 def read_again(context: bpy.types.Context, target: Target) -> Target | None:

@@ -15,6 +15,9 @@ from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.progress import Progress, parts
 from ..words import texts
 
+BY_DISTORTION = "DISTORTION"
+BY_ANGLE = "ANGLE"
+
 # Per mesh (V,) float64 from -1, to avoid seams, to 1, to prefer them; None for no preference.
 Preferences = Sequence[np.ndarray | None]
 
@@ -23,7 +26,8 @@ Preferences = Sequence[np.ndarray | None]
 class Options:
     """Options of `spectral_conformal.suggest_cuts`, by the names and values it documents.
 
-    `max_length` is a limit per mesh, None for no limit. `front` is in object space.
+    `max_length` is a limit per mesh, None for no limit. `front` is in object space. With `method` BY_ANGLE, seams are
+    the edges whose faces enclose `sharp_angle` radians or more, and the other options do not count.
     """
 
     scale_limit: float = 2.0
@@ -33,6 +37,15 @@ class Options:
     boundary: str = "length"
     front: tuple[float, float, float] | None = None
     qc_gain: float = 0.0
+    method: str = BY_DISTORTION
+    sharp_angle: float = 0.5
+
+
+class Wishes(NamedTuple):
+    """Edges of a mesh, (n, 2) vertex pairs each, that are to become seams and that are not."""
+
+    cut: np.ndarray
+    never: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -57,19 +70,29 @@ class Suggestion:
     Attributes:
         cuts: the first cut of every mesh, then the second ones, and so on.
         errors: why a mesh, or a part of it, was refused; one text per mesh, empty if it was not.
+        fixed: seams that belong to every part of the suggestion: those wished for, or all of those by angle.
+        refused_wishes: number of edges of the cuts that are not wished for.
     """
 
     cuts: tuple[Cut, ...]
     errors: tuple[str, ...]
+    fixed: tuple[Cut, ...] = ()
+    refused_wishes: int = 0
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing to mark."""
+        return not self.cuts and not self.fixed
 
     @property
     def length(self) -> float:
         """The length of all cuts."""
-        return sum(cut.length for cut in self.cuts)
+        return sum(cut.length for cut in self.fixed + self.cuts)
 
     def edges(self, mesh: int) -> np.ndarray:
         """Return the edges, (n, 2) int32, of the cuts that are in a mesh."""
-        return np.concatenate([np.empty((0, 2), np.int32), *(cut.edges for cut in self.cuts_of(mesh))])
+        fixed = [cut for cut in self.fixed if cut.mesh == mesh]
+        return np.concatenate([np.empty((0, 2), np.int32), *(cut.edges for cut in fixed + self.cuts_of(mesh))])
 
     def cuts_of(self, mesh: int) -> list[Cut]:
         """Return the cuts that are in a mesh."""
@@ -84,7 +107,7 @@ class Suggestion:
         return groups
 
     def part(self, start: int, end: int) -> "Suggestion":
-        """Return the cuts `start` to `end` - 1 alone."""
+        """Return the cuts `start` to `end` - 1 alone, and what is fixed."""
         return replace(self, cuts=self.cuts[start:end])
 
 
@@ -93,6 +116,7 @@ def suggest(
     options: Options,
     progress: Progress | None = None,
     preferences: Preferences = (),
+    wishes: Sequence[Wishes] = (),
 ) -> Suggestion:
     """Suggest cuts of the selected faces of every mesh. A refused mesh does not stop the others.
 
@@ -101,6 +125,7 @@ def suggest(
         options: for all of them.
         progress: called with the fraction done; returns False to cancel.
         preferences: per mesh where seams are wanted; empty for no preferences.
+        wishes: per mesh; empty for no wishes.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -108,15 +133,66 @@ def suggest(
         MemoryError: there is too little memory for any mesh.
     """
     wanted = preferences or [None] * len(meshes)
+    wishes = wishes or [Wishes(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
+    fixed = [_fixed(mesh, options, wish) for mesh, wish in zip(meshes, wishes)]
+    kept = tuple(Cut(i, edges, _length(meshes[i], edges)) for i, edges in enumerate(fixed) if len(edges))
+    if options.method == BY_ANGLE:
+        return Suggestion((), ("",) * len(meshes), kept)
     each = parts([[mesh] for mesh in meshes], progress)
-    found = [_suggest(mesh, options, part, own) for mesh, part, own in zip(meshes, each, wanted)]
+    cut_open = [replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, own])) for mesh, own in zip(meshes, fixed)]
+    found = [
+        _suggest(mesh, options, part, own, wish.never) for mesh, part, own, wish in zip(cut_open, each, wanted, wishes)
+    ]
     if found and all(each.is_too_large for each in found):
         raise MemoryError
     cuts = [
         [Cut(index, edges, _length(meshes[index], edges)) for edges in each.cuts] for index, each in enumerate(found)
     ]
     in_turn = (cut for turn in zip_longest(*cuts) for cut in turn if cut is not None)
-    return Suggestion(tuple(in_turn), tuple(each.message for each in found))
+    refused = sum(
+        int(_among(meshes[i], np.concatenate(each.cuts), wishes[i].never).sum())
+        for i, each in enumerate(found)
+        if each.cuts
+    )
+    return Suggestion(tuple(in_turn), tuple(each.message for each in found), kept, refused)
+
+
+def _fixed(mesh: PolygonMesh, options: Options, wishes: Wishes) -> np.ndarray:
+    """Return the new seams, (n, 2) int32, that are wished for or sharp, between two of the selected faces."""
+    inner = np.empty((0, 2), np.int32)
+    if options.method == BY_ANGLE:
+        inner = _sharp_edges(mesh, options.sharp_angle)
+        inner = inner[~_among(mesh, inner, wishes.never)]
+    wanted = wishes.cut[_is_inner(mesh, wishes.cut) & ~_among(mesh, wishes.cut, inner)]
+    inner = np.concatenate([inner, wanted])
+    return inner[~_among(mesh, inner, mesh.seam_edges)].astype(np.int32)
+
+
+def _sharp_edges(mesh: PolygonMesh, angle: float) -> np.ndarray:
+    with np.errstate(invalid="ignore", over="ignore"):
+        return native.sharp_edges()(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, angle, selected_faces=mesh.selected_faces
+        )
+
+
+def _is_inner(mesh: PolygonMesh, edges: np.ndarray) -> np.ndarray:
+    """Return which of the edges, (n, 2), lie between selected faces, (n,) bool."""
+    if not len(edges):
+        return np.zeros(0, dtype=bool)
+    keys = native.measuring().edge_keys
+    sides = np.stack([mesh.corner_vertices, mesh.corner_vertices[mesh.next_corner()]], axis=1)
+    found, count = np.unique(
+        keys(sides[mesh.selected_faces[mesh.face_of_corner()]], len(mesh.vertices)), return_counts=True
+    )
+    return np.isin(keys(edges, len(mesh.vertices)), found[count > 1])
+
+
+def _among(mesh: PolygonMesh, edges: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return which of the edges, (n, 2), are among others, (n,) bool."""
+    if not len(edges) or not len(others):
+        return np.zeros(len(edges), dtype=bool)
+    keys = native.measuring().edge_keys
+    return np.isin(keys(edges, len(mesh.vertices)), keys(others, len(mesh.vertices)))
 
 
 class _Found(NamedTuple):
@@ -127,7 +203,9 @@ class _Found(NamedTuple):
     is_too_large: bool = False
 
 
-def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None) -> _Found:
+def _suggest(
+    mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None, never: np.ndarray
+) -> _Found:
     try:
         cuts = native.spectral_conformal().suggest_cuts(
             mesh.vertices,
@@ -136,6 +214,7 @@ def _suggest(mesh: PolygonMesh, options: Options, progress: Progress | None, pre
             seam_edges=mesh.seam_edges,
             selected_faces=mesh.selected_faces,
             vertex_preference=preference,
+            avoided_edges=never if len(never) else None,
             max_length=options.max_length,
             scale_limit=options.scale_limit,
             qc_limit=options.qc_limit,
@@ -183,18 +262,21 @@ class Search:
         options: Options,
         progress: Progress | None = None,
         preferences: Preferences = (),
+        wishes: Sequence[Wishes] = (),
     ) -> Suggestion:
         """Suggest cuts as the function `suggest` does."""
-        question = _digest(meshes, options, preferences)
+        question = _digest(meshes, options, preferences, wishes)
         last = self._last
         if last is not None and last[0] == question:
             return last[1]
-        answer = suggest(meshes, options, progress, preferences)
+        answer = suggest(meshes, options, progress, preferences, wishes)
         self._last = (question, answer)
         return answer
 
 
-def _digest(meshes: Sequence[PolygonMesh], options: Options, preferences: Preferences) -> bytes:
+def _digest(
+    meshes: Sequence[PolygonMesh], options: Options, preferences: Preferences, wishes: Sequence[Wishes]
+) -> bytes:
     """Return a digest of everything that the cuts depend on."""
     digest = hashlib.blake2b(repr(options).encode())
     for mesh in meshes:
@@ -204,4 +286,6 @@ def _digest(meshes: Sequence[PolygonMesh], options: Options, preferences: Prefer
             digest.update(np.ascontiguousarray(array).data)
     for preference in preferences:
         digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
+    for array in (array for wish in wishes for array in wish):
+        digest.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
     return digest.digest()

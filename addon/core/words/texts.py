@@ -36,6 +36,14 @@ SUGGEST_SEAMS_DESCRIPTION = (
     "Mark the seams that lower distortion most and open closed meshes, on the selected faces or, without a "
     "selection, on all visible ones; then unwrap"
 )
+SEAM_WISH_LABEL = "Wish for Seams"
+SEAM_WISH_DESCRIPTION = "Set where Suggest Seams cuts, and where never, on the selected edges"
+SEAM_WISH_PROPERTY = {"name": "Wish", "description": "What Suggest Seams does with the selected edges"}
+SEAM_WISHES = (
+    ("CUT", "Cut Here", "Suggest Seams makes the selected edges seams"),
+    ("NEVER", "Never Here", "Suggest Seams does not cut the selected edges"),
+    ("CLEAR", "Clear Wishes", "Suggest Seams decides about the selected edges"),
+)
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
 LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins and changed extenders, and unwrap again when seams change"
 EXTENDER_NAME = "Extender"
@@ -131,6 +139,12 @@ SOFT_PIN_STRENGTH_PROPERTY = {
 CORRECT_ASPECT_PROPERTY = {"name": "Correct Aspect", "description": "Map UVs taking image aspect ratio into account"}
 MARGIN_METHOD_PROPERTY = {"name": "Margin Method", "description": "How the margin is measured"}
 MARGIN_PROPERTY = {"name": "Margin", "description": "Space between islands"}
+SEAM_METHOD_PROPERTY = {"name": "Seams", "description": "How seams are found"}
+SEAM_METHODS = (
+    ("DISTORTION", "By Distortion", "Cut where that lowers distortion most"),
+    ("ANGLE", "By Angle", "Cut the edges whose faces enclose an angle"),
+)
+SHARP_ANGLE_PROPERTY = {"name": "Sharp Angle", "description": "Angle between two faces from which their edge is a seam"}
 SIZE_VARIATION_PROPERTY = {
     "name": "Size Variation",
     "description": "Size differences allowed on 95 % of the surface, as a factor; higher needs fewer seams",
@@ -329,6 +343,7 @@ ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   S
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
+NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
 MESHES_CHANGED_UNMARKED = "The meshes changed meanwhile, so nothing was marked; suggest seams again"
 OUT_OF_MEMORY = (
@@ -344,6 +359,7 @@ _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method with soft pins"}
 # Numbers with what they count: for one, and for any other number.
 _CUTS = ("{n} cut", "{n} cuts")
+_EDGES = ("{n} edge", "{n} edges")
 _EXTENDERS = ("{n} extender", "{n} extenders")
 _FACES = ("{n} face", "{n} faces")
 _ISLANDS = ("{n} island", "{n} islands")
@@ -704,13 +720,36 @@ def selected_defects(defects: Sequence[Defects], flipped: bool, overlapping: boo
     return translate("Selected {faces}: {kinds}").format(faces=_count(total, _FACES), kinds=counts)
 
 
-def marked(count: int, length: str) -> str:
-    """Return the report of `count` marked cuts, of a length with its unit."""
-    return translate("Marked {cuts}, length {length}").format(cuts=_count(count, _CUTS), length=length)
+def wished(wish: str, edges: int) -> str:
+    """Return the report of a wish, by its identifier, for so many edges."""
+    label = next(label for identifier, label, _ in SEAM_WISHES if identifier == wish)
+    return translate("{wish}: {edges}").format(wish=translate(label), edges=_count(edges, _EDGES))
 
 
-def nothing_to_suggest(is_limited: bool) -> str:
-    """Return the report of no suggested seams; `is_limited` if the user limited the length."""
+def refused_wishes(edges: int) -> str:
+    """Return the warning about so many edges that are cut against a wish; empty for none."""
+    if not edges:
+        return ""
+    forms = (
+        "{n} edge is cut in spite of Never Here: without it an island could not be unwrapped, or would overlap itself",
+        "{n} edges are cut in spite of Never Here: without them an island could not be unwrapped, or would overlap "
+        "itself",
+    )
+    return _count(edges, forms)
+
+
+def marked(count: int, edges: int, length: str) -> str:
+    """Return the report of `count` marked cuts and `edges` beside them, of a length with its unit together."""
+    cuts = [_count(count, _CUTS)] if count or not edges else []
+    if edges:
+        cuts.append(_count(edges, _EDGES))
+    return translate("Marked {cuts}, length {length}").format(cuts=" + ".join(cuts), length=length)
+
+
+def nothing_to_suggest(method: str, is_limited: bool) -> str:
+    """Return the report of no suggested seams by this method; `is_limited` if the user limited the length."""
+    if method == "ANGLE":
+        return translate("No seams to suggest: no edge is as sharp")
     if is_limited:
         return translate(
             "No seams to suggest: the islands are good enough, or no cut within the length limit improves them"
@@ -724,6 +763,17 @@ def without_suggestion(errors: Sequence[str], names: Sequence[str]) -> str:
     return translate("No seams suggested for {meshes}").format(meshes="; ".join(refused)) if refused else ""
 
 
+def preview_by_angle(degrees: float, edges: int, length: str) -> str:
+    """Return which edges are shown as seams by an angle, with their length with its unit."""
+    sentence = translate("{edges} from {degrees}° on, length {length}")
+    return sentence.format(edges=_count(edges, _EDGES), degrees=format(degrees, ".3g"), length=length)
+
+
+def islands(count: int) -> str:
+    """Return how many islands there will be."""
+    return _count(count, _ISLANDS)
+
+
 def preview(count: int, total: int, length: str, total_length: str) -> str:
     """Return which of the suggested cuts are shown, with lengths with their unit."""
     cuts = _count(total, _CUTS)
@@ -733,6 +783,7 @@ def preview(count: int, total: int, length: str, total_length: str) -> str:
     return sentence.format(n=count, cuts=cuts, length=length, total=total_length)
 
 
+SEARCHING = "Searching ..."
 PREVIEW_KEYS = "Wheel, +/-, Page keys: Fewer or more   Enter or click on the mesh: Apply   Esc or right click: Cancel"
 
 

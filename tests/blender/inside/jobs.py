@@ -106,8 +106,8 @@ class Invoked:
         while self.is_running and self.worker is not None:
             self.worker.wait(60.0)
             self.send("TIMER", "NOTHING")
-        if self.is_running and self.choice._measuring is not None:
-            self.choice._measuring.wait(60.0)
+        while self.is_running and (known := self.choice._searching or self.choice._measuring) is not None:
+            known.wait(60.0)
             self.send("TIMER", "NOTHING")
 
     def left_nothing(self):

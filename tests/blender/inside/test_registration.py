@@ -8,6 +8,7 @@ import types
 
 import bpy  # isort: skip - makes addon_utils importable
 import addon_utils
+import numpy as np
 import pytest
 
 from tests.blender.inside import scenes
@@ -81,6 +82,8 @@ def test_suggest_seams_is_described():
     assert operator.name == "Suggest Seams"
     properties = [prop for prop in operator.properties if prop.identifier != "rna_type"]
     assert {prop.identifier: prop.default for prop in properties} == {
+        "method": "DISTORTION",
+        "sharp_angle": pytest.approx(np.radians(30.0)),
         "size_variation": 2.0,
         "angle_distortion": pytest.approx(1.1),
         "max_length": 0.0,

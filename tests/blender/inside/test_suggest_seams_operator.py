@@ -410,11 +410,10 @@ def test_live_unwrap_goes_on_when_blender_has_forgotten_what_ended(monkeypatch):
     assert last_operator.changes_seams(1)
 
 
-def invoked(monkeypatch, is_waiting=True):
-    defaults = {"size_variation": 2.0, "angle_distortion": 1.1, "max_length": 0.0, "cuts": 0, "unwrap": True}
-    defaults |= {"keep_front": 0.5, "seam_group": "", "seam_group_use": "AVOID"}
+def invoked(monkeypatch, is_waiting=True, **changed):
+    defaults = jobs.defaults(bpy.ops.uv.spectral_suggest_seams)
     operator = module("operators.suggest_seams").UV_OT_spectral_suggest_seams
-    return jobs.Invoked(monkeypatch, operator, is_waiting, **defaults)
+    return jobs.Invoked(monkeypatch, operator, is_waiting, **{**defaults, **changed})
 
 
 @pytest.fixture

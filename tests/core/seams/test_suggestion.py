@@ -5,10 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import spectral_conformal as sc
 from spectral_unwrap.core import native
 from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
 from spectral_unwrap.core.seams import suggestion as seam_suggestion
-from spectral_unwrap.core.seams.suggestion import Options, Search, Suggestion
+from spectral_unwrap.core.seams.suggestion import Options, Search, Suggestion, Wishes
 from spectral_unwrap.core.words import texts
 
 
@@ -98,7 +99,74 @@ def test_options_and_seams_reach_the_module(module):
         "boundary": "vertex",
         "front": (0.0, -2.0, 0.0),
         "vertex_preference": None,
+        "avoided_edges": None,
     }
+
+
+def two_squares(height=0.0):
+    """Two squares that meet in the edge from 1 to 2; the far side of the second one lies at a height."""
+    points = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [2.0, 0.0, height],
+        [2.0, 1.0, height],
+    ]
+    return PolygonMesh(
+        np.array(points),
+        np.array([0, 4, 8]),
+        np.array([0, 1, 2, 3, 1, 4, 5, 2]),
+        seam_edges=np.empty((0, 2), np.int32),
+        selected_faces=np.array([True, True]),
+    )
+
+
+def wishes(cut=(), never=()):
+    return Wishes(*(np.array(edges, np.int32).reshape(-1, 2) for edges in (cut, never)))
+
+
+def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
+    asked = []
+
+    def suggest_cuts(*_arrays, **options):
+        asked.append(options)
+        return [np.array([[0, 1]], np.int32)]
+
+    monkeypatch.setattr(sc, "suggest_cuts", suggest_cuts)
+    # The outer edge is no seam between two faces.
+    suggestion = seam_suggestion.suggest([two_squares()], Options(), wishes=[wishes([[2, 1], [0, 1]], [[1, 4]])])
+    (options,) = asked
+    assert options["seam_edges"].tolist() == [[2, 1]]
+    assert options["avoided_edges"].tolist() == [[1, 4]]
+    assert suggestion.part(0, 0).edges(0).tolist() == [[2, 1]]
+    assert suggestion.edges(0).tolist() == [[2, 1], [0, 1]]
+    assert (suggestion.length, suggestion.part(0, 0).length) == (2.0, 1.0)
+    assert suggestion.refused_wishes == 0
+
+
+def test_cuts_against_a_wish_are_counted(monkeypatch):
+    monkeypatch.setattr(sc, "suggest_cuts", lambda *_arrays, **_options: [np.array([[1, 2], [0, 1]], np.int32)])
+    suggestion = seam_suggestion.suggest([two_squares()], Options(), wishes=[wishes(never=[[2, 1], [4, 5]])])
+    assert suggestion.refused_wishes == 1
+
+
+@pytest.mark.parametrize(
+    ("height", "wished", "edges"),
+    [
+        (0.5, wishes(), []),
+        (2.0, wishes(), [[1, 2]]),
+        (2.0, wishes(never=[[2, 1]]), []),
+        (0.5, wishes(cut=[[2, 1]]), [[2, 1]]),
+        (2.0, wishes(cut=[[1, 2]]), [[1, 2]]),
+    ],
+)
+def test_seams_by_angle(height, wished, edges):
+    options = Options(method=seam_suggestion.BY_ANGLE, sharp_angle=np.radians(45.0))
+    suggestion = seam_suggestion.suggest([two_squares(height)], options, wishes=[wished])
+    assert suggestion.edges(0).tolist() == edges
+    assert suggestion.cuts == ()
+    assert suggestion.is_empty == (not edges)
 
 
 def test_every_mesh_gets_its_own_preference(module):

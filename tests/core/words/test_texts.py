@@ -173,13 +173,15 @@ def test_refused_meshes_are_named():
 
 
 def test_marked_cuts():
-    assert texts.marked(1, "2 m") == "Marked 1 cut, length 2 m"
-    assert texts.marked(3, "7.5") == "Marked 3 cuts, length 7.5"
+    assert texts.marked(1, 0, "2 m") == "Marked 1 cut, length 2 m"
+    assert texts.marked(3, 0, "7.5") == "Marked 3 cuts, length 7.5"
+    assert texts.marked(3, 1, "7.5") == "Marked 3 cuts + 1 edge, length 7.5"
+    assert texts.marked(0, 2, "7.5") == "Marked 2 edges, length 7.5"
 
 
 def test_nothing_to_suggest_names_the_limit_if_there_is_one():
-    assert "length" not in texts.nothing_to_suggest(is_limited=False)
-    assert "within the length" in texts.nothing_to_suggest(is_limited=True)
+    assert "length" not in texts.nothing_to_suggest("DISTORTION", is_limited=False)
+    assert "within the length" in texts.nothing_to_suggest("DISTORTION", is_limited=True)
 
 
 def test_meshes_without_suggestion():

@@ -183,8 +183,12 @@ CALLS = {
     "selected_defects": [
         (defects(is_bad), *kinds) for is_bad in (True, False) for kinds in ((True, True), (True, False), (False, True))
     ],
-    "marked": [(1, "2"), (2, "2")],
-    "nothing_to_suggest": [(True,), (False,)],
+    "marked": [(1, 0, "2"), (2, 1, "2"), (0, 2, "2")],
+    "wished": [(wish, edges) for wish, *_ in texts.SEAM_WISHES for edges in (1, 2)],
+    "refused_wishes": [(0,), (1,), (2,)],
+    "nothing_to_suggest": [("DISTORTION", True), ("DISTORTION", False), ("ANGLE", False)],
+    "preview_by_angle": [(30.0, 1, "2"), (30.0, 2, "2")],
+    "islands": [(1,), (2,)],
     "without_suggestion": [(["A."], ["B"]), ([""], ["B"])],
     "preview": [(2, 2, "2", "2"), (1, 2, "1", "2")],
     "preview_status": [("A",)],

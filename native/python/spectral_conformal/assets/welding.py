@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._measuring import next_corner
+from .._sharp_edges import sharp_edges as edges_by_angle
 from .mesh import AssetMesh
 
 Integers = npt.NDArray[np.int64]
@@ -113,24 +114,4 @@ def sharp_edges(mesh: AssetMesh, vertex_of: Integers, angle: float) -> Integers:
         vertex_of: (V,) the representative of each vertex.
         angle: in radians.
     """
-    pairs = face_edges(mesh.face_offsets, vertex_of[mesh.corner_vertices])
-    _, inverse, count = np.unique(_keys(pairs, len(mesh.vertices)), return_inverse=True, return_counts=True)
-    corners = np.argsort(inverse, kind="stable")
-    corners = corners[count[inverse[corners]] == 2].reshape(-1, 2)
-    normals = _face_normals(mesh)[mesh.face_of_corner()]
-    first, second = normals[corners[:, 0]], normals[corners[:, 1]]
-    # Accurate for small angles, too. Faces without area have no normal, hence no angle.
-    turned = 2.0 * np.arctan2(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1))
-    has_both = first.any(axis=1) & second.any(axis=1)
-    return pairs[corners[has_both & (turned >= angle), 0]]
-
-
-def _face_normals(mesh: AssetMesh) -> npt.NDArray[np.float64]:
-    """Return the unit normals of the faces, (F, 3), from their projected areas; 0 for faces without area."""
-    start = mesh.vertices[mesh.corner_vertices]
-    # Relative to a corner of the face, so that a position far from the origin costs no digits.
-    start -= start[mesh.face_offsets[:-1]][mesh.face_of_corner()]
-    crossed = np.cross(start, start[next_corner(mesh.face_offsets)])
-    normals = np.add.reduceat(crossed, mesh.face_offsets[:-1], axis=0) if len(crossed) else np.zeros((0, 3))
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    return edges_by_angle(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, angle, vertex_of=vertex_of)

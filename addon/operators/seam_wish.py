@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that sets where seams are wanted, and where not."""
+
+import bpy
+from bpy.props import EnumProperty
+
+from .. import editors, names
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..edit_mesh import seam_wishes
+from .reporting_operator import ReportingOperator
+
+_VALUES = {"CUT": seam_wishes.CUT, "NEVER": seam_wishes.NEVER, "CLEAR": seam_wishes.NONE}
+
+
+class MESH_OT_spectral_seam_wish(ReportingOperator, bpy.types.Operator):
+    """Set the wish of the selected edges of all meshes in edit mode."""
+
+    bl_idname = names.SEAM_WISH_OPERATOR
+    bl_label = texts.SEAM_WISH_LABEL
+    bl_description = texts.SEAM_WISH_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    wish: EnumProperty(**texts.SEAM_WISH_PROPERTY, items=texts.SEAM_WISHES)
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return what the wish means."""
+        return translate(next(text for identifier, _, text in texts.SEAM_WISHES if identifier == properties.wish))
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode."""
+        return context.mode == "EDIT_MESH"
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Set the attribute and report how many edges have it."""
+        meshes = [each.data for each in context.objects_in_mode_unique_data]
+        count = sum(seam_wishes.set_selected(mesh, _VALUES[self.wish]) for mesh in meshes)
+        if not count:
+            self.report({"WARNING"}, translate(texts.NO_EDGES_SELECTED))
+            return {"CANCELLED"}
+        editors.redraw(context)
+        self.report({"INFO"}, texts.wished(self.wish, count))
+        return {"FINISHED"}

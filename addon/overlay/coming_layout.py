@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The layout that unwrapping would give, drawn in the UV editors before anything is written."""
+
+from collections.abc import Sequence
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from .. import compatibility, editors
+from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.words import texts
+from .draw_handlers import DrawHandler
+
+# That of suggested seams in the 3D viewport, less opaque: every edge of every face is drawn.
+_COLOR = (0.1, 1.0, 0.55, 0.6)
+_WIDTH = 1.5
+
+
+def outline(mesh: PolygonMesh, uv: np.ndarray, solved_corners: np.ndarray) -> np.ndarray:
+    """Return the edges of the mapped faces as pairs of points, (2 n, 3) float32, given the UVs, (C, 2), of corners."""
+    flat = np.column_stack([uv, np.zeros(len(uv))]).astype(np.float32)
+    ends = np.stack([flat, flat[mesh.next_corner()]], axis=1)
+    return ends[solved_corners].reshape(-1, 3)
+
+
+class ComingLayout:
+    """The edges of a layout in all UV editors."""
+
+    def __init__(self) -> None:
+        """Show nothing yet."""
+        self._lines: Sequence[np.ndarray] = ()
+        self._batches: list[gpu.types.GPUBatch] | None = None
+        self._handle: DrawHandler | None = None
+
+    def show(self, context: bpy.types.Context, lines: Sequence[np.ndarray]) -> None:
+        """Draw these pairs of points, (2 n, 3) each."""
+        self._lines, self._batches = lines, None
+        # Background mode draws nothing.
+        if self._handle is None and not bpy.app.background:
+            self._handle = DrawHandler(
+                bpy.types.SpaceImageEditor, self._draw, "POST_VIEW", name=texts.SUGGEST_SEAMS_LABEL
+            )
+        editors.redraw(context, "IMAGE_EDITOR")
+
+    def remove(self) -> None:
+        """Stop drawing."""
+        if self._handle is not None:
+            self._handle.remove()
+            self._handle = None
+
+    def _draw(self, context: bpy.types.Context) -> None:
+        if not (context.space_data.show_uvedit and context.mode == "EDIT_MESH"):
+            return
+        shader = gpu.shader.from_builtin(compatibility.LINE_SHADER)
+        if self._batches is None:
+            self._batches = [batch_for_shader(shader, "LINES", {"pos": each}) for each in self._lines if len(each)]
+        gpu.state.blend_set("ALPHA")
+        try:
+            shader.bind()
+            shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+            shader.uniform_float("lineWidth", _WIDTH * context.preferences.system.ui_scale)
+            shader.uniform_float("color", _COLOR)
+            for batch in self._batches:
+                batch.draw(shader)
+        finally:
+            gpu.state.blend_set("NONE")

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where seams are wanted and where not: set on edges, saved, obeyed; seams by angle; settings of a running preview."""
+
+import importlib
+import math
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import jobs, scenes
+
+names = importlib.import_module("spectral_unwrap.names")
+seam_wishes = importlib.import_module("spectral_unwrap.edit_mesh.seam_wishes")
+
+
+def sphere():
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
+    return bpy.context.object
+
+
+def select_edges(edited, chosen):
+    """Select the edges for which `chosen` holds, given the middle, and return their vertices."""
+    bpy.ops.mesh.select_mode(type="EDGE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = scenes.edit_mesh(edited)
+    found = set()
+    for edge in bm.edges:
+        if chosen((edge.verts[0].co + edge.verts[1].co) / 2.0):
+            edge.select_set(True)
+            found.add(frozenset(vertex.index for vertex in edge.verts))
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(edited.data)
+    return found
+
+
+def wish(edited, value, chosen):
+    """Set a wish for edges, and leave nothing selected."""
+    found = select_edges(edited, chosen)
+    assert bpy.ops.mesh.spectral_seam_wish(wish=value) == {"FINISHED"}
+    bpy.ops.mesh.select_all(action="DESELECT")
+    return found
+
+
+def seams(edited):
+    return {frozenset(vertex.index for vertex in edge.verts) for edge in scenes.edit_mesh(edited).edges if edge.seam}
+
+
+def wished(edited):
+    edges, values = seam_wishes.of_edges(edited.data)
+    return {frozenset(edge): value for edge, value in zip(edges.tolist(), values.tolist())}
+
+
+def on_equator(middle):
+    return abs(middle.z) < 1e-4
+
+
+def in_front(middle):
+    return middle.y < -0.2
+
+
+def test_wishes_are_set_changed_cleared_and_counted(reports):
+    ball = sphere()
+    scenes.edit(ball)
+    reports()
+    equator = wish(ball, "CUT", on_equator)
+    assert len(equator) == 16
+    assert wished(ball) == dict.fromkeys(equator, seam_wishes.CUT)
+    wish(ball, "NEVER", on_equator)
+    assert wished(ball) == dict.fromkeys(equator, seam_wishes.NEVER)
+    wish(ball, "CLEAR", on_equator)
+    assert wished(ball) == {}
+    assert reports() == [("Info", f"{label}: 16 edges") for label in ("Cut Here", "Never Here", "Clear Wishes")]
+    assert bpy.ops.mesh.spectral_seam_wish(wish="CUT") == {"CANCELLED"}
+    assert reports() == [("Warning", "No edges selected")]
+
+
+def test_wishes_are_saved_with_the_mesh(tmp_path):
+    ball = sphere()
+    scenes.edit(ball)
+    equator = wish(ball, "NEVER", on_equator)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert ball.data.attributes[names.SEAM_WISH_ATTRIBUTE].domain == "EDGE"
+    name, path = ball.name, str(tmp_path / "wishes.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    ball = bpy.data.objects[name]
+    bpy.context.view_layer.objects.active = ball
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert wished(ball) == dict.fromkeys(equator, seam_wishes.NEVER)
+
+
+def test_edges_to_cut_become_seams():
+    ball = sphere()
+    scenes.edit(ball)
+    equator = wish(ball, "CUT", on_equator)
+    assert bpy.ops.uv.spectral_suggest_seams(cuts=1) == {"FINISHED"}
+    assert equator <= seams(ball)
+
+
+def test_other_edges_are_never_cut(reports):
+    ball = sphere()
+    scenes.edit(ball)
+    assert bpy.ops.uv.spectral_suggest_seams(keep_front=0.0) == {"FINISHED"}
+    front = select_edges(ball, in_front)
+    assert front & seams(ball)
+    for edge in scenes.edit_mesh(ball).edges:
+        edge.seam = False
+    wish(ball, "NEVER", in_front)
+    reports()
+    assert bpy.ops.uv.spectral_suggest_seams(keep_front=0.0) == {"FINISHED"}
+    assert seams(ball)
+    assert not front & seams(ball)
+    assert not any("in spite of" in text for _, text in reports())
+
+
+def test_wishes_that_cannot_be_met_are_told(reports):
+    ball = sphere()
+    scenes.edit(ball)
+    wish(ball, "NEVER", lambda _: True)
+    reports()
+    assert bpy.ops.uv.spectral_suggest_seams() == {"FINISHED"}
+    cut = len(seams(ball))
+    level, text = next((level, text) for level, text in reports() if "in spite of" in text)
+    assert level == "Warning"
+    assert text.startswith(f"{cut} edge")
+
+
+def test_seams_by_angle(reports):
+    cube = scenes.cube()
+    scenes.edit(cube)
+    reports()
+    by_angle = {"method": "ANGLE", "sharp_angle": math.radians(89.0)}
+    assert bpy.ops.uv.spectral_suggest_seams(**by_angle) == {"FINISHED"}
+    assert len(seams(cube)) == 12
+    assert reports()[0][1].startswith("Marked 12 edges, length ")
+    for edge in scenes.edit_mesh(cube).edges:
+        edge.seam = False
+    assert bpy.ops.uv.spectral_suggest_seams(method="ANGLE", sharp_angle=math.radians(91.0)) == {"CANCELLED"}
+    assert "no edge is as sharp" in reports()[0][1]
+    assert not seams(cube)
+
+
+@pytest.fixture
+def previewed(monkeypatch):
+    def preview(make, **properties):
+        edited = make()
+        scenes.edit(edited)
+        if not edited.data.uv_layers:
+            edited.data.uv_layers.new(name="UVMap")
+        operator = importlib.import_module("spectral_unwrap.operators.suggest_seams").UV_OT_spectral_suggest_seams
+        values = {**jobs.defaults(bpy.ops.uv.spectral_suggest_seams), **properties}
+        return edited, jobs.Invoked(monkeypatch, operator, **values)
+
+    return preview
+
+
+def sidebar():
+    return bpy.context.window_manager.operator_properties_last(names.SUGGEST_SEAMS_OPERATOR)
+
+
+def settle(preview):
+    preview.send("TIMER", "NOTHING")
+    preview.wait()
+
+
+def finish(preview):
+    preview.send("RET")
+    preview.wait()
+    return preview.result
+
+
+def test_settings_in_the_sidebar_change_the_running_preview(previewed):
+    ball, preview = previewed(sphere, angle_distortion=1.02)
+    assert sidebar().angle_distortion == pytest.approx(1.02)
+    before = preview.choice.answer[0].length
+    sidebar().angle_distortion = 2.0
+    sidebar().size_variation = 8.0
+    settle(preview)
+    assert preview.choice.answer[0].length < before
+    assert "within 8 times" in preview.status[-1]
+    length = preview.choice.answer[0].length
+    assert finish(preview) == {"FINISHED"}
+    # Adjust Last Operation begins with what was searched for.
+    assert preview.operator.angle_distortion == 2.0
+    marked = sum(edge.calc_length() for edge in scenes.edit_mesh(ball).edges if edge.seam)
+    assert marked == pytest.approx(length, rel=1e-5)
+
+
+def test_nothing_is_applied_while_a_search_runs(previewed, monkeypatch):
+    ball, preview = previewed(sphere)
+    worker = importlib.import_module("spectral_unwrap.core.solve.worker").Worker
+    sidebar().angle_distortion = 1.5
+    with monkeypatch.context() as patch:
+        patch.setattr(worker, "wait", lambda _self, _seconds: False)
+        preview.send("TIMER", "NOTHING")
+        assert "Searching ..." in preview.status[-1]
+        assert preview.send("RET") == {"RUNNING_MODAL"}
+    assert not seams(ball)
+    preview.send("ESC")
+    assert preview.left_nothing()
+
+
+def test_a_wish_changes_the_running_preview(previewed):
+    ball, preview = previewed(sphere)
+    equator = wish(ball, "CUT", on_equator)
+    settle(preview)
+    edges = {frozenset(edge) for edge in preview.choice.answer[0].edges(0).tolist()}
+    assert equator <= edges
+    preview.send("ESC")
+
+
+def test_the_preview_by_angle_counts_islands_while_the_wheel_turns_the_angle(previewed):
+    cube, preview = previewed(scenes.cube, method="ANGLE", sharp_angle=math.radians(89.0))
+    assert "12 edges from 89° on" in preview.status[-1]
+    assert "; 6 islands; " in preview.status[-1]
+    for _ in range(2):
+        preview.send("WHEELDOWNMOUSE")
+    preview.wait()
+    assert "0 edges from 91° on" in preview.status[-1]
+    assert "; 1 island; " in preview.status[-1]
+    assert math.degrees(sidebar().sharp_angle) == pytest.approx(91.0)
+    preview.send("PAGE_UP")
+    preview.wait()
+    assert "12 edges from 81° on" in preview.status[-1]
+    assert finish(preview) == {"FINISHED"}
+    assert len(seams(cube)) == 12
+
+
+def test_the_layout_that_is_shown_is_the_one_that_is_written(previewed):
+    ball, preview = previewed(sphere)
+    preview.send("WHEELDOWNMOUSE")
+    preview.wait()
+    (shown,) = preview.choice._layout._lines
+    # Two points per corner: its own and the next one of its face.
+    corners = shown.reshape(-1, 2, 3)[:, 0, :2]
+    assert finish(preview) == {"FINISHED"}
+    np.testing.assert_allclose(corners, scenes.read_uv(ball), atol=1e-5)
