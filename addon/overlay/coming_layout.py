@@ -14,8 +14,8 @@ from ..core.words import texts
 from .draw_handlers import DrawHandler
 
 # That of suggested seams in the 3D viewport, less opaque: every edge of every face is drawn.
-_COLOR = (0.1, 1.0, 0.55, 0.6)
-_WIDTH = 1.5
+_COLOR = (0.1, 1.0, 0.55, 0.5)
+_WIDTH = 1.0
 
 
 def outline(mesh: PolygonMesh, uv: np.ndarray, solved_corners: np.ndarray) -> np.ndarray:

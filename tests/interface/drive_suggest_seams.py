@@ -210,4 +210,5 @@ def steps():
     np.testing.assert_array_equal(uv(), mapped)
 
 
-drive.run(steps())
+if __name__ == "__main__":
+    drive.run(steps())

@@ -14,15 +14,15 @@ COLUMNS, ROWS = 6, 5
 # Places in the viewport's sidebar, in pixels from its top left corner.
 TAB = drive.LAYOUT.sidebar_tab
 if drive.LAYOUT.is_wide:
-    SUGGEST_SEAMS = (134, 46)
-    ADD, ADJUST, REMOVE, REMOVE_BROKEN = (144, 304), (144, 440), (144, 465), (144, 491)
+    SUGGEST_SEAMS, CUT_HERE, NEVER_HERE = (134, 46), (73, 88), (180, 88)
+    ADD, ADJUST, REMOVE, REMOVE_BROKEN = (144, 351), (144, 487), (144, 512), (144, 538)
     ICON, NAME, STRENGTH, USE = 38, 73, 184, 231
 else:
-    SUGGEST_SEAMS = (103, 46)
-    ADD, ADJUST, REMOVE, REMOVE_BROKEN = (112, 303), (103, 437), (103, 459), (103, 483)
+    SUGGEST_SEAMS, CUT_HERE, NEVER_HERE = (103, 46), (45, 88), (120, 88)
+    ADD, ADJUST, REMOVE, REMOVE_BROKEN = (112, 350), (103, 484), (103, 506), (103, 530)
     ICON, NAME, STRENGTH, USE = 25, 50, 140, 172
-FIRST_ROW, NEXT_ROW = 335, 21
-SHOW_MAP = (36, 244)
+FIRST_ROW, NEXT_ROW = 382, 21
+SHOW_MAP = (36, 291)
 
 
 def open_grid():

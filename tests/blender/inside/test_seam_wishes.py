@@ -237,3 +237,19 @@ def test_the_layout_that_is_shown_is_the_one_that_is_written(previewed):
     corners = shown.reshape(-1, 2, 3)[:, 0, :2]
     assert finish(preview) == {"FINISHED"}
     np.testing.assert_allclose(corners, scenes.read_uv(ball), atol=1e-5)
+
+
+def test_lines_of_wishes_lie_on_their_visible_edges():
+    lines = importlib.import_module("spectral_unwrap.overlay.seam_wish_lines")
+    ball = sphere()
+    scenes.edit(ball)
+    assert lines.segments(ball.data) == {}
+    wish(ball, "CUT", on_equator)
+    wish(ball, "NEVER", lambda middle: middle.z > 0.8)
+    found = lines.segments(ball.data)
+    assert set(found) == {seam_wishes.CUT, seam_wishes.NEVER}
+    assert found[seam_wishes.CUT].shape == (32, 3)
+    np.testing.assert_allclose(found[seam_wishes.CUT][:, 2], 0.0, atol=1e-6)
+    select_edges(ball, lambda middle: middle.z > 0.5)
+    bpy.ops.mesh.hide()
+    assert set(lines.segments(ball.data)) == {seam_wishes.CUT}
