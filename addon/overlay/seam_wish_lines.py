@@ -36,17 +36,14 @@ def on_update(depsgraph: bpy.types.Depsgraph) -> None:
 
 def segments(mesh: bpy.types.Mesh) -> dict[int, np.ndarray]:
     """Return the ends of the visible edges with a wish, by wish: (2 n, 3) float32 in object space, edge after edge."""
-    edges, wishes = seam_wishes.of_edges(mesh)
+    edges, wishes = seam_wishes.of_edges(mesh, only_visible=True)
     if not len(edges):
         return {}
     bm = edit_meshes.keep(mesh).bm
     bm.verts.ensure_lookup_table()
     found = {}
     for wish in _COLORS:
-        ends = [bm.verts[index] for index in edges[wishes == wish].ravel().tolist()]
-        points = [
-            vertex.co[:] for pair in zip(ends[::2], ends[1::2]) if not any(v.hide for v in pair) for vertex in pair
-        ]
+        points = [bm.verts[index].co[:] for index in edges[wishes == wish].ravel().tolist()]
         if points:
             found[wish] = np.array(points, dtype=np.float32)
     return found

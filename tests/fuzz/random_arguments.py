@@ -147,6 +147,7 @@ PARAMETERS = {
     "qc_gain": power_of_ten(-4, 0),
     "energy_limit": lambda rng, mesh: 4 + float(10 ** rng.uniform(-3, 1)),
     "front": lambda rng, mesh: tuple(rng.normal(size=3) * 10 ** rng.uniform(-2, 2)),
+    "avoided_edges": seam_edges,
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
 POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}

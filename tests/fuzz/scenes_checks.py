@@ -38,8 +38,8 @@ class Call:
 
 def random_call(rng, edited):
     """Choose an operator and its settings."""
-    makers = (_unwrap, _suggest_seams, _select_failed, _add_extender, _adjust_extender, _choose_extender)
-    return makers[rng.choice(len(makers), p=[0.6, 0.1, 0.08, 0.12, 0.05, 0.05])](rng, edited)
+    makers = (_unwrap, _suggest_seams, _wish, _select_failed, _add_extender, _adjust_extender, _choose_extender)
+    return makers[rng.choice(len(makers), p=[0.54, 0.11, 0.05, 0.08, 0.12, 0.05, 0.05])](rng, edited)
 
 
 def check(rng, call):
@@ -211,6 +211,8 @@ def _suggest_seams(rng, edited):
         "size_variation": float(rng.choice([1.01, 2.0, 8.0])),
         "angle_distortion": float(rng.choice([1.05, 1.5])),
         "max_length": float(rng.choice([0.0, 0.0, 3.0])),
+        "method": str(rng.choice(["DISTORTION", "DISTORTION", "ANGLE"])),
+        "sharp_angle": float(rng.choice([0.0, 0.5, 1.6])),
         "unwrap": bool(rng.random() < 0.7),
     }
 
@@ -224,6 +226,11 @@ def _suggest_seams(rng, edited):
         ("use_seam", "attribute uv_seam"),
         chosen,
     )
+
+
+def _wish(rng, _edited):
+    wish = str(rng.choice(["CUT", "NEVER", "CLEAR"]))
+    return Call(f"wish {wish}", lambda: bpy.ops.mesh.spectral_seam_wish(wish=wish), ("attribute spectral_seam_wish",))
 
 
 def _select_failed(rng, edited):
