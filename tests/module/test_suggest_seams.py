@@ -195,6 +195,15 @@ def test_avoided_edges_are_cut_where_nothing_could_be_unwrapped_otherwise():
     assert len(seams) < len(sc.suggest_seams(*mesh))
 
 
+def test_a_face_without_corners_does_not_matter_to_avoided_edges():
+    vertices, offsets, corners = closed_creature()
+    avoided = sc.suggest_seams(vertices, offsets, corners)
+    expected = sc.suggest_seams(vertices, offsets, corners, avoided_edges=avoided)
+    for at in (0, 5, len(offsets) - 1):
+        with_empty = np.insert(offsets, at, offsets[at])
+        np.testing.assert_array_equal(sc.suggest_seams(vertices, with_empty, corners, avoided_edges=avoided), expected)
+
+
 def test_avoided_pairs_that_are_no_edges_change_nothing():
     mesh = closed_creature()
     seams = sc.suggest_seams(*mesh)

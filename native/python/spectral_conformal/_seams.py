@@ -149,7 +149,8 @@ def _without_avoided(
     n = len(vertices)
     unwanted = edge_keys(avoided, n)
     is_avoided = [np.isin(edge_keys(cut, n), unwanted) for cut in cuts]
-    sides = edge_keys(np.stack([corners, corners[next_corner(offsets)]], axis=1), n)
+    # Faces may have no corners.
+    sides = edge_keys(np.stack([corners, corners[next_corner(np.unique(offsets))]], axis=1), n)
     given = [np.zeros((0, 2), np.int32) if seams is None else seams]
 
     def first_whole(count: int) -> list[np.ndarray]:
