@@ -85,6 +85,24 @@ def test_nothing_selected_means_all_that_is_visible(reports):
     assert not any(face.select for face in scenes.edit_mesh(grid).faces)
 
 
+def test_a_selection_in_any_mesh_is_the_only_one_that_counts(reports):
+    selected, other = scenes.grid(2, 2), scenes.grid(2, 2, name="Other")
+    scenes.edit(selected, other, select=False)
+    before = [scenes.read_uv(each) for each in (selected, other)]
+    scenes.select_faces(selected, [0])
+    reports()
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert not any("Nothing was selected" in text for _, text in reports())
+    assert not np.array_equal(scenes.read_uv(selected)[:4], before[0][:4])
+    np.testing.assert_array_equal(scenes.read_uv(selected)[4:], before[0][4:])
+    np.testing.assert_array_equal(scenes.read_uv(other), before[1])
+    # Without it both are unwrapped, and stay unselected.
+    bpy.ops.mesh.select_all(action="DESELECT")
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
+    assert not np.array_equal(scenes.read_uv(other), before[1])
+    assert not any(face.select for each in (selected, other) for face in scenes.edit_mesh(each).faces)
+
+
 def test_nothing_visible(reports):
     scenes.edit(scenes.grid(1, 1))
     bpy.ops.mesh.hide()
