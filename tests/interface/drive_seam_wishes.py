@@ -11,7 +11,15 @@ import bpy
 
 from tests.interface import driving as drive
 from tests.interface.drive_suggest_seams import seams, shown, watch_previews
-from tests.interface.extender_sidebar import CUT_HERE, NEVER_HERE, SUGGEST_SEAMS, TAB, click_sidebar
+from tests.interface.extender_sidebar import (
+    BY_ANGLE,
+    CUT_HERE,
+    NEVER_HERE,
+    SEAM_SETTINGS,
+    SUGGEST_SEAMS,
+    TAB,
+    click_sidebar,
+)
 from tests.interface.session import area_of, override, picture, point_at, screenshot, xdotool
 
 WHEEL_DOWN = 5
@@ -84,11 +92,16 @@ def steps():
     assert rim <= edges
     assert not side & edges
 
-    # A setting of the sidebar changes the running preview.
+    # Settings in the sidebar change the running preview, and clicks there apply nothing.
     settings = bpy.context.window_manager.operator_properties_last("uv.spectral_suggest_seams")
-    settings.method = "ANGLE"
+    yield from click_sidebar(SEAM_SETTINGS)
+    yield
+    screenshot("seam_wishes_settings")
+    yield from click_sidebar(BY_ANGLE)
+    yield from drive.until(lambda: settings.method == "ANGLE")
+    assert shown
     settings.sharp_angle = math.radians(20.0)
-    yield from drive.until(lambda: shown[0]._settings.angle is not None and shown[0]._searching is None)
+    yield from drive.until(lambda: round(shown[0]._settings.angle or 0.0) == 20 and shown[0]._searching is None)
     yield from drive.until(lambda: shown[0].count in shown[0]._measured)
     yield
     screenshot("seam_wishes_by_angle")
