@@ -623,7 +623,7 @@ TEXTS = {
     "angles off by {mean} on average": "Winkel weichen im Mittel um {mean} ab",
     "angles off by {mean} on average (now {now})": "Winkel weichen im Mittel um {mean} ab (jetzt {now})",
     "beyond measure": "mehr, als sich messen lässt",
-    # What the solver says: `spectral_conformal.message_templates`.
+    # What the solver says: `spectral_conformal.hosts.message_templates`.
     "The first solve failed its checks and was repeated with a larger shift and another start.": (
         "Die erste Lösung bestand ihre Prüfungen nicht und wurde mit größerer Verschiebung und anderem Anfang "
         "wiederholt."

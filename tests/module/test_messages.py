@@ -16,7 +16,7 @@ NAN = float("nan")
 
 
 def said(*steps, **options):
-    return sc.describe([sc.Step(*step) if isinstance(step, tuple) else step for step in steps], **options)
+    return sc.hosts.describe([sc.Step(*step) if isinstance(step, tuple) else step for step in steps], **options)
 
 
 def rejected(reason, constraint=None, **fields):
@@ -171,7 +171,7 @@ def test_templates_are_looked_up_whole():
         "THE BOUNDARY OF THE MAP WINDS ROUND 2 TIMES INSTEAD OF ONCE: SOLVED WITH THE BOUNDARY FORM 'VERTEX' INSTEAD. "
         "3 SELF-INTERSECTING POLYGONS: SPLIT AS A FAN."
     )
-    assert set(asked) <= set(sc.message_templates())
+    assert set(asked) <= set(sc.hosts.message_templates())
 
 
 def test_results_and_errors_say_what_their_steps_mean():
@@ -180,13 +180,13 @@ def test_results_and_errors_say_what_their_steps_mean():
     triangles[3] = triangles[3][::-1]
     solution = sc.parameterize(vertices, triangles)
     assert solution.steps == (sc.Step("reoriented_faces", count=1),)
-    assert solution.message == sc.describe(solution.steps) != ""
+    assert solution.message == sc.hosts.describe(solution.steps) != ""
     (chart,) = sc.unwrap(vertices, *meshes.polygons(triangles)).charts
     assert (chart.steps, chart.message) == (solution.steps, solution.message)
     with pytest.raises(sc.SolveError) as caught:
         sc.parameterize(vertices, triangles, extenders=[(0, 30, -1000.0)])
     (step,) = caught.value.steps
     assert (step.kind, step.reason, step.constraint) == ("rejected", "winding", "extenders")
-    assert str(caught.value) == sc.describe([step])
+    assert str(caught.value) == sc.hosts.describe([step])
     again = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 - our own
     assert (again.steps, str(again)) == (caught.value.steps, str(caught.value))

@@ -143,7 +143,7 @@ def _steps_of_messages(solutions: Sequence[Solution]) -> dict[str, Sequence[Any]
 
 def _counted(messages: Iterable[str], steps: dict[str, Sequence[Any]]) -> Counter[str]:
     """Count messages, in the language of the user."""
-    describe = native.spectral_conformal().describe
+    describe = native.spectral_conformal().hosts.describe
     counts: Counter[str] = Counter()
     for message, count in Counter(messages).items():
         counts[describe(steps[message], translate) or message] += count

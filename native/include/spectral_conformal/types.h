@@ -4,21 +4,22 @@
 #include <Eigen/SparseCore>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
 #include <vector>
 
 namespace spectral_conformal {
 
 constexpr double pi = 3.14159265358979323846;  // std::numbers::pi of C++20
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Complex = std::complex<double>;
 
 /// |z|. std::abs is several times slower because it handles numbers whose squares overflow or underflow.
 inline double modulus(Complex z) {
-  constexpr double least = 1e-290;
-  constexpr double largest = 1e290;
+  constexpr double moderate = 1e290;
   const double square = std::norm(z);
-  return square > least && square < largest ? std::sqrt(square) : std::abs(z);
+  return square > 1 / moderate && square < moderate ? std::sqrt(square) : std::abs(z);
 }
 
 /// One complex number u + i v per vertex.

@@ -29,7 +29,7 @@ one in use.
 from . import _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
-from ._messages import SolveError, Step, describe, describe_native, message_templates
+from ._messages import SolveError, Step, describe_native
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, put_errors_into_words
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
@@ -70,13 +70,11 @@ __all__ = [
     "Unwrapper",
     "blend_metric",
     "build_info",
-    "describe",
     "distortion",
     "face_distortion",
     "hosts",
     "limit_threads",
     "map_defects",
-    "message_templates",
     "metric_from_direction",
     "metric_from_uv",
     "parameterize",

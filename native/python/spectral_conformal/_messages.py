@@ -64,7 +64,7 @@ Translate = Callable[[str], str]
 class Step:
     """An extra action of a solve, a property of its map, or the reason why there is no map.
 
-    The kind determines which fields have a meaning; `describe` puts a step into words.
+    The kind determines which fields have a meaning; `hosts.describe` puts a step into words.
     """
 
     kind: StepKind

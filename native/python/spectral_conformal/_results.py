@@ -91,7 +91,7 @@ class Parameterization:
 
     @property
     def message(self) -> str:
-        """The steps in words, see `describe`; empty if there are none."""
+        """The steps in words, see `hosts.describe`; empty if there are none."""
         return describe(self.steps)
 
 

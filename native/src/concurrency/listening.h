@@ -93,10 +93,14 @@ void for_each_heard(Index n, double nanoseconds, const Work& work) {
   }
 }
 
-/// The same for calls of a few dozen nanoseconds, such as computing some numbers of a triangle or an edge.
+/// About what some numbers of a triangle or an edge take. It determines only how often a listener is asked and how
+/// small work is not shared, so half and double are as good.
+constexpr double element_nanoseconds = 50;
+
+/// The same for such elements.
 template <class Index, class Work>
 void for_each_heard(Index n, const Work& work) {
-  for_each_heard(n, 50, work);
+  for_each_heard(n, element_nanoseconds, work);
 }
 
 /// Copies large elements in this way.

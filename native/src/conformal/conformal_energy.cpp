@@ -15,14 +15,10 @@ namespace {
 /// triangle's. Beyond about 1e13 rounding breaks the factorization.
 constexpr double max_entry = 1e12;
 
-/// Time to compute a few numbers of one triangle.
-constexpr double triangle_nanoseconds = 25;
-
 /// Calls work(i) once for every i from 0 to n - 1, in several threads if n is large.
 template <class Work>
 void for_each_index(std::size_t n, const Work& work) {
-  constexpr double nanoseconds = 50;
-  run_blocks_in_parallel(n, nanoseconds, [&](std::size_t begin, std::size_t end) {
+  run_blocks_in_parallel(n, element_nanoseconds, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }
@@ -70,7 +66,7 @@ ConformalEnergy::ConformalEnergy(const ConformalEnergy& like, Weights weights)
 
 void ConformalEnergy::stretch(const std::vector<TriangleMetric>& metric) {
   std::vector<TriangleShape> shapes = energy_shapes();
-  for_each_heard(metric.size(), triangle_nanoseconds, [&](std::size_t t) {
+  for_each_heard(metric.size(), [&](std::size_t t) {
     if (!shapes_[t].clamped) shapes[t] = stretched(shapes[t], metric[t]);
   });
   stretched_.swap(shapes);
@@ -85,7 +81,7 @@ int ConformalEnergy::clamp(double min_height) {
     shape = shape.clamped_to(min_height);
     ++clamped;
   }
-  still_working(triangle_nanoseconds * static_cast<double>(shapes_.size()));
+  still_working(element_nanoseconds * static_cast<double>(shapes_.size()));
   if (clamped > 0) stretched_.swap(shapes);
   return clamped;
 }
@@ -106,7 +102,7 @@ double ConformalEnergy::weight(std::size_t triangle) const {
 template <class Visit>
 void ConformalEnergy::for_each_half_edge(const Visit& visit) const {
   const std::vector<TriangleShape>& shapes = energy_shapes();
-  for_each_heard(triangles_.size(), 4 * triangle_nanoseconds, [&](std::size_t t) {
+  for_each_heard(triangles_.size(), 2 * element_nanoseconds, [&](std::size_t t) {
     const auto& triangle = triangles_[t];
     const TriangleShape& s = shapes[t];
     const double half_weight = 0.5 * weight(t);
@@ -145,7 +141,7 @@ HermitianMatrix ConformalEnergy::matrix() const {
     }
   }
   for (int v = 0; v < n_vertices_; ++v) start[v + 1] += start[v];
-  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
+  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
   LargeVector<Entry> entries(static_cast<std::size_t>(start[n_vertices_]));
   std::vector<int> fill(start.begin(), start.end() - 1);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n_vertices_);
@@ -214,7 +210,7 @@ double ConformalEnergy::value(const ComplexVector& z) const {
     const TriangleShape& s = energy_shapes()[t];
     sum += weight(t) * std::norm(s.antiholomorphic_part(z[b] - z[a], z[c] - z[a])) / (4 * s.area());
   }
-  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
+  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 
@@ -224,7 +220,7 @@ double ConformalEnergy::area_form(const ComplexVector& z) const {
     const auto& [a, b, c] = triangles_[t];
     sum += weight(t) * cross(z[b] - z[a], z[c] - z[a]);
   }
-  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
+  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 
@@ -239,7 +235,7 @@ double ConformalEnergy::apply(const ComplexVector& z, ComplexVector& result) con
     sum += scale * std::norm(part);
     s.add_gradient(triangles_[t], scale * part, result.data());
   }
-  still_working(triangle_nanoseconds * static_cast<double>(triangles_.size()));
+  still_working(element_nanoseconds * static_cast<double>(triangles_.size()));
   return sum;
 }
 

@@ -31,6 +31,8 @@ struct CorrectionOptions {
 
 /// A last change of z below this leaves an error below single precision, in which UVs are stored.
 constexpr double resolved_change = 1e-7;
+/// A change below this is the rounding of the residual.
+constexpr double negligible_change = 1e-10;
 
 struct Correction {
   double change = 0;  ///< of the last step, relative to z; NaN or infinite if there was none

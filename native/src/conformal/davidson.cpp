@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "conformal/subspace.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -11,11 +13,6 @@ using Matrix = Eigen::MatrixXcd;
 
 /// The initial space has e^(ik t) for 0 < |k| <= this.
 constexpr int n_frequencies = 4;
-/// Vectors that a restart keeps, and the dimension that triggers one; both are bounded by memory.
-constexpr Eigen::Index kept_dimension = 12;
-constexpr Eigen::Index max_dimension = 24;
-/// Number of solves without halving the change after which rounding is the limit.
-constexpr int solves_without_progress = 2 * max_dimension;
 
 /// The Rayleigh-Ritz space: mean-free columns, orthonormal in L + s M.
 class DavidsonSpace {

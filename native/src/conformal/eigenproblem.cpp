@@ -14,12 +14,10 @@
 #include "concurrency/listening.h"
 #include "conformal/correction.h"
 #include "conformal/start_vector.h"
+#include "conformal/subspace.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// Costs as many solves as a few restarts of Lanczos, without its failures on tiny spaces.
-constexpr int dense_limit = 24;
 
 /// Keeps an exception that an operator threw while Spectra ran: from the progress function, a factorization or a lack
 /// of memory. Spectra reports its own failures as std::runtime_error, so the type cannot tell them apart.
@@ -232,7 +230,8 @@ Eigenpair solve_eigenproblem(Factorization& factorization, const BoundaryForm& f
   const Eigen::Index n = op.complex_size();
   Eigenpair result;
   ComplexVector y;
-  if (n <= dense_limit) {
+  // Costs as many solves as a few restarts of Lanczos, without its failures on tiny spaces.
+  if (n <= max_dimension) {
     y = dense_eigenvector(op);
   } else {
     ComplexVector start = start_vector(form, options.start);
@@ -271,8 +270,8 @@ Eigenpair solve_area_eigenproblem(Factorization& factorization, const ConformalE
   ComplexVector start = ComplexVector::Zero(n);
   for (std::size_t i = 0; i < form.vertices.size(); ++i) start[form.vertices[i]] = on_boundary[i];
   Eigenpair result;
-  constexpr int min_dimension = 12;  // negative eigenvalues occupy part of the space
-  const int dimension = std::min<int>(std::max(options.krylov_dimension, min_dimension), static_cast<int>(2 * n));
+  // Negative eigenvalues occupy part of the space.
+  const int dimension = std::min<int>(std::max(options.krylov_dimension, kept_dimension), static_cast<int>(2 * n));
   Spectra::SymGEigsSolver<AreaOperator, ShiftedOperator, Spectra::GEigsMode::RegularInverse> solver(area, shifted, 1,
                                                                                                     dimension);
   ComplexVector smooth(n);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "conformal/correction.h"
+
 namespace spectral_conformal {
 namespace {
 
@@ -102,7 +104,6 @@ class RitzSpace {
 /// Runs until the residual's length in G is below the tolerance or, because of rounding, no longer falls. Returns
 /// whether it converged or, for tolerances below 1e-9, stopped near enough for the subsequent corrections.
 bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progress& progress) {
-  constexpr double near_enough = 1e-9;  // a hundredth of resolved_change, the goal of the corrections
   const int max_solves = options.max_restarts * options.krylov_dimension;
   // About six restarts without halving the residual: rounding is the limit.
   const int patience = 20 * options.krylov_dimension;
@@ -122,7 +123,8 @@ bool converge(RitzSpace& space, const EigenproblemOptions& options, const Progre
     }
     if (space.size() >= 4 * options.krylov_dimension) space.restart(options.krylov_dimension);
   }
-  return best <= near_enough;
+  // The corrections still gain two digits.
+  return best <= 0.01 * resolved_change;
 }
 
 }  // namespace

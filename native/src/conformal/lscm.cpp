@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "conformal/correction.h"
+#include "conformal/subspace.h"
 
 namespace spectral_conformal {
 namespace {
@@ -60,8 +61,6 @@ class PinnedSystem {
   /// Conjugate gradients, preconditioned by the factor, for long strips: there the factor's rounding or shift is as
   /// large as the smallest eigenvalues of L. L is applied triangle by triangle, which resolves them.
   void conjugate_gradients() {
-    constexpr double negligible = 1e-10;
-    constexpr int steps_without_progress = 48;
     Eigen::VectorXd diagonal;
     Eigen::VectorXd beside;
     ComplexVector r, before, w, p, image, whole;
@@ -69,7 +68,7 @@ class PinnedSystem {
     double alpha = 0;
     double halved = std::numeric_limits<double>::infinity();
     change_ = halved;
-    for (int k = 0, halved_at = 0; k - halved_at <= steps_without_progress; ++k) {
+    for (int k = 0, halved_at = 0; k - halved_at <= solves_without_progress; ++k) {
       report(progress_, 1.0 - 0.2 / (1.0 + 0.05 * k), "solve");
       before.swap(r);
       residual(r);
@@ -87,7 +86,7 @@ class PinnedSystem {
       // smallest.
       if (k > 0) {
         change_ = relative(w) / least_eigenvalue(diagonal, beside);
-        if (!(change_ > negligible)) return;
+        if (!(change_ > negligible_change)) return;
         if (change_ < 0.5 * halved) {
           halved = change_;
           halved_at = k;

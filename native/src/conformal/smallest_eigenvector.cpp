@@ -18,13 +18,6 @@ namespace {
 /// remove.
 constexpr double eigenproblem_residual_limit = 1e-3;
 
-/// Stops whole corrections at the rounding of the residual.
-constexpr double negligible_change = 1e-10;
-
-/// Stops steps of exact length: a tenth of resolved_change, since each leaves up to 0.9 of the error, and above 1e-9,
-/// where rounding stops them.
-constexpr double negligible_exact_step = 0.1 * resolved_change;
-
 Eigenvector eigenvector_of(Eigenpair&& pair) {
   Eigenvector result;
   result.z = std::move(pair.vector);
@@ -51,7 +44,8 @@ void correct(Eigenvector& v, Factorization& factorization, const ConformalEnergy
     // z, at a rate that differs between BLAS kernels; a measured step always lowers the quotient.
     v.z = uncorrected;
     corrections.max_corrections = 100;  // measured: up to 72
-    corrections.negligible = negligible_exact_step;
+    // Each leaves up to 0.9 of the error; rounding stops them at 1e-9.
+    corrections.negligible = 0.1 * resolved_change;
     corrections.exact_step = true;
     correction = correct(factorization, energy, quotient, corrections, v.z);
     v.solves += correction.solves;

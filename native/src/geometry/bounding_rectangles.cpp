@@ -34,7 +34,6 @@ std::vector<Complex> convex_hull(std::vector<Complex> points) {
 }
 
 Rectangle bounding_rectangle(const std::vector<Complex>& hull, Complex direction) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Complex low(infinity, infinity);
   Complex high(-infinity, -infinity);
   for (const Complex p : hull) {

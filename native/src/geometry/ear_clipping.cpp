@@ -10,6 +10,7 @@
 #include "geometry/orientation.h"
 #include "geometry/point_merging.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 #include "geometry/triangle_sweep.h"
 
 namespace spectral_conformal {
@@ -84,12 +85,11 @@ class EarClipping {
     const Complex back = point(previous_[corner]) - point(corner);
     const Complex on = point(next_[corner]) - point(corner);
     if (back == 0.0 || on == 0.0) return true;
-    constexpr double rounding = 1e-12;
     const double along = dot(back, on);
     const double between = std::abs(cross(back, on));
     // between / longer: the distance of the shorter edge's end from the other edge.
     const double longer = std::max(std::abs(back), std::abs(on));
-    return between <= rounding * along || (along > 0 && between <= tolerance_ * longer);
+    return between <= sum_rounding * along || (along > 0 && between <= tolerance_ * longer);
   }
   /// The side of the line from a to b on which p lies: 1 left, -1 right, 0 within the tolerance.
   int side(Complex a, Complex b, Complex p) const {

@@ -18,6 +18,7 @@
 #include "geometry/ear_clipping.h"
 #include "geometry/polygon_normal.h"
 #include "geometry/quad_splits.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -38,10 +39,9 @@ bool has_no_area(const Eigen::Ref<const Positions>& corners) {
   Eigen::Index farthest;
   (corners.rowwise() - corners.row(0)).rowwise().squaredNorm().maxCoeff(&farthest);
   const Vector line = (corners.row(farthest) - corners.row(0)).transpose();
-  constexpr double rounding = 1e-12;
   for (Eigen::Index i = 0; i < corners.rows(); ++i) {
     const Vector p = (corners.row(i) - corners.row(0)).transpose();
-    if (line.cross(p).norm() > rounding * line.squaredNorm()) return false;
+    if (line.cross(p).norm() > sum_rounding * line.squaredNorm()) return false;
   }
   return true;
 }
@@ -49,9 +49,8 @@ bool has_no_area(const Eigen::Ref<const Positions>& corners) {
 void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangulation& result) {
   const auto point = [&](int i) -> Vector { return corners.row(i).transpose(); };
   const Vector normal = (point(2) - point(0)).cross(point(3) - point(1));  // Newell's, in closed form
-  // A triangle lies inside if it is oriented like the quad and has more than this fraction of its area; less is
+  // A triangle lies inside if it is oriented like the quad and has a significant fraction of its area; less is
   // rounding of a corner on the diagonal.
-  constexpr double min_fraction = 1e-9;
   const auto is_above = [&](const std::array<int, 3>& triangle, double fraction) {
     const auto& [a, b, c] = triangle;
     return (point(b) - point(a)).cross(point(c) - point(a)).dot(normal) > fraction * normal.squaredNorm();
@@ -59,15 +58,15 @@ void triangulate_quad(const Eigen::Ref<const Positions>& corners, PolygonTriangu
   const auto are_above = [&](std::size_t first, double fraction) {
     return is_above(quad_splits[first], fraction) && is_above(quad_splits[first + 1], fraction);
   };
-  const bool along_02 = are_above(0, min_fraction);
-  const bool along_13 = are_above(2, min_fraction);
+  const bool along_02 = are_above(0, insignificant);
+  const bool along_13 = are_above(2, insignificant);
   const bool both = along_02 == along_13;
   if (both || along_02) result.triangles.insert(result.triangles.end(), quad_splits.begin(), quad_splits.begin() + 2);
   if (both || along_13) result.triangles.insert(result.triangles.end(), quad_splits.begin() + 2, quad_splits.end());
   result.triangle_weights.assign(result.triangles.size(), both ? split_of_quad : whole_triangle);
   // Two corners may coincide, or all may be collinear.
   result.simple =
-      along_02 || along_13 || are_above(0, -min_fraction) || are_above(2, -min_fraction) || has_no_area(corners);
+      along_02 || along_13 || are_above(0, -insignificant) || are_above(2, -insignificant) || has_no_area(corners);
 }
 
 struct FaceInfo {
@@ -262,12 +261,11 @@ bool triangulate_outline(const Eigen::Ref<const Positions>& corners, std::vector
   if (outline.empty()) return false;
   if (OutlineTriangulation(outline).triangulate(triangles)) return true;
   // Corners lie on an edge up to rounding, in single precision if they come from a file.
-  constexpr double rounding = 1e-6;
   double extent = 0;
   for (const Complex p : outline) extent = std::max(extent, std::abs(p));
-  for (const double tolerance : {0.0, rounding * extent}) {
+  for (const double tolerance : {0.0, single_rounding * extent}) {
     triangles = clip_ears(outline, tolerance);
-    if (covers_once(outline, triangles, rounding * extent)) return true;
+    if (covers_once(outline, triangles, single_rounding * extent)) return true;
   }
   triangles.clear();
   return false;

@@ -6,13 +6,10 @@
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
-
-/// Both splits of a parallelogram or trapezoid have equal smaller areas. A difference below this fraction of the quad's
-/// area is rounding (about 1e-16), or too small for any measure.
-constexpr double equal_areas = 1e-9;
 
 std::pair<int, int> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -22,7 +19,8 @@ bool second_split_is_better(const std::array<double, 4>& area) {
   const double first = std::min(area[0], area[1]);
   const double second = std::min(area[2], area[3]);
   if ((first < 0) != (second < 0)) return first < 0;
-  return second - first > equal_areas * std::abs(area[0] + area[1]);
+  // Both splits of a parallelogram or trapezoid have equal smaller areas.
+  return second - first > insignificant * std::abs(area[0] + area[1]);
 }
 
 std::vector<int> mapped_triangulation(const std::vector<std::array<int, 3>>& triangles,

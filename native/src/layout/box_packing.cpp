@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "geometry/tolerances.h"
 #include "layout/skyline.h"
 
 namespace spectral_conformal {
@@ -52,7 +53,7 @@ class PackingSearch {
   double side() const { return side_; }
   const std::vector<PackedBox>& boxes() const { return best_; }
   /// Whether no smaller packing is possible.
-  bool is_done() const { return !(side_ > least_ * (1 + rounding)); }
+  bool is_done() const { return !(side_ > least_ * (1 + insignificant)); }
 
   /// Tries strips of all widths that may yield a smaller square.
   void try_order(const Order& order) {
@@ -94,7 +95,6 @@ class PackingSearch {
     return true;
   }
 
-  static constexpr double rounding = 1e-9;
   std::vector<PackedBox> best_;
   std::vector<PackedBox> tried_;
   Order order_;
@@ -120,14 +120,13 @@ double pack_boxes(std::vector<PackedBox>& boxes) {
   // All trials together take a few milliseconds.
   constexpr std::size_t max_boxes_in_orders = 400;
   constexpr std::size_t exchanged_boxes = 50000;
-  constexpr std::size_t max_exchanges = 10000;
   PackingSearch search(boxes);
   search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.height, box.width); }));
   if (boxes.size() <= max_boxes_in_orders) {
     search.try_order(by(boxes, [](const PackedBox& box) { return std::max(box.width, box.height); }));
     search.try_order(by(boxes, [](const PackedBox& box) { return box.width * box.height; }));
     search.try_order(by(boxes, [](const PackedBox& box) { return std::pair(box.width, box.height); }));
-    search.improve(std::min(max_exchanges, exchanged_boxes / boxes.size()));
+    search.improve(exchanged_boxes / boxes.size());
   }
   boxes = search.boxes();
   return search.side();

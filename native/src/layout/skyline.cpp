@@ -5,17 +5,12 @@
 #include <limits>
 
 #include "concurrency/listening.h"
+#include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-namespace {
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 void Skyline::put(PackedBox& box) {
   std::size_t best = segments_.size();
-  double best_y = unbounded;
+  double best_y = infinity;
   for (std::size_t i = 0; i < segments_.size() && segments_[i].x + box.width <= width_; ++i) {
     const double y = height_over(i, box.width);
     if (y < best_y) {
@@ -49,12 +44,11 @@ void Skyline::raise(std::size_t i, const PackedBox& box) {
   }
 }
 
-SkylineTree::SkylineTree(const Skyline& skyline)
-    : segments_{{0, unbounded, 0}, {skyline.width(), unbounded, unbounded}} {
+SkylineTree::SkylineTree(const Skyline& skyline) : segments_{{0, infinity, 0}, {skyline.width(), infinity, infinity}} {
   segments_[left_end].behind = right_end;
   segments_[right_end].before = left_end;
-  along_.insert_before(MaxTreap::none, left_end, unbounded);
-  along_.insert_before(MaxTreap::none, right_end, unbounded);
+  along_.insert_before(MaxTreap::none, left_end, infinity);
+  along_.insert_before(MaxTreap::none, right_end, infinity);
   for (const auto& [x, y, end] : skyline.segments()) insert_before(right_end, x, y, end);
 }
 
@@ -100,7 +94,7 @@ void SkylineTree::insert_before(int at, double x, double y, double end) {
   along_.insert_before(at, i, y);
   const int next = by_height_.first_behind(
       [&](int other) { return segment(other).y > y || (segment(other).y == y && segment(other).x > x); });
-  by_height_.insert_before(next, i, unbounded);
+  by_height_.insert_before(next, i, infinity);
 }
 
 void SkylineTree::erase(int i) {

@@ -12,6 +12,7 @@
 #include "concurrency/listening.h"
 #include "geometry/bounding_rectangles.h"
 #include "geometry/signed_area.h"
+#include "geometry/tolerances.h"
 
 namespace spectral_conformal {
 namespace {
@@ -26,21 +27,18 @@ constexpr double weak = 0.25;
 // Gradients below this fraction of the steepest possible are rounding: positions are in single precision, 6e-8, and the
 // eigenvector's error is about as large.
 constexpr double no_gradient = 1e-4;
-// In radians, about one degree: quarter turns that count as equally near in a handmade model.
-constexpr double equally_near = 0.02;
-constexpr double rounding = 1e-6;  // in radians
+// In radians, about one degree: directions that count as the same in a handmade model.
+constexpr double same_direction = 0.02;
 // Odd moments of a mirror-symmetric shape vanish: 1e-16 on Blender's monkey, 1e-5 on an asymmetrically triangulated
 // rectangle, but 9e-4 on a 2 by 1 rectangle without a corner of legs 0.02.
 constexpr double odd_moment = 3e-4;
 // A moment above this locates an axis; given odd_moment, to within 0.6 degrees.
 constexpr double clear_harmonic = 0.03;
-constexpr double same_axis = 0.02;  // in radians
 // An outline is straight if this fraction of it runs along its smallest rectangle within 3 degrees: 7 % for a circle,
 // half for a regular octagon; no regular outline is near the limit.
 constexpr double straight_fraction = 0.18;
-// The sine and cosine of slightly less than 3 degrees, since regular outlines have edges at 3 degrees.
+// The sine of slightly less than 3 degrees, since regular outlines have edges at 3 degrees.
 constexpr double straight_sine = 0.0523;
-constexpr double straight_cosine = 0.998631418;
 // For a regular octagon this fraction is half, along two of its sides and across.
 constexpr double main_fraction = 0.55;
 // For an outline that is not straight: the allowed relative growth of its box for being exactly upright.
@@ -120,8 +118,6 @@ std::pair<double, Complex> area_and_moment(const std::vector<Complex>& outline) 
 /// The moments of the region within a counterclockwise outline, so that they do not depend on the inner triangulation.
 /// Empty if the outline encloses as much area clockwise.
 std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
-  constexpr std::array<std::array<int, 2>, 8> exponents = {
-      {{2, 0}, {2, 1}, {3, 0}, {3, 1}, {4, 0}, {3, 2}, {4, 1}, {5, 0}}};
   const auto [area, moment] = area_and_moment(outline);
   if (!(area > 0)) return {};
   const RegionIntegrals integrals(outline, moment / area);
@@ -133,10 +129,11 @@ std::vector<Moment> moments_of(const std::vector<Complex>& outline) {
   }
   for (std::size_t n = 3; n < max_order; n += 2) size[n] = std::sqrt(size[n - 1] * size[n + 1]);
   std::vector<Moment> moments;
-  moments.reserve(exponents.size());
-  for (const auto& [p, q] : exponents) {
-    const double bound = size[static_cast<std::size_t>(p) + static_cast<std::size_t>(q)];
-    moments.push_back({p - q, integrals(p, q) / area / bound});
+  for (int n = 2; n < max_order; ++n) {
+    for (int q = (n - 1) / 2; q >= 0; --q) {
+      const int p = n - q;
+      moments.push_back({p - q, integrals(p, q) / area / size[static_cast<std::size_t>(n)]});
+    }
   }
   return moments;
 }
@@ -154,7 +151,7 @@ std::vector<Complex> mirror_axes(const std::vector<Moment>& moments) {
       const auto is_odd = [&](const Moment& m) {
         return std::abs(std::imag(m.value * power[static_cast<std::size_t>(m.harmonic)])) > odd_moment;
       };
-      const auto is_same = [&](Complex other) { return std::abs(cross(axis, other)) < same_axis; };
+      const auto is_same = [&](Complex other) { return std::abs(cross(axis, other)) < same_direction; };
       if (std::any_of(moments.begin(), moments.end(), is_odd)) continue;
       if (std::none_of(axes.begin(), axes.end(), is_same)) axes.push_back(axis);
     }
@@ -225,7 +222,7 @@ class OutlineDirections {
   }
   /// The length of the edges within 3 degrees of a direction or across it.
   double length_along(Complex direction) const {
-    constexpr Complex turn(straight_cosine, straight_sine);
+    const Complex turn(std::sqrt(1 - straight_sine * straight_sine), straight_sine);
     const double first = side(direction * std::conj(turn));
     const double last = side(direction * turn);
     // Edges beyond one end of the quarter turn are at the other end.
@@ -374,7 +371,7 @@ Complex upright_turn(const ComplexVector& z, const ConformalEnergy& energy, cons
   for (const Moment& m : moments) {
     if (m.harmonic == 1 && std::abs(m.value) > clear_harmonic) preferred.directions.push_back(m.value);
   }
-  for (const double tolerance : {equally_near, rounding}) {
+  for (const double tolerance : {same_direction, single_rounding}) {
     for (const Complex direction : preferred.directions) keep_nearest(turns, direction, tolerance);
   }
   return turns.front();

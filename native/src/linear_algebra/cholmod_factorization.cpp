@@ -121,7 +121,8 @@ class LeafOrdering {
       : graph_(graph), dissection_(dissection), place_(dissection.order.size()) {
     for (std::size_t i = 0; i < place_.size(); ++i) place_[dissection.order[i]] = static_cast<int>(i);
     const int n_leaves = static_cast<int>(dissection.leaves.size());
-    run_blocks_in_parallel(n_leaves, nanoseconds_per_leaf, [&](int begin, int end) {
+    // A leaf takes about so long, so each is a block.
+    run_blocks_in_parallel(n_leaves, shared_nanoseconds, [&](int begin, int end) {
       Workspace workspace;
       for (int k = begin; k < end; ++k) order(dissection_.leaves[k], workspace);
     });
@@ -147,7 +148,6 @@ class LeafOrdering {
     std::copy(found.begin(), found.end(), dissection_.order.begin() + begin);
   }
 
-  static constexpr double nanoseconds_per_leaf = 1e6;
   const Adjacency& graph_;
   NestedDissection& dissection_;
   std::vector<int> place_;  ///< position of each node in the given order

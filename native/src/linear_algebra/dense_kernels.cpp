@@ -24,13 +24,12 @@ void zgemv_(const char*, const int*, const int*, const void*, const void*, const
 namespace spectral_conformal {
 namespace {
 
-// BLAS arguments: a stride, and factors.
-constexpr int one = 1;
-constexpr double real_unit = 1;
-constexpr double real_minus = -1;
-constexpr double zero = 0;
-const Complex unit = 1;
-const Complex minus = -1;
+/// The address of a number while a call lasts: Fortran takes all arguments by address.
+template <class Number>
+const Number* by_address(const Number& number) {
+  return &number;
+}
+
 /// Up to this many multiplications (width times height squared), a block is faster here than by BLAS calls.
 constexpr double max_small_elimination = 8000;
 /// The same for the columns in a solve.
@@ -117,25 +116,27 @@ bool eliminate_columns(const DenseBlock<Complex>& block) {
 void divide_below(const DenseBlock<double>& block) {
   if (is_small(block)) return;
   const int below = block.below();
-  dtrsm_("R", "L", "T", "N", &below, &block.width, &real_unit, block.values, &block.height, block.values + block.width,
-         &block.height);
+  dtrsm_("R", "L", "T", "N", &below, &block.width, by_address(1.0), block.values, &block.height,
+         block.values + block.width, &block.height);
 }
 void divide_below(const DenseBlock<Complex>& block) {
   if (is_small(block)) return;
   const int below = block.below();
-  ztrsm_("R", "L", "C", "N", &below, &block.width, &unit, block.values, &block.height, block.values + block.width,
-         &block.height);
+  ztrsm_("R", "L", "C", "N", &below, &block.width, by_address(Complex(1)), block.values, &block.height,
+         block.values + block.width, &block.height);
 }
 
 void multiply_below(const DenseBlock<double>& block, double* c) {
   if (is_small(block)) return multiply_small(block, c);
   const int below = block.below();
-  dsyrk_("L", "N", &below, &block.width, &real_minus, block.values + block.width, &block.height, &zero, c, &below);
+  dsyrk_("L", "N", &below, &block.width, by_address(-1.0), block.values + block.width, &block.height, by_address(0.0),
+         c, &below);
 }
 void multiply_below(const DenseBlock<Complex>& block, Complex* c) {
   if (is_small(block)) return multiply_small(block, c);
   const int below = block.below();
-  zherk_("L", "N", &below, &block.width, &real_minus, block.values + block.width, &block.height, &zero, c, &below);
+  zherk_("L", "N", &below, &block.width, by_address(-1.0), block.values + block.width, &block.height, by_address(0.0),
+         c, &below);
 }
 
 // Solves with a real block and a complex vector. BLAS has only real vectors for these and would read the block twice.
@@ -170,10 +171,11 @@ void solve_lower(const DenseBlock<Complex>& block, Complex* b, Complex* c) {
   if (block.width <= max_small_width) {
     solve_small_lower(block, b);
   } else {
-    ztrsv_("L", "N", "N", &block.width, block.values, &block.height, b, &one);
+    ztrsv_("L", "N", "N", &block.width, block.values, &block.height, b, by_address(1));
   }
   if (below == 0) return;
-  zgemv_("N", &below, &block.width, &minus, block.values + block.width, &block.height, b, &one, &unit, c, &one);
+  zgemv_("N", &below, &block.width, by_address(Complex(-1)), block.values + block.width, &block.height, b,
+         by_address(1), by_address(Complex(1)), c, by_address(1));
 }
 
 /// Four columns at a time, with independent sums.
@@ -207,12 +209,13 @@ void solve_upper(const DenseBlock<double>& block, Complex* b, const Complex* c) 
 void solve_upper(const DenseBlock<Complex>& block, Complex* b, const Complex* c) {
   const int below = block.below();
   if (below > 0) {
-    zgemv_("C", &below, &block.width, &minus, block.values + block.width, &block.height, c, &one, &unit, b, &one);
+    zgemv_("C", &below, &block.width, by_address(Complex(-1)), block.values + block.width, &block.height, c,
+           by_address(1), by_address(Complex(1)), b, by_address(1));
   }
   if (block.width <= max_small_width) {
     solve_small_upper(block, b);
   } else {
-    ztrsv_("L", "C", "N", &block.width, block.values, &block.height, b, &one);
+    ztrsv_("L", "C", "N", &block.width, block.values, &block.height, b, by_address(1));
   }
 }
 

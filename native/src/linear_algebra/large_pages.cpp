@@ -10,14 +10,14 @@ namespace {
 #ifdef MADV_HUGEPAGE
 constexpr std::size_t page = std::size_t{1} << 21;
 /// Smaller arrays gain little.
-constexpr std::size_t min_size = 2 * page;
+constexpr bool is_large(std::size_t size) { return size >= 2 * page; }
 #endif
 
 }  // namespace
 
 void* allocate_pages(std::size_t size) {
 #ifdef MADV_HUGEPAGE
-  if (size >= min_size) {
+  if (is_large(size)) {
     void* const memory = ::operator new(size, std::align_val_t(page));
     // Only a hint: if it is not granted, pages are small.
     madvise(memory, size / page * page, MADV_HUGEPAGE);
@@ -29,7 +29,7 @@ void* allocate_pages(std::size_t size) {
 
 void free_pages(void* memory, [[maybe_unused]] std::size_t size) noexcept {
 #ifdef MADV_HUGEPAGE
-  if (size >= min_size) {
+  if (is_large(size)) {
     ::operator delete(memory, std::align_val_t(page));
     return;
   }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "concurrency/listening.h"
+#include "geometry/tolerances.h"
 #include "graph/adjacency.h"
 #include "graph/shortest_paths.h"
 
@@ -51,14 +52,13 @@ std::array<int, 2> farthest_boundary_vertices(const BoundaryLoop& loop, const Ei
   const Adjacency graph = graph_of(neighbours);
   std::array<int, 2> pair{loop.front(), loop.front()};
   double farthest = -1;
-  constexpr int max_sweeps = 6;     // two are exact on a tree; more can only lengthen the path
-  constexpr double growth = 1e-12;  // above the rounding of a sum of edge lengths, about 1e-13
+  constexpr int max_sweeps = 6;  // two are exact on a tree; more can only lengthen the path
   int source = loop.front();
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     const std::vector<double> distance = distances_from(source, graph, positions);
     const int target =
         *std::max_element(loop.begin(), loop.end(), [&](int a, int b) { return distance[a] < distance[b]; });
-    if (distance[target] <= farthest * (1 + growth)) break;
+    if (distance[target] <= farthest * (1 + sum_rounding)) break;
     farthest = distance[target];
     pair = {source, target};
     source = target;

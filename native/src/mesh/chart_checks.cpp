@@ -10,9 +10,10 @@
 namespace spectral_conformal {
 namespace {
 
-// Within these limits squares of lengths, and hence areas and eigenvalues in input units, are normal numbers.
-constexpr double min_extent = 1e-100;
+/// Up to this extent, and from its inverse on, squares of lengths, and hence areas and eigenvalues in input units, are
+/// normal numbers.
 constexpr double max_extent = 1e100;
+constexpr bool is_tiny(double extent) { return !(extent > 1 / max_extent); }
 
 double extent_of(const Eigen::Ref<const Positions>& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
@@ -23,7 +24,7 @@ double extent_of(const Eigen::Ref<const Positions>& positions) {
 bool has_no_area(const Chart& chart, const Eigen::Ref<const Positions>& positions) {
   if (!positions.allFinite()) return false;
   const double extent = extent_of(positions);
-  if (!(extent > min_extent)) return true;
+  if (is_tiny(extent)) return true;
   if (!(extent < max_extent)) return false;
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   double area = 0;
@@ -45,7 +46,7 @@ std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref
   if (chart.boundary_loops.empty()) return rejected(Rejection::closed, chart.genus());
   if (chart.genus() > 0) return rejected(Rejection::handles, chart.genus());
   const double extent = extent_of(positions);
-  if (!(extent > min_extent && extent < max_extent)) return rejected(Rejection::no_extent);
+  if (is_tiny(extent) || !(extent < max_extent)) return rejected(Rejection::no_extent);
   if (chart.boundary_loops[static_cast<std::size_t>(outer_loop(chart.boundary_loops, positions))].size() < 3) {
     return rejected(Rejection::border_of_two);
   }

@@ -9,8 +9,7 @@ std::vector<TriangleMetric> chart_metric(const PolygonMesh& mesh, const Chart& c
   if (metric == nullptr) return result;
   const Positions positions = chart.positions(mesh);
   result.reserve(chart.triangles.size());
-  constexpr double restricting_nanoseconds = 80;
-  for_each_heard(chart.triangles.size(), restricting_nanoseconds, [&](std::size_t t) {
+  for_each_heard(chart.triangles.size(), [&](std::size_t t) {
     const auto& [a, b, c] = chart.triangles[t];
     result.push_back(restrict_to_triangle(metric[chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]],
                                           positions.row(a), positions.row(b), positions.row(c)));

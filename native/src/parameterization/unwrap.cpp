@@ -286,8 +286,7 @@ class ChartUnwrapper {
 /// Writes the UVs of the corners of some faces, each from its chart vertex.
 template <class Map>
 void write_corners(const Cut& cut, const std::vector<int>& faces, const Map& map, Unwrap& result) {
-  constexpr double face_nanoseconds = 30;
-  for_each_heard(faces.size(), face_nanoseconds, [&](std::size_t i) {
+  for_each_heard(faces.size(), [&](std::size_t i) {
     const int face = faces[i];
     for (int c = cut.mesh.face_offsets[face]; c < cut.mesh.face_offsets[face + 1]; ++c) {
       const Complex uv = map(cut.decomposition.chart_vertex_of_corner[c]);

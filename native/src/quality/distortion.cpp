@@ -50,17 +50,15 @@ Distortion measure_triangles(const std::vector<TriangleShape>& shapes, const std
   Distortion result;
   result.qc = Eigen::VectorXd::Ones(n);
   result.log2_scale = result.area = result.image_area = Eigen::VectorXd::Zero(n);
-  constexpr Eigen::Index at_once = 16384;
-  for (Eigen::Index t = 0; t < n; ++t) {
-    if (t % at_once == 0) still_working(60 * static_cast<double>(std::min(at_once, n - t)));
+  for_each_heard(n, [&](Eigen::Index t) {
     const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
     const TriangleShape& shape = shapes[static_cast<std::size_t>(t)];
-    if (shape.clamped) continue;
+    if (shape.clamped) return;
     result.qc[t] = shape.quasi_conformal_distortion(z[b] - z[a], z[c] - z[a]);
     result.area[t] = shape.area();
     result.image_area[t] = signed_area(z[a], z[b], z[c]);
     result.log2_scale[t] = 0.5 * std::log2(std::abs(result.image_area[t]) / shape.area());
-  }
+  });
   return result;
 }
 

@@ -16,12 +16,12 @@
 namespace spectral_conformal {
 namespace {
 
-/// Squared lengths between these bounds need no unit: their squares neither overflow nor underflow.
-constexpr double min_square = 0x1p-400;
+/// Squared lengths up to this bound, and from its inverse on, need no unit: their squares neither overflow nor
+/// underflow.
 constexpr double max_square = 0x1p400;
 
 /// Whether lengths can be used without a unit, given a sum of their squares.
-bool is_moderate(double square) { return square > min_square && square < max_square; }
+bool is_moderate(double square) { return square > 1 / max_square && square < max_square; }
 
 /// Sums over the triangles of a face.
 struct FaceSums {

@@ -13,8 +13,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-
 struct BoundaryEdge {
   int from;
   int to;

@@ -1,11 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
+
+/// For counts of what may be visited or tested.
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
 // Where a map of a triangulated chart can overlap, deduced only from its boundary and the signs of its triangles.
 //

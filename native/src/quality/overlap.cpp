@@ -16,6 +16,7 @@
 #include "geometry/plane_triangle.h"
 #include "geometry/point_merging.h"
 #include "geometry/quad_splits.h"
+#include "geometry/tolerances.h"
 #include "geometry/triangle_sweep.h"
 #include "quality/flips.h"
 #include "quality/map_degree.h"
@@ -70,8 +71,6 @@ class OverlapTest {
   }
 
  private:
-  static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-
   struct Subset {
     std::vector<int> triangles;
     std::vector<PlaneTriangle> placed;
@@ -324,10 +323,10 @@ class OverlapTest {
   }
 
   bool overlap(const PlaneTriangle& a, const PlaneTriangle& b) const {
-    // Neighbors share an edge up to rounding of their heights, about 1e-16 of the coordinates; 1e-9 allows for
-    // triangles a millionth of the map's extent.
-    constexpr double contact = 1e-9;
-    const double tolerance = std::max(contact * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
+    // Neighbors share an edge up to rounding of their heights, about 1e-16 of the coordinates; the tolerance
+    // allows for triangles a millionth of the map's extent.
+    const double tolerance =
+        std::max(insignificant * std::min(a.size, b.size), resolution_ * std::max(a.reach, b.reach));
     return !separated_by_side(a, b, tolerance) && !separated_by_side(b, a, tolerance);
   }
 

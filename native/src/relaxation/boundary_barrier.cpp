@@ -12,8 +12,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
 /// D relative to the shortest edge: a corner of three edges of 15 degrees or more feels no force.
 constexpr double relative_reach = 0.25;
 /// Small, so that contacts hardly deform the map and do not stop it early: on patches grown at random on 17 models, 1
@@ -51,7 +49,7 @@ double time_of_contact(Complex point, Complex moves, Complex a, Complex a_moves,
   const Complex side_moves = b_moves - a_moves;
   const Complex arm = point - a;
   const Complex arm_moves = moves - a_moves;
-  double first = never;
+  double first = infinity;
   for (const double t : quadratic_roots(cross(side, arm), cross(side, arm_moves) + cross(side_moves, arm),
                                         cross(side_moves, arm_moves))) {
     if (!(t >= 0 && t <= 1 && t < first)) continue;
@@ -134,7 +132,7 @@ void BoundaryBarrier::add_curvature(const std::vector<Pair>& pairs, const Comple
 }
 
 double BoundaryBarrier::max_step(const std::vector<Pair>& pairs, const ComplexVector& z, const ComplexVector& step) {
-  double first = never;
+  double first = infinity;
   for (const auto& [vertex, from, to, reach] : pairs) {
     first = std::min(first, time_of_contact(z[vertex], step[vertex], z[from], step[from], z[to], step[to]));
   }

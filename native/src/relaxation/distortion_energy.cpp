@@ -10,7 +10,6 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2 for an isometry.
 constexpr double isometry = 4;
 
