@@ -29,6 +29,7 @@ one in use.
 from . import _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
+from ._constraints import Constraints
 from ._messages import SolveError, Step, describe_native
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, put_errors_into_words
@@ -48,6 +49,7 @@ __all__ = [
     "Cancelled",
     "Chart",
     "Charts",
+    "Constraints",
     "Cuts",
     "Distortion",
     "Extenders",

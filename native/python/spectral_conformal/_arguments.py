@@ -349,6 +349,14 @@ def checked_corner_uv(corner_uv: npt.ArrayLike, n_corners: int, keep_single: boo
     return uv
 
 
+def checked_vertex_list(vertices: Iterable[int], name: str) -> list[int]:
+    """Return vertex indices as a list of int; raise TypeError naming the argument."""
+    try:
+        return [operator.index(vertex) for vertex in vertices]
+    except TypeError as error:
+        raise TypeError(f"{name} must hold lists of vertex indices, but has {vertices!r}.") from error
+
+
 def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, float]]:
     if pins is None:
         return []

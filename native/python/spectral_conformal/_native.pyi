@@ -34,7 +34,12 @@ class Solver:
     ) -> None: ...
     def factorize(self, progress: Progress | None) -> None: ...
     def solve(
-        self, options: Options, pins: _Pins, extenders: _Extenders, progress: Progress | None
+        self,
+        options: Options,
+        pins: _Pins,
+        extenders: _Extenders,
+        constraints: tuple[list[int], list[int], int] | None,
+        progress: Progress | None,
     ) -> dict[str, Any]: ...
 
 class UnwrapArguments:

@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from . import _arguments, _native
 from ._arguments import Extenders, Pins, Progress
+from ._constraints import Constraints, shared_unknowns
 from ._messages import steps_of
 from ._options import OptionChanges, Options, SolveChanges, changed, with_fallbacks
 from ._results import Parameterization
@@ -23,6 +24,7 @@ def parameterize(
     options: Options | None = None,
     pins: Pins | None = None,
     extenders: Extenders | None = None,
+    constraints: Constraints | None = None,
     metric: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[OptionChanges],
@@ -40,6 +42,9 @@ def parameterize(
         extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
             that push two vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in
             size, is a fraction of the boundary's total mass.
+        constraints: chains that become straight, and mirrored pairs of vertices, for "spectral" without pins and
+            extenders. The map meets them exactly, with the least conformal energy of all that do; it is not turned,
+            polished or unfolded. See `Constraints`.
         metric: (F, 2, 2) symmetric positive definite tensor of each triangle (section 4.3), in its plane: the first
             axis points from its first to its second corner; the second axis is a quarter turn counter-clockwise from
             it, seen from the side where the corners run counter-clockwise. A tangent vector t gets the squared length
@@ -65,7 +70,7 @@ def parameterize(
     """
     used = with_fallbacks(changed(options, Options(), changes, OptionChanges, parameterize), False)
     solver = Solver._of(vertices, triangles, metric, used, progress)
-    return solver._solved(solver._options, pins, extenders, progress)
+    return solver._solved(solver._options, pins, extenders, constraints, progress)
 
 
 class Solver:
@@ -99,6 +104,7 @@ class Solver:
         *,
         pins: Pins | None = None,
         extenders: Extenders | None = None,
+        constraints: Constraints | None = None,
         progress: Progress | None = None,
         **changes: Unpack[SolveChanges],
     ) -> Parameterization:
@@ -110,7 +116,7 @@ class Solver:
         then costs a few solves, and the map agrees with a fresh one to the tolerance.
         """
         used = with_fallbacks(changed(self._options, self._options, changes, SolveChanges, Solver.solve), False)
-        return self._solved(used, pins, extenders, progress)
+        return self._solved(used, pins, extenders, constraints, progress)
 
     @classmethod
     def _of(
@@ -139,15 +145,27 @@ class Solver:
         tensors = _arguments.checked_metric(metric, len(triangles), (2,))
         self._options = options
         self._n_vertices = len(vertices)
+        self._triangles = triangles
         self._native = _native.Solver(vertices, triangles, tensors, options, _arguments.checked_progress(progress))
 
     def _solved(
-        self, options: Options, pins: Pins | None, extenders: Extenders | None, progress: Progress | None
+        self,
+        options: Options,
+        pins: Pins | None,
+        extenders: Extenders | None,
+        constraints: Constraints | None,
+        progress: Progress | None,
     ) -> Parameterization:
+        unknowns = shared_unknowns(constraints, self._n_vertices, self._triangles)
+        if unknowns and (pins or extenders or options.fold_free or options.method != "spectral"):
+            raise ValueError(
+                "constraints need the method 'spectral' without pins, extenders and fold_free; leave these out."
+            )
         solution = self._native.solve(
             options,
             _arguments.checked_pins(pins, self._n_vertices),
             _arguments.checked_extenders(extenders, options.method, self._n_vertices),
+            unknowns,
             _arguments.checked_progress(progress),
         )
         return Parameterization(**{**solution, "steps": steps_of(solution["steps"])})

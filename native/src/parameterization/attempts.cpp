@@ -33,7 +33,7 @@ SpectralMap attempted_map(SpectralProblem& problem, const SolveOptions& options,
 }
 
 PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.rejection || task.is_pinned() || task.has_rigid_holes()) return map;
+  if (map.rejection || task.is_pinned() || task.has_rigid_holes() || task.is_constrained()) return map;
   SpectralProblem& problem = task.patch.problem;
   map.take(spectral_map(problem, task.options, task.attractors, first_attempt, progress, map.result.timings),
            task.options);
@@ -43,7 +43,9 @@ PatchMap spectral(const SolveTask& task, PatchMap map, const Progress& progress)
 }
 
 PatchMap retried(const SolveTask& task, PatchMap map, const Progress& progress) {
-  if (map.found.rejection == Rejection::none || task.is_pinned() || task.has_rigid_holes()) return map;
+  if (map.found.rejection == Rejection::none || task.is_pinned() || task.has_rigid_holes() || task.is_constrained()) {
+    return map;
+  }
   map.take(retried_map(task.patch.problem, std::move(map.found), task.options, task.attractors, progress,
                        map.result.timings),
            task.options);

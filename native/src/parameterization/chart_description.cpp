@@ -100,10 +100,11 @@ std::string describe_chart(const Chart& chart, const Positions& positions, const
              metric);
   const auto& [weights, boundary, backend, fill_holes, area_blend] = patch;
   digest.add(weights, boundary, backend, fill_holes, area_blend);
-  const auto& [method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, fold_free, polish, second_attempt] =
-      solve;
-  digest.add(method, tolerance, soft_pins, extenders, hole_rigidity, fallbacks, fold_free, polish, second_attempt,
-             pins);
+  const auto& [method, tolerance, soft_pins, extenders, constraints, hole_rigidity, fallbacks, fold_free, polish,
+               second_attempt] = solve;
+  const auto& [unknown, sign, n_unknowns] = constraints;
+  digest.add(method, tolerance, soft_pins, extenders, unknown, sign, n_unknowns, hole_rigidity, fallbacks, fold_free,
+             polish, second_attempt, pins);
   return digest.bytes();
 }
 

@@ -123,7 +123,7 @@ PatchMap replaced(const SolveTask& task, PatchMap map, const Progress& progress)
   SolveOptions options = task.options;
   options.hole_rigidity = map.result.hole_rigidity;
   if (!map.rejection || options.method != Method::spectral || options.has_extenders_or_rigidity() ||
-      !options.fallbacks) {
+      !options.fallbacks || task.is_constrained()) {
     return map;
   }
   SpectralProblem& problem = task.patch.problem;

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "concurrency/listening.h"
+#include "conformal/constrained_eigenproblem.h"
 #include "conformal/correction.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
 #include "parameterization/area_blend.h"
 #include "parameterization/attempts.h"
 #include "parameterization/chart_metric.h"
+#include "parameterization/constrained_map.h"
 #include "parameterization/fallbacks.h"
 #include "parameterization/hole_rigidity.h"
 #include "parameterization/patch_map.h"
@@ -156,6 +159,16 @@ int Solver::State::chart_vertex(int mesh_vertex, const char* role) const {
 
 SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
   SolveOptions result = options;
+  const NormalizedPatch& normalized = *patch.problem.patch;
+  const auto n_filled = static_cast<int>(normalized.positions.rows()) - normalized.n_vertices;
+  if (!options.constraints.empty()) {
+    std::vector<int> chart_vertices = vertices;
+    if (vertices.empty()) {
+      chart_vertices.resize(static_cast<std::size_t>(normalized.n_vertices));
+      std::iota(chart_vertices.begin(), chart_vertices.end(), 0);
+    }
+    result.constraints = restricted(options.constraints, chart_vertices, n_filled);
+  }
   if (vertices.empty()) return result;
   for (Extender& extender : result.extenders) {
     for (std::vector<int>* ends : {&extender.from, &extender.to}) {
@@ -193,6 +206,7 @@ Parameterization Solver::solve(const SolveOptions& options, const Pins& pins, co
   PatchMap map = unsolved(task);
   map = blended(task, std::move(map), part(solving, 0.0, begun));            // the metric trades angles for areas
   map = pinned(task, std::move(map), part(solving, begun, 0.95));            // LSCM for hard pins
+  map = constrained(task, std::move(map), part(solving, begun, 0.95));       // the paper's map on shared unknowns
   map = with_rigid_holes(task, std::move(map), part(solving, begun, 0.95));  // the paper's map with several B
   map = spectral(task, std::move(map), part(solving, begun, 0.95));          // the paper's map: spectral_map.h
   map = retried(task, std::move(map), part(solving, 0.95, 0.95));            // if it fails its checks

@@ -40,7 +40,11 @@ struct SolveTask {
   /// Whether a hole rigidity is given, or is to be chosen for the patch (hole_rigidity.h).
   bool has_rigid_holes() const { return is_free() && options.hole_rigidity != 0.0; }
   /// Whether the patch alone shapes the map: Method::spectral without extenders and soft pins.
-  bool is_free() const { return options.method == Method::spectral && !options.has_extenders() && attractors.empty(); }
+  bool is_free() const {
+    return options.method == Method::spectral && !options.has_extenders() && attractors.empty() && !is_constrained();
+  }
+  /// Whether linear constraints solve (constrained_map.h).
+  bool is_constrained() const { return !options.constraints.empty(); }
 };
 
 /// What the stages of a solve (parameterize.cpp) pass on: a map, or why there is none yet, and its history.

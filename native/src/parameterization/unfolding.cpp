@@ -88,7 +88,7 @@ PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfold
 
 PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress) {
   SpectralProblem& problem = task.patch.problem;
-  if (!task.options.fold_free || (map.rejection && !task.held.empty())) return map;
+  if (!task.options.fold_free || task.is_constrained() || (map.rejection && !task.held.empty())) return map;
   if (map.rejection) problem.drop_factor();  // the embedding makes its own factors
   Stopwatch watch(map.result.timings);
   UnfoldedMap unfolded = unfold(problem, task.held, map.result.z, {false, true}, progress);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "conformal/boundary_form.h"
+#include "conformal/conformal_energy.h"
+#include "conformal/eigenproblem.h"
+#include "linear_algebra/factorization.h"
+#include "spectral_conformal/linear_constraints.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+/// The constraints of these vertices of a mesh, in their order, and of `n_free` further ones without any.
+LinearConstraints restricted(const LinearConstraints& constraints, const std::vector<int>& vertices, int n_free);
+
+/// Whether all vertices may move along an axis (0: u, 1: v): not across a mirror axis.
+bool allows_translation(const LinearConstraints& constraints, int axis);
+
+/// The map P w as complex numbers. w: (unknowns,).
+ComplexVector expanded(const LinearConstraints& constraints, const Eigen::VectorXd& w);
+
+/// Eq. 5 with linear constraints. They single out directions, so the complex form of the energy no longer represents
+/// the problem: its real form on the 2V coordinates x does, and the constraints x = P w reduce it to
+///   P^T L P w = lambda P^T B P w,
+/// which is smaller, needs no weights, and is solved for the smallest lambda of a w that is no translation, by Eq. 7 as
+/// in eigenproblem.h. vector: the map P w.
+struct ConstrainedEigenpair {
+  Eigenpair pair;     ///< vector, (V,): the map; mu: 1 / lambda
+  double change = 0;  ///< the last correction, relative to the map
+  double shift = 0;
+  bool is_factored = false;
+};
+
+/// positions: (V, 3), which help to order the factorization. Throws Cancelled, and as Factorization does.
+ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energy, const BoundaryForm& form,
+                                                    const LinearConstraints& constraints, const Positions& positions,
+                                                    double relative_shift, FactorizationBackend backend,
+                                                    const Progress& progress);
+
+}  // namespace spectral_conformal

@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Linear constraints: met exactly, at the least conformal energy, and refused where they contradict each other."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+
+def sheet(columns, rows, shape):
+    """Quads, counterclockwise, over the parameters s and t in [0, 1]; vertex (i, j) is i * (rows + 1) + j."""
+    s, t = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1), indexing="ij")
+    first = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
+    quads = np.c_[first, first + rows + 1, first + rows + 2, first + 1]
+    return shape(s.ravel(), t.ravel()), quads
+
+
+def corners_of(columns, rows):
+    last = columns * (rows + 1)
+    return [0, last, last + rows, rows]
+
+
+def triangulated(quads):
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def wave(s, t):
+    return np.c_[2 * s, t, 0.3 * np.sin(4 * s + 2 * t)]
+
+
+def arch(s, t):
+    """Symmetric about s = 1/2."""
+    x = s - 0.5
+    return np.c_[2 * x, t, 0.8 * t * np.cos(3 * x) - x**2]
+
+
+def sector(angle, ratio):
+    """Part of a flat ring; its conformal rectangle has the modulus angle / log(ratio)."""
+
+    def shape(s, t):
+        radius, turn = 1 + (ratio - 1) * t, angle * (1 - s)
+        return np.c_[radius * np.cos(turn), radius * np.sin(turn), 0 * s]
+
+    return shape
+
+
+def similar(uv, other):
+    """Return the largest distance after the similarity that fits best, relative to the extent."""
+    z, w = (a[:, 0] + 1j * a[:, 1] for a in (uv, other))
+    z, w = z - z.mean(), w - w.mean()
+    return np.abs(np.vdot(z, w) / np.vdot(z, z) * z - w).max() / np.abs(w).max()
+
+
+def size(uv):
+    return np.ptp(uv, axis=0).max()
+
+
+@pytest.mark.parametrize("weights", ["uniform", "inverse_area"])
+def test_chains_are_straight(weights):
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    row, column = [i * 10 + 4 for i in range(15)], [5 * 10 + j for j in range(10)]
+    constraints = sc.Constraints(horizontal=[row], vertical=[column])
+    result = sc.parameterize(vertices, triangles, constraints=constraints, weights=weights)
+    assert np.ptp(result.uv[row, 1]) <= 1e-12 * size(result.uv)
+    assert np.ptp(result.uv[column, 0]) <= 1e-12 * size(result.uv)
+    free = sc.parameterize(vertices, triangles, weights=weights)
+    assert free.eigenvalue < result.eigenvalue
+    assert not sc.distortion(vertices, triangles, result.uv).flipped.any()
+    assert np.abs(result.uv.mean(axis=0)).max() < 1e-12 * size(result.uv)
+
+
+def test_what_the_free_map_meets_already_changes_nothing():
+    vertices, quads = sheet(12, 8, arch)
+    # Each quad's two triangles would not be symmetric: a vertex in its middle.
+    middle = vertices[quads].mean(axis=1)
+    n = len(vertices)
+    triangles = np.concatenate([np.c_[quads[:, k], quads[:, (k + 1) % 4], n + np.arange(len(quads))] for k in range(4)])
+    vertices = np.r_[vertices, middle]
+    mirror = {tuple(np.round(v * [-1, 1, 1], 9) + 0.0): k for k, v in enumerate(vertices)}
+    pairs = [(k, mirror[tuple(np.round(v, 9) + 0.0)]) for k, v in enumerate(vertices)]
+    free = sc.parameterize(vertices, triangles)
+    held = sc.parameterize(vertices, triangles, constraints=sc.Constraints(mirrored=pairs))
+    assert held.eigenvalue == pytest.approx(free.eigenvalue, rel=1e-9)
+    assert similar(free.uv, held.uv) < 1e-9
+    u, v = held.uv.T
+    one, two = np.array(pairs).T
+    assert np.array_equal(u[one], -u[two]) and np.array_equal(v[one], v[two])
+
+
+def test_mirrored_halves_of_a_patch_that_is_not_symmetric():
+    vertices, quads = sheet(12, 8, wave)
+    pairs = [(i * 9 + j, (12 - i) * 9 + j) for i in range(7) for j in range(9)]
+    result = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(mirrored=pairs))
+    u, v = result.uv.T
+    one, two = np.array(pairs).T
+    assert np.array_equal(u[one], -u[two]) and np.array_equal(v[one], v[two])
+    assert not u[6 * 9 : 7 * 9].any()
+    assert np.isclose(v.mean(), 0, atol=1e-12)
+
+
+def test_a_rectangle_has_the_modulus_of_the_conformal_map():
+    errors = []
+    for n in (6, 12, 24):
+        vertices, quads = sheet(2 * n, n, sector(1.5, 2.0))
+        constraints = sc.Constraints.rectangle(quads, corners_of(2 * n, n))
+        uv = sc.parameterize(vertices, triangulated(quads), constraints=constraints).uv
+        low, high = uv.min(axis=0), uv.max(axis=0)
+        width, height = high - low
+        errors.append(abs(width / height / (1.5 / np.log(2.0)) - 1))
+        border = np.unique(np.concatenate([np.ravel(side) for side in (*constraints.horizontal, *constraints.vertical)]))
+        assert np.min(np.abs(np.c_[uv[border] - low, uv[border] - high]), axis=1).max() <= 1e-12 * size(uv)
+    # Second order in the length of the edges.
+    assert errors[2] < 1e-3 and errors[2] < errors[1] / 3 < errors[0] / 9
+
+
+def test_a_rectangle_is_bounded_by_any_polygons_wound_alike():
+    _, quads = sheet(3, 2, wave)
+    sides = sc.Constraints.rectangle(quads, [0, 9, 11, 2])
+    assert [list(side) for side in sides.horizontal] == [[0, 3, 6, 9], [11, 8, 5, 2]]
+    assert [list(side) for side in sides.vertical] == [[9, 10, 11], [2, 1, 0]]
+    for corners, words in (
+        ([0, 9, 2, 11], "in the order"),
+        ([0, 9, 11, 4], "not on the border"),
+    ):
+        with pytest.raises(sc.InvalidMeshError, match=words):
+            sc.Constraints.rectangle(quads, corners)
+    with pytest.raises(ValueError, match="four different"):
+        sc.Constraints.rectangle(quads, [0, 9, 9, 11])
+    with pytest.raises(sc.InvalidMeshError, match="several borders"):
+        sc.Constraints.rectangle(np.delete(sheet(3, 3, wave)[1], 4, axis=0), [0, 12, 15, 3])
+
+
+def test_rows_and_columns_of_a_grid_are_straight():
+    vertices, quads = sheet(9, 6, wave)
+    result = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints.grid(quads))
+    u, v = result.uv.reshape(10, 7, 2).transpose(2, 0, 1)
+    if np.ptp(u, axis=1).max() > np.ptp(v, axis=1).max():
+        u, v = v.T, u.T
+    assert np.ptp(u, axis=1).max() <= 1e-12 * size(result.uv) and np.ptp(v, axis=0).max() <= 1e-12 * size(result.uv)
+    assert not sc.distortion(vertices, triangulated(quads), result.uv).flipped.any()
+
+
+def test_a_strip_is_a_grid_wherever_its_quads_begin():
+    vertices, quads = sheet(9, 1, wave)
+    quads = np.array([np.roll(quad, k) for k, quad in enumerate(quads)])
+    result = sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints.grid(quads))
+    across = result.uv[0::2] - result.uv[1::2]
+    assert (np.abs(across).min(axis=1) == 0).all()
+
+
+def test_a_grid_has_four_quads_at_its_inner_vertices():
+    quads = [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]]
+    with pytest.raises(sc.InvalidMeshError, match="in a row and in a column"):
+        sc.Constraints.grid(quads)
+    with pytest.raises(ValueError, match=r"\(Q, 4\)"):
+        sc.Constraints.grid([[0, 1, 2]])
+
+
+def test_what_contradicts_itself_is_named():
+    vertices, quads = sheet(6, 4, wave)
+    triangles = triangulated(quads)
+    with pytest.raises(sc.InvalidMeshError, match="vertices (5 and 10|10 and 5) of one edge"):
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(horizontal=[[5, 10]], vertical=[[10, 5]]))
+    with pytest.raises(sc.InvalidMeshError, match="all corners of the triangle"):
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[0, 5, 6]]))
+    with pytest.raises(sc.InvalidMeshError, match="one edge"):
+        # Both ends on the axis, and level.
+        pairs = [(5, 5), (10, 10)]
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints([[5, 10]], mirrored=pairs))
+
+
+def test_arguments_are_checked():
+    vertices, quads = sheet(6, 4, wave)
+    triangles = triangulated(quads)
+    straight = sc.Constraints(vertical=[[0, 1, 2]])
+    for changes in ({"pins": {0: (0, 0)}}, {"extenders": [(0, 20, 0.1)]}, {"fold_free": True}, {"method": "lscm"}):
+        with pytest.raises(ValueError, match="constraints need the method 'spectral'"):
+            sc.parameterize(vertices, triangles, constraints=straight, **changes)
+    with pytest.raises(ValueError, match="vertical names vertex 99"):
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[0, 99]]))
+    with pytest.raises(TypeError, match="must be Constraints"):
+        sc.parameterize(vertices, triangles, constraints=[[0, 1]])
+    with pytest.raises(TypeError, match="lists of vertex indices"):
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[["a"]]))
+    with pytest.raises(ValueError, match="pairs"):
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(mirrored=[(1, 2, 3)]))
+    assert np.array_equal(
+        sc.parameterize(vertices, triangles, constraints=sc.Constraints(vertical=[[3]])).uv,
+        sc.parameterize(vertices, triangles).uv,
+    )
+
+
+def test_sums_of_constraints_hold_together_in_a_solver_as_in_parameterize():
+    vertices, quads = sheet(14, 9, wave)
+    triangles = triangulated(quads)
+    parts = sc.Constraints(horizontal=[[i * 10 for i in range(15)]]) + sc.Constraints(vertical=[list(range(10))])
+    solver = sc.Solver(vertices, triangles)
+    before = solver.solve().uv
+    one = solver.solve(constraints=parts).uv
+    assert np.array_equal(one, sc.parameterize(vertices, triangles, constraints=parts).uv)
+    assert np.ptp(one[:10, 0]) == 0 and np.ptp(one[0::10, 1]) == 0
+    assert np.array_equal(solver.solve().uv, before)
+
+
+def test_vertices_of_no_triangle_and_filled_holes():
+    vertices, quads = sheet(8, 8, wave)
+    quads = np.delete(quads, [27, 28, 35, 36], axis=0)
+    vertices = np.r_[vertices, [[9.0, 9.0, 9.0]]]
+    chain = list(range(9))
+    for fill_holes in (False, True):
+        result = sc.parameterize(
+            vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain]), fill_holes=fill_holes
+        )
+        assert np.ptp(result.uv[chain, 0]) <= 1e-12 * size(result.uv)
+
+
+def test_result_does_not_depend_on_threads():
+    vertices, quads = meshes.saddle_quads(60)
+    chain = np.unique(quads.ravel())[:60].tolist()
+    maps = []
+    for threads in (1, 4):
+        sc.limit_threads(threads)
+        maps.append(
+            sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain])).uv
+        )
+    sc.limit_threads(0)
+    assert np.array_equal(*maps)
