@@ -109,7 +109,9 @@ def test_a_rectangle_has_the_modulus_of_the_conformal_map():
         low, high = uv.min(axis=0), uv.max(axis=0)
         width, height = high - low
         errors.append(abs(width / height / (1.5 / np.log(2.0)) - 1))
-        border = np.unique(np.concatenate([np.ravel(side) for side in (*constraints.horizontal, *constraints.vertical)]))
+        border = np.unique(
+            np.concatenate([np.ravel(side) for side in (*constraints.horizontal, *constraints.vertical)])
+        )
         assert np.min(np.abs(np.c_[uv[border] - low, uv[border] - high]), axis=1).max() <= 1e-12 * size(uv)
     # Second order in the length of the edges.
     assert errors[2] < 1e-3 and errors[2] < errors[1] / 3 < errors[0] / 9
@@ -222,8 +224,6 @@ def test_result_does_not_depend_on_threads():
     maps = []
     for threads in (1, 4):
         sc.limit_threads(threads)
-        maps.append(
-            sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain])).uv
-        )
+        maps.append(sc.parameterize(vertices, triangulated(quads), constraints=sc.Constraints(vertical=[chain])).uv)
     sc.limit_threads(0)
     assert np.array_equal(*maps)

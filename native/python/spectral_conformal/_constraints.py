@@ -19,8 +19,8 @@ Pairs = Sequence[tuple[int, int]]
 class Constraints:
     """What a map must meet exactly, by vertex; see `parameterize`. `+` combines constraints.
 
-    Coordinates that a constraint ties together are one unknown of the eigenproblem (Eq. 5), so there are no weights, and
-    the map meets every constraint to rounding.
+    Coordinates that a constraint ties together are one unknown of the eigenproblem (Eq. 5). So there are no weights,
+    and the map meets every constraint to rounding.
     """
 
     horizontal: Chains = ()
@@ -41,7 +41,7 @@ class Constraints:
         )
 
     @classmethod
-    def rectangle(cls, faces: npt.ArrayLike | Sequence[Sequence[int]], corners: Sequence[int]) -> Constraints:
+    def rectangle(cls, faces: Iterable[Iterable[int]], corners: Sequence[int]) -> Constraints:
         """Return constraints that make a patch with one border a rectangle with a free aspect.
 
         Args:
@@ -104,8 +104,8 @@ class Constraints:
                     elif is_horizontal[around[i]] != asked:
                         a, b = around[i]
                         raise InvalidMeshError(
-                            f"The edge from vertex {a} to {b} would be in a row and in a column; leave out quads around "
-                            "vertices where other than four meet."
+                            f"The edge from vertex {a} to {b} would be in a row and in a column; leave out quads "
+                            "around vertices where other than four meet."
                         )
         return cls(
             horizontal=[edge for edge, flat in is_horizontal.items() if flat],
