@@ -22,8 +22,6 @@ constexpr int n_halvings = 4;
 /// Largest distance of a separator from the plane, in edges: on a triangle mesh with 535,000 vertices, 0, 3 and 12 give
 /// 7.4e9, 7.0e9 and 6.7e9 multiplications, in 0.02, 0.14 and 0.68 s.
 constexpr int max_distance = 3;
-/// No part, or no index.
-constexpr int none = -1;
 
 class Dissector {
  public:
@@ -42,6 +40,7 @@ class Dissector {
   NestedDissection& result() { return result_; }
 
  private:
+  static constexpr int none = -1;  ///< no part, or no index
   struct Part {
     int begin;
     int end;  ///< in the order
