@@ -831,6 +831,82 @@ TEXTS = {
         "Die Map mit Pins erfüllt ihre Gleichungen in doppelter Genauigkeit nicht"
     ),
     "The pinned map has no positive area": ("Die Map mit Pins hat keinen positiven Flächeninhalt"),
+    "Face {count} has fewer than three different vertices; remove it.": (
+        "Fläche {count} hat weniger als drei verschiedene Punkte; sie entfernen."
+    ),
+    "The mesh has no faces; there is nothing to parameterize.": (
+        "Das Mesh hat keine Flächen; es gibt nichts abzuwickeln."
+    ),
+    "Edges with three or more faces: {count}; split the mesh there, or use unwrap, which does.": (
+        "Kanten mit drei oder mehr Flächen: {count}; das Mesh dort trennen oder unwrap verwenden, das es tut."
+    ),
+    "The mesh has {count} components that no edge connects; give one at a time, or use unwrap, which takes them all.": (
+        "Das Mesh hat {count} Teile, die keine Kante verbindet; eines nach dem anderen angeben oder unwrap "
+        "verwenden, das alle nimmt."
+    ),
+    "Vertices where parts of the boundary touch (bow ties): {count}; split them, or use unwrap, which does.": (
+        "Punkte, an denen sich Teile des Randes berühren: {count}; sie trennen oder unwrap verwenden, das es tut."
+    ),
+    "The mesh has {count} vertices; at most {limit} can be numbered. Split it into several meshes.": (
+        "Das Mesh hat {count} Punkte; höchstens {limit} lassen sich nummerieren. Es in mehrere teilen."
+    ),
+    "The mesh has {count} faces; at most {limit} can be numbered. Split it into several meshes.": (
+        "Das Mesh hat {count} Flächen; höchstens {limit} lassen sich nummerieren. Es in mehrere teilen."
+    ),
+    "The mesh has {count} face corners; at most {limit} can be numbered. Split it into several meshes.": (
+        "Das Mesh hat {count} Flächenecken; höchstens {limit} lassen sich nummerieren. Es in mehrere teilen."
+    ),
+    "The mesh has {count} seam edges; at most {limit} can be numbered. Split it into several meshes.": (
+        "Das Mesh hat {count} Nahtkanten; höchstens {limit} lassen sich nummerieren. Es in mehrere teilen."
+    ),
+    "face_offsets must not decrease, but they do after face {count}.": (
+        "face_offsets darf nicht fallen, fällt aber nach Fläche {count}."
+    ),
+    "face_offsets must start with 0.": ("face_offsets muss mit 0 beginnen."),
+    "Corner {count} refers to vertex {index}, but there are {limit} vertices.": (
+        "Ecke {count} verweist auf Punkt {index}, aber es gibt {limit} Punkte."
+    ),
+    "Seam edge {count} refers to vertex {index}, but there are {limit} vertices.": (
+        "Nahtkante {count} verweist auf Punkt {index}, aber es gibt {limit} Punkte."
+    ),
+    "Face {count} is no triangle.": ("Fläche {count} ist kein Dreieck."),
+    "The UV of corner {count} (face {index}) is not finite; leave its face out of the selection or give it "
+    "coordinates.": (
+        "Der UV-Punkt der Ecke {count} (Fläche {index}) ist nicht endlich; ihre Fläche nicht auswählen oder ihr "
+        "Koordinaten geben."
+    ),
+    "A pinned UV of face {count} is not finite; unpin it or give it a valid position.": (
+        "Ein gepinnter UV-Punkt der Fläche {count} ist nicht endlich; den Pin lösen oder ihm eine gültige Position "
+        "geben."
+    ),
+    "The metric of face {count} is not positive definite in double precision; both of its eigenvalues must be "
+    "positive.": (
+        "Die Metrik der Fläche {count} ist in doppelter Genauigkeit nicht positiv definit; ihre beiden Eigenwerte "
+        "müssen positiv sein."
+    ),
+    "The island's longest boundary loop has no length; clean up its coincident vertices.": (
+        "Die längste Randschleife der Insel hat keine Länge; ihre zusammenfallenden Punkte bereinigen."
+    ),
+    "Vertex {count} is pinned, but no triangle uses it.": (
+        "Punkt {count} ist gepinnt, aber kein Dreieck verwendet ihn."
+    ),
+    "Vertex {count} has an extender, but no triangle uses it.": (
+        "Punkt {count} hat einen Extender, aber kein Dreieck verwendet ihn."
+    ),
+    "All pins have the same position, so the map would shrink to a point; move one of them.": (
+        "Alle Pins haben dieselbe Position, so dass die Map zu einem Punkt schrumpfen würde; einen davon verschieben."
+    ),
+    "The mesh has too many vertices with several pins; unpin some.": (
+        "Das Mesh hat zu viele Punkte mit mehreren Pins; einige lösen."
+    ),
+    "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two.": (
+        "Die Methoden „fiedler“ und „area“ halten keine drei Pins; „spectral“ oder „lscm“ verwenden oder alle Pins "
+        "bis auf zwei entfernen."
+    ),
+    "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.": (
+        "Extender und die Steifheit der Löcher brauchen die Methode „spectral“ und Pins, die weich sind, falls es "
+        "welche gibt."
+    ),
     "{reason}, in {attempts} attempts with different shifts and starts": (
         "{reason}, in {attempts} Versuchen mit verschiedenen Verschiebungen und Anfängen"
     ),

@@ -15,12 +15,16 @@ void bind_errors(pybind11::module_& module) {
   // Local to this module: a bundled copy and an installed one may be loaded side by side.
   pybind11::register_local_exception<InvalidMesh>(module, "InvalidMeshError", PyExc_ValueError);
   static PyObject* const invalid_mesh = module.attr("InvalidMeshError").ptr();
-  // The Python class for SolveFailure, which carries its step, and the function that words the step of an InvalidMesh.
+  // The Python class for SolveFailure, which carries its step, and the function that puts the step of an InvalidMesh
+  // into words.
   static PyObject* solve_error = PyExc_RuntimeError;
   static PyObject* describe = nullptr;
-  module.def("put_errors_into_words", [](py::object type, py::object words) {
+  // A sentence made early, when there is memory for it.
+  static PyObject* out_of_memory = Py_None;
+  module.def("put_errors_into_words", [](py::object type, py::object words, py::object memory) {
     solve_error = type.release().ptr();
     describe = words.release().ptr();
+    out_of_memory = memory.release().ptr();
   });
   pybind11::register_local_exception<Cancelled>(module, "Cancelled", PyExc_Exception);
   // pybind11 would raise a MemoryError saying "std::bad_alloc".
@@ -30,12 +34,10 @@ void bind_errors(pybind11::module_& module) {
     } catch (const SolveFailure& failure) {
       PyErr_SetObject(solve_error, steps_of({failure.step()}).ptr());
     } catch (const InvalidMesh& broken) {
-      if (!broken.step() || !describe) throw;
-      PyErr_SetObject(invalid_mesh, py::handle(describe)(steps_of({*broken.step()})).ptr());
+      if (!describe) throw;
+      PyErr_SetObject(invalid_mesh, py::handle(describe)(steps_of({broken.step()})).ptr());
     } catch (const std::bad_alloc&) {
-      PyErr_SetString(
-          PyExc_MemoryError,
-          "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces.");
+      PyErr_SetObject(PyExc_MemoryError, out_of_memory);
     }
   });
 }

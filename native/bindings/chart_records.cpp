@@ -94,8 +94,7 @@ py::tuple chart_records(std::vector<UnwrappedChart>&& charts) {
     const UnwrappedChart chart = std::move(charts[i]);
     *row++ = row_of(chart);
     face = std::copy(chart.faces.begin(), chart.faces.end(), face);
-    if (chart.steps.empty() && chart.problem.empty()) continue;
-    remarks[py::int_(i)] = py::make_tuple(chart.problem, steps_of(chart.steps));
+    if (!chart.steps.empty()) remarks[py::int_(i)] = steps_of(chart.steps);
   }
   return py::make_tuple(rows, faces, remarks);
 }

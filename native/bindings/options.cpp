@@ -82,7 +82,31 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"handles", Rejection::handles},
                                           {"no_extent", Rejection::no_extent},
                                           {"border_of_two", Rejection::border_of_two},
-                                          {"no_surface", Rejection::no_surface}};
+                                          {"no_surface", Rejection::no_surface},
+                                          {"degenerate_face", Rejection::degenerate_face},
+                                          {"no_faces", Rejection::no_faces},
+                                          {"non_manifold_edges", Rejection::non_manifold_edges},
+                                          {"several_components", Rejection::several_components},
+                                          {"bow_ties", Rejection::bow_ties},
+                                          {"too_many_vertices", Rejection::too_many_vertices},
+                                          {"too_many_faces", Rejection::too_many_faces},
+                                          {"too_many_corners", Rejection::too_many_corners},
+                                          {"too_many_seam_edges", Rejection::too_many_seam_edges},
+                                          {"offsets_decrease", Rejection::offsets_decrease},
+                                          {"offsets_not_from_zero", Rejection::offsets_not_from_zero},
+                                          {"corner_of_no_vertex", Rejection::corner_of_no_vertex},
+                                          {"seam_of_no_vertex", Rejection::seam_of_no_vertex},
+                                          {"not_triangle", Rejection::not_triangle},
+                                          {"uv_not_finite", Rejection::uv_not_finite},
+                                          {"pinned_uv_not_finite", Rejection::pinned_uv_not_finite},
+                                          {"metric_not_positive", Rejection::metric_not_positive},
+                                          {"loop_without_length", Rejection::loop_without_length},
+                                          {"unused_pinned_vertex", Rejection::unused_pinned_vertex},
+                                          {"unused_extender_vertex", Rejection::unused_extender_vertex},
+                                          {"pins_at_one_position", Rejection::pins_at_one_position},
+                                          {"too_many_pins", Rejection::too_many_pins},
+                                          {"method_without_pins", Rejection::method_without_pins},
+                                          {"method_without_extenders", Rejection::method_without_extenders}};
 constexpr Name<Constraint> constraints[] = {{"pins", Constraint::pins},
                                             {"extenders", Constraint::extenders},
                                             {"rigidity", Constraint::rigidity},
@@ -214,13 +238,13 @@ py::object name_of(std::optional<RelaxationStatus> relaxation) {
 py::tuple steps_of(const std::vector<Step>& steps) {
   py::tuple result(steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto& [kind, reason, count, attempts, before, after, constraint, relaxation] = steps[i];
+    const auto& [kind, reason, count, attempts, before, after, constraint, relaxation, index, limit] = steps[i];
     const py::object why =
         reason == Rejection::none ? py::object(py::none()) : py::object(py::str(name_in(rejections, reason)));
     const py::object under =
         constraint == Constraint::none ? py::object(py::none()) : py::object(py::str(name_in(constraints, constraint)));
-    result[i] =
-        py::make_tuple(name_in(step_kinds, kind), why, count, attempts, before, after, under, name_of(relaxation));
+    result[i] = py::make_tuple(name_in(step_kinds, kind), why, count, attempts, before, after, under,
+                               name_of(relaxation), index, limit);
   }
   return result;
 }

@@ -68,8 +68,20 @@ def test_failures_name_their_reason_and_what_to_do():
 @pytest.mark.parametrize("reason", get_args(get_args(_messages.Reason)[0]))
 def test_every_failure_is_a_sentence(reason, constraint):
     text = said(rejected(reason, constraint, count=3))
-    assert text.endswith(".") and text[0].isupper() and "{" not in text
-    assert ": " in text or "; " in text
+    assert text.endswith(".") and "{" not in text
+    # What arguments must be says what to do; it may begin with an argument's name.
+    assert reason in _messages._VIOLATIONS or (text[0].isupper() and (": " in text or "; " in text))
+
+
+def test_violations_of_arguments_name_their_numbers():
+    corner = sc.Step("rejected", "corner_of_no_vertex", count=5, index=9, limit=4)
+    assert said(corner) == "Corner 5 refers to vertex 9, but there are 4 vertices."
+    vertices, triangles = meshes.bumpy_disk(60)
+    with pytest.raises(sc.InvalidMeshError, match="^Vertex 60 is pinned, but no triangle uses it"):
+        sc.parameterize(np.r_[vertices, [[9, 9, 9]]], triangles, pins={60: (0, 0)})
+    (chart,) = sc.unwrap(vertices, triangles, pins=dict.fromkeys((0, 1, 2), (0, 0))).charts
+    (step,) = chart.steps
+    assert (step.reason, chart.message) == ("pins_at_one_position", said(step))
 
 
 def test_conditions_of_charts_name_what_to_do():

@@ -310,8 +310,6 @@ Chart only_chart(const Mesh& mesh) {
   return std::move(charts.front());
 }
 
-bool says(const std::string& message, const std::string& words) { return message.find(words) != std::string::npos; }
-
 ComplexVector conformal_map(const Patch& patch) {
   return Solver(patch.chart, patch.positions, PatchOptions{}).solve({}, {}).z;
 }

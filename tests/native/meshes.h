@@ -84,8 +84,6 @@ double shoelace_area(const BoundaryLoop& loop, const ComplexVector& z);
 
 /// The chart of a mesh that has one.
 Chart only_chart(const Mesh& mesh);
-/// Whether a message contains these words.
-bool says(const std::string& message, const std::string& words);
 
 /// The least conformal map by the default method.
 ComplexVector conformal_map(const Patch& patch);

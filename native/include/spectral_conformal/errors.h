@@ -1,22 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <stdexcept>
 
 #include "spectral_conformal/step.h"
 
 namespace spectral_conformal {
 
-/// The input violates a precondition; the message names the condition and what to do about it.
+/// The input violates a precondition; the step names the condition. Callers put it into words.
 class InvalidMesh : public std::invalid_argument {
  public:
-  using std::invalid_argument::invalid_argument;
-  explicit InvalidMesh(const Step& step) : std::invalid_argument("no map of the mesh can be made"), step_(step) {}
-  /// The condition that a chart violates (chart_checks.h), of StepKind::rejected; empty if only the message names it.
-  const std::optional<Step>& step() const { return step_; }
+  explicit InvalidMesh(Rejection reason, int count = 0, int index = 0, int limit = 0)
+      : InvalidMesh(rejected(reason, count, index, limit)) {}
+  explicit InvalidMesh(const Step& step) : std::invalid_argument("the input violates a condition"), step_(step) {}
+  const Step& step() const { return step_; }  ///< of StepKind::rejected
 
  private:
-  std::optional<Step> step_;
+  Step step_;
 };
 
 /// The input is valid, but no result passed the numerical checks within the bounded number of attempts.

@@ -6,7 +6,7 @@
 
 namespace spectral_conformal {
 
-/// Why a map is rejected, or why a chart can have none.
+/// Why a map is rejected, or what condition a chart, a mesh or an argument violates.
 enum class Rejection {
   none,
   not_factorized,  ///< L + s M, or the free part of L, is not positive definite in double precision
@@ -26,7 +26,34 @@ enum class Rejection {
   handles,        ///< count
   no_extent,      ///< that double precision can hold
   border_of_two,  ///< vertices: no map can open between them
-  no_surface      ///< the vertices lie on one line
+  no_surface,     ///< the vertices lie on one line
+  // Of meshes that are no single patch (single_chart).
+  degenerate_face,  ///< count: the first face with fewer than three different vertices
+  no_faces,
+  non_manifold_edges,  ///< count: with three or more faces
+  several_components,  ///< count
+  bow_ties,            ///< count: vertices where parts of the boundary touch
+  // Of arrays that describe no mesh (validate); limit: how many there may be.
+  too_many_vertices,  ///< count, limit; likewise the next three
+  too_many_faces,
+  too_many_corners,
+  too_many_seam_edges,
+  offsets_decrease,  ///< count: after this face
+  offsets_not_from_zero,
+  corner_of_no_vertex,  ///< count: the corner; index: the vertex; limit
+  seam_of_no_vertex,    ///< count: the edge; index: the vertex; limit
+  not_triangle,         ///< count: the face
+  // Of UVs, metrics, pins and options.
+  uv_not_finite,           ///< count: the corner; index: its face
+  pinned_uv_not_finite,    ///< count: the face
+  metric_not_positive,     ///< count: the face
+  loop_without_length,     ///< BoundaryMeasure::length
+  unused_pinned_vertex,    ///< count: the vertex, of no triangle
+  unused_extender_vertex,  ///< likewise
+  pins_at_one_position,
+  too_many_pins,            ///< more copies of pinned vertices than int can number
+  method_without_pins,      ///< three or more hard pins
+  method_without_extenders  ///< nor hole rigidity
 };
 
 /// The constraints of a solve, which may have caused a defect of its map.
@@ -72,10 +99,14 @@ struct Step {
   double after = 0;
   Constraint constraint = Constraint::none;
   std::optional<RelaxationStatus> relaxation = {};
+  int index = 0;  ///< see Rejection, like limit
+  int limit = 0;
 };
 
-/// For a rejected map, or a chart that can have none; count: see Rejection.
-inline Step rejected(Rejection reason, int count = 0) { return {StepKind::rejected, reason, count}; }
+/// For a rejected map, or a chart or mesh that can have none; numbers: see Rejection.
+inline Step rejected(Rejection reason, int count = 0, int index = 0, int limit = 0) {
+  return {StepKind::rejected, reason, count, 0, 0, 0, Constraint::none, {}, index, limit};
+}
 inline Step counted(StepKind kind, int count) { return {kind, Rejection::none, count}; }
 inline Step changed(StepKind kind, double before, double after, int count = 0) {
   return {kind, Rejection::none, count, 0, before, after};

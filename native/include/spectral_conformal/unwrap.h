@@ -33,8 +33,8 @@ struct UnwrapOptions {
   const SpaceMetric* metric = nullptr;
 };
 
-/// One chart of an unwrap. For a failed chart the record says what was to be solved; `problem` or the last of `steps`
-/// says why it failed.
+/// One chart of an unwrap. For a failed chart the record says what was to be solved, and the last of `steps` why
+/// it failed.
 struct UnwrappedChart : SolveRecord {
   /// NaN: a value that a failed chart does not have.
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -48,7 +48,6 @@ struct UnwrappedChart : SolveRecord {
   int n_pins = 0;            ///< pinned vertices
   int n_vertices = 0;
   double area = 0;      ///< in 3D
-  std::string problem;  ///< the condition that its faces or pins violate, worded as by InvalidMesh; empty if none
   bool reused = false;  ///< whether its map comes from KeptMaps
 
   UnwrappedChart() {

@@ -30,7 +30,7 @@ from . import _native, hosts
 from ._arguments import Extenders, Faces, Pins, Progress
 from ._build import build_info
 from ._constraints import Constraints
-from ._messages import SolveError, Step, describe_native
+from ._messages import OUT_OF_MEMORY, SolveError, Step, describe_native
 from ._metric import blend_metric, metric_from_direction, metric_from_uv
 from ._native import Cancelled, InvalidMeshError, put_errors_into_words
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
@@ -43,7 +43,7 @@ from ._unwrapping import Unwrapper, unwrap
 
 __version__: str = _native.VERSION
 
-put_errors_into_words(SolveError, describe_native)
+put_errors_into_words(SolveError, describe_native, OUT_OF_MEMORY)
 
 __all__ = [
     "Cancelled",

@@ -54,6 +54,30 @@ Reason = Optional[
         "no_extent",
         "border_of_two",
         "no_surface",
+        "degenerate_face",
+        "no_faces",
+        "non_manifold_edges",
+        "several_components",
+        "bow_ties",
+        "too_many_vertices",
+        "too_many_faces",
+        "too_many_corners",
+        "too_many_seam_edges",
+        "offsets_decrease",
+        "offsets_not_from_zero",
+        "corner_of_no_vertex",
+        "seam_of_no_vertex",
+        "not_triangle",
+        "uv_not_finite",
+        "pinned_uv_not_finite",
+        "metric_not_positive",
+        "loop_without_length",
+        "unused_pinned_vertex",
+        "unused_extender_vertex",
+        "pins_at_one_position",
+        "too_many_pins",
+        "method_without_pins",
+        "method_without_extenders",
     ]
 ]
 Constraint = Optional[Literal["pins", "extenders", "rigidity", "extenders_and_rigidity"]]
@@ -75,10 +99,10 @@ class Step:
     Of the area blend: "relaxed_with_flips", "blended_little". Of faces: "reoriented_faces", "duplicate_faces",
     "fan_splits", "degenerate_triangles". Of charts: "shrunk_to_point", "degenerate_faces", "out_of_memory"."""
     reason: Reason = None
-    """Why a map was rejected."""
+    """Why a map was rejected, or the condition that the input violates."""
     count: int = 0
-    """Of triangles, faces or handles; the vertex that is not finite; the turning number of a map that winds; the status
-    of a library that failed."""
+    """Of triangles, faces or handles; the vertex, face, corner or edge that violates a condition; the turning number of
+    a map that winds; the status of a library that failed."""
     attempts: int = 0
     """At the problem whose map was rejected."""
     before: float = 0.0
@@ -90,6 +114,10 @@ class Step:
     """The possible cause of the problem."""
     relaxation: str | None = None
     """How the relaxation of an area blend ended, see `Parameterization.relaxation`."""
+    index: int = 0
+    """The vertex that a corner or edge refers to, or the face of a UV that is not finite."""
+    limit: int = 0
+    """How many vertices there are, or how many elements a mesh may have."""
 
 
 # A template for the count 1 and, if it differs, a template for other counts.
@@ -235,6 +263,54 @@ _CONDITIONS: dict[str, tuple[str, ...]] = {
     "border_of_two": ("The island's boundary has two vertices only, between which no map can open; mark more seams.",),
     "no_surface": ("The island has no area: its vertices lie on one line; delete it or move them apart.",),
 }
+# Conditions that a mesh, its arrays or other arguments violate.
+_VIOLATIONS = {
+    "degenerate_face": "Face {count} has fewer than three different vertices; remove it.",
+    "no_faces": "The mesh has no faces; there is nothing to parameterize.",
+    "non_manifold_edges": "Edges with three or more faces: {count}; split the mesh there, or use unwrap, which does.",
+    "several_components": (
+        "The mesh has {count} components that no edge connects; give one at a time, or use unwrap, which takes them "
+        "all."
+    ),
+    "bow_ties": (
+        "Vertices where parts of the boundary touch (bow ties): {count}; split them, or use unwrap, which does."
+    ),
+    "too_many_vertices": (
+        "The mesh has {count} vertices; at most {limit} can be numbered. Split it into several meshes."
+    ),
+    "too_many_faces": "The mesh has {count} faces; at most {limit} can be numbered. Split it into several meshes.",
+    "too_many_corners": (
+        "The mesh has {count} face corners; at most {limit} can be numbered. Split it into several meshes."
+    ),
+    "too_many_seam_edges": (
+        "The mesh has {count} seam edges; at most {limit} can be numbered. Split it into several meshes."
+    ),
+    "offsets_decrease": "face_offsets must not decrease, but they do after face {count}.",
+    "offsets_not_from_zero": "face_offsets must start with 0.",
+    "corner_of_no_vertex": "Corner {count} refers to vertex {index}, but there are {limit} vertices.",
+    "seam_of_no_vertex": "Seam edge {count} refers to vertex {index}, but there are {limit} vertices.",
+    "not_triangle": "Face {count} is no triangle.",
+    "uv_not_finite": (
+        "The UV of corner {count} (face {index}) is not finite; leave its face out of the selection or give it "
+        "coordinates."
+    ),
+    "pinned_uv_not_finite": "A pinned UV of face {count} is not finite; unpin it or give it a valid position.",
+    "metric_not_positive": (
+        "The metric of face {count} is not positive definite in double precision; both of its eigenvalues must be "
+        "positive."
+    ),
+    "loop_without_length": "The island's longest boundary loop has no length; clean up its coincident vertices.",
+    "unused_pinned_vertex": "Vertex {count} is pinned, but no triangle uses it.",
+    "unused_extender_vertex": "Vertex {count} has an extender, but no triangle uses it.",
+    "pins_at_one_position": "All pins have the same position, so the map would shrink to a point; move one of them.",
+    "too_many_pins": "The mesh has too many vertices with several pins; unpin some.",
+    "method_without_pins": (
+        "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two."
+    ),
+    "method_without_extenders": (
+        "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any."
+    ),
+}
 _REPEATED = "{reason}, in {attempts} attempts with different shifts and starts"
 _ADVICE = {
     "too_large": "cut it into smaller islands with seams.",
@@ -255,6 +331,8 @@ _ADVICE = {
     "extenders_and_rigidity": "weaken or remove extenders, or lower the hole rigidity.",
 }
 _JOINED = "{reason}: {consequence}"
+# Of a MemoryError.
+OUT_OF_MEMORY = "There is too little memory for this mesh; close other programs, or unwrap fewer or coarser faces."
 
 
 class SolveError(RuntimeError):
@@ -307,7 +385,7 @@ def message_templates() -> Iterator[str]:
     """Iterate over the templates that `describe` passes to `translate`."""
     for forms in (*_SENTENCES.values(), *_STAND_INS.values(), *_CONDITIONS.values()):
         yield from forms
-    for texts in (_RELAXATIONS, _REASONS, _PINNED_REASONS, _ADVICE):
+    for texts in (_RELAXATIONS, _REASONS, _PINNED_REASONS, _VIOLATIONS, _ADVICE):
         yield from texts.values()
     yield from (_LITTLE, _NOT_LOWERED, _REPEATED, _JOINED)
 
@@ -315,7 +393,8 @@ def message_templates() -> Iterator[str]:
 def _filled(forms: tuple[str, ...], step: Step, translate: Translate, **fields: str) -> str:
     """Return the form for a step's count, translated, with its numbers."""
     template = forms[0] if abs(step.count) == 1 else forms[-1]
-    values = {"count": str(step.count), "before": f"{step.before:.5g}", "after": f"{step.after:.5g}", **fields}
+    values = {name: str(getattr(step, name)) for name in ("count", "index", "limit")}
+    values.update({"before": f"{step.before:.5g}", "after": f"{step.after:.5g}", **fields})
     return translate(template).format(**values)
 
 
@@ -345,6 +424,8 @@ def _failure(step: Step, translate: Translate) -> str:
     if step.reason in _CONDITIONS:
         is_plain = step.reason == "closed" and not step.count
         return _filled(_CONDITIONS["closed_without_handles" if is_plain else step.reason], step, translate)
+    if step.reason in _VIOLATIONS:
+        return _filled((_VIOLATIONS[step.reason],), step, translate)
     constraint = step.constraint or ""
     keys = (f"{constraint} {step.reason}", constraint) if constraint else (step.reason or "", "")
     advice = next(_ADVICE[key] for key in keys if key in _ADVICE)

@@ -280,9 +280,8 @@ class Charts(Sequence[Chart]):
 
     def _remark(self, number: int) -> tuple[str, tuple[Step, ...]]:
         """Return the message and the steps of a chart, given its number among all."""
-        problem, tuples = self._remarks.get(number, ("", ()))
-        steps = steps_of(tuples)
-        return problem or describe(steps), steps
+        steps = steps_of(self._remarks.get(number, ()))
+        return describe(steps), steps
 
     def _from(self, start: int, end: int) -> Iterator[Chart]:
         first_faces = self._first_faces[start:end].tolist()

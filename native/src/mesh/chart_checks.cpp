@@ -57,22 +57,16 @@ std::optional<Step> why_not_parameterizable(const Chart& chart, const Eigen::Ref
 Chart single_chart(const PolygonMesh& mesh) {
   ChartDecomposition decomposition = build_charts(mesh);
   if (!decomposition.degenerate_faces.empty()) {
-    throw InvalidMesh("Face " + std::to_string(decomposition.degenerate_faces.front()) +
-                      " has fewer than three different vertices; remove it.");
+    throw InvalidMesh(Rejection::degenerate_face, decomposition.degenerate_faces.front());
   }
-  if (decomposition.charts.empty()) throw InvalidMesh("The mesh has no faces; there is nothing to parameterise.");
+  if (decomposition.charts.empty()) throw InvalidMesh(Rejection::no_faces);
   if (decomposition.non_manifold_edges > 0) {
-    throw InvalidMesh("Edges with three or more faces: " + std::to_string(decomposition.non_manifold_edges) +
-                      "; split the mesh there, or use unwrap, which does.");
+    throw InvalidMesh(Rejection::non_manifold_edges, decomposition.non_manifold_edges);
   }
   if (decomposition.charts.size() > 1) {
-    throw InvalidMesh("The mesh has " + std::to_string(decomposition.charts.size()) +
-                      " components that no edge connects; give one at a time, or use unwrap, which takes them all.");
+    throw InvalidMesh(Rejection::several_components, static_cast<int>(decomposition.charts.size()));
   }
-  if (decomposition.split_vertices > 0) {
-    throw InvalidMesh("Vertices where parts of the boundary touch (bow ties): " +
-                      std::to_string(decomposition.split_vertices) + "; split them, or use unwrap, which does.");
-  }
+  if (decomposition.split_vertices > 0) throw InvalidMesh(Rejection::bow_ties, decomposition.split_vertices);
   return std::move(decomposition.charts.front());
 }
 

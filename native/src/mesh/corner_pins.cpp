@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -89,7 +88,7 @@ PinSplitMesh::PinSplitMesh(const PolygonMesh& mesh, const CornerPins& pins) : me
   for (const auto& [vertex, positions] : split) {
     if (positions.size() >
         static_cast<std::size_t>(std::numeric_limits<int>::max() - mesh.n_vertices) - copied_.size()) {
-      throw InvalidMesh("The mesh has too many vertices with several pins; unpin some.");
+      throw InvalidMesh(Rejection::too_many_pins);
     }
     first_copy[vertex] = mesh.n_vertices + static_cast<int>(copied_.size());
     nearest.emplace(vertex, positions);
@@ -155,8 +154,7 @@ Pins chart_pins(const PolygonMesh& mesh, const Chart& chart, const std::vector<i
       if (!pins.pinned[c]) continue;
       const Complex uv = uv_of(pins, c);
       if (!std::isfinite(uv.real()) || !std::isfinite(uv.imag())) {
-        throw InvalidMesh("A pinned UV of face " + std::to_string(face) +
-                          " is not finite; unpin it or give it a valid position.");
+        throw InvalidMesh(Rejection::pinned_uv_not_finite, face);
       }
       sums[chart_vertex_of_corner[c]] += uv;
       ++counts[chart_vertex_of_corner[c]];

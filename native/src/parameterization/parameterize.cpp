@@ -63,9 +63,7 @@ PreparedPatch prepared_patch(const Chart& chart, const Eigen::Ref<const Position
   const std::vector<TriangleShape>& shapes = problem.energy.shapes();
   for (std::size_t t = 0; t < metric.size(); ++t) {
     if (is_positive_definite(metric[t]) || shapes[t].clamped) continue;
-    throw InvalidMesh("The metric of face " +
-                      std::to_string(chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]) +
-                      " is not positive definite in double precision; both of its eigenvalues must be positive.");
+    throw InvalidMesh(Rejection::metric_not_positive, chart.faces[static_cast<std::size_t>(chart.triangle_face[t])]);
   }
   if (!metric.empty()) problem.stretch(metric);
   std::vector<Step> repairs = repairs_of(chart, problem.energy.clamped_triangles());
@@ -79,7 +77,7 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   SolveTask task{patch, options, pins, {}, {}};
   task.options.method = method_with_pins(options, pins.size());
   if (task.options.method != Method::spectral && options.has_extenders_or_rigidity()) {
-    throw InvalidMesh("Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any.");
+    throw InvalidMesh(Rejection::method_without_extenders);
   }
   // At a tolerance coarser than single precision, as while a slider moves, a start near the solution saves solves.
   if (!(options.tolerance > resolved_change)) patch.problem.earlier = {};
@@ -133,8 +131,7 @@ Method method_with_pins(const SolveOptions& options, std::size_t n_pins) {
   // Fewer pins only define a similarity, which needs no other method.
   if (n_pins < 3 || options.method == Method::lscm || is_attracted(options)) return options.method;
   if (options.method == Method::spectral) return Method::lscm;
-  throw InvalidMesh(
-      "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two.");
+  throw InvalidMesh(Rejection::method_without_pins);
 }
 
 struct Solver::State {
@@ -143,17 +140,16 @@ struct Solver::State {
   std::vector<int> vertices = {};  ///< the mesh vertex of each chart vertex, ascending
   int n_mesh_vertices = 0;
 
-  int chart_vertex(int mesh_vertex, const char* role) const;
+  /// Throws InvalidMesh with this reason if no triangle uses the vertex.
+  int chart_vertex(int mesh_vertex, Rejection unused) const;
   SolveOptions in_chart(const SolveOptions& options) const;
   Pins in_chart(const Pins& pins) const;
   ComplexVector on_mesh(ComplexVector&& z) const;
 };
 
-int Solver::State::chart_vertex(int mesh_vertex, const char* role) const {
+int Solver::State::chart_vertex(int mesh_vertex, Rejection unused) const {
   const auto found = std::lower_bound(vertices.begin(), vertices.end(), mesh_vertex);
-  if (found == vertices.end() || *found != mesh_vertex) {
-    throw InvalidMesh("Vertex " + std::to_string(mesh_vertex) + " " + role + ", but no triangle uses it.");
-  }
+  if (found == vertices.end() || *found != mesh_vertex) throw InvalidMesh(unused, mesh_vertex);
   return static_cast<int>(found - vertices.begin());
 }
 
@@ -172,7 +168,7 @@ SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
   if (vertices.empty()) return result;
   for (Extender& extender : result.extenders) {
     for (std::vector<int>* ends : {&extender.from, &extender.to}) {
-      for (int& v : *ends) v = chart_vertex(v, "has an extender");
+      for (int& v : *ends) v = chart_vertex(v, Rejection::unused_extender_vertex);
     }
   }
   return result;
@@ -181,7 +177,7 @@ SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
 Pins Solver::State::in_chart(const Pins& pins) const {
   if (vertices.empty()) return pins;
   Pins result;
-  for (const auto& [vertex, position] : pins) result[chart_vertex(vertex, "is pinned")] = position;
+  for (const auto& [vertex, position] : pins) result[chart_vertex(vertex, Rejection::unused_pinned_vertex)] = position;
   return result;
 }
 

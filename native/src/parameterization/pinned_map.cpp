@@ -18,9 +18,7 @@ namespace {
 /// refinement leaves about 1e-16.
 constexpr double pinned_residual_limit = 1e-10;
 
-InvalidMesh same_position() {
-  return InvalidMesh("All pins have the same position, so the map would shrink to a point; move one of them.");
-}
+InvalidMesh same_position() { return InvalidMesh(Rejection::pins_at_one_position); }
 
 /// Pins in their own unit, so that the solve does not depend on their magnitude: z = origin + unit * held.
 struct ScaledPins {

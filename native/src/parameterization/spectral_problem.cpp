@@ -47,9 +47,7 @@ bool has_form(const NormalizedPatch& patch, BoundaryMeasure boundary) {
 }
 
 BoundaryForm form_of(const NormalizedPatch& patch, BoundaryMeasure boundary) {
-  if (!has_form(patch, boundary)) {
-    throw InvalidMesh("The island's longest boundary loop has no length; clean up its coincident vertices.");
-  }
+  if (!has_form(patch, boundary)) throw InvalidMesh(Rejection::loop_without_length);
   return boundary_form(patch.outer, patch.positions, boundary);
 }
 

@@ -148,7 +148,7 @@ class ChartUnwrapper {
       report_.method = options_.method = method_with_pins(options.solve, pins_.size());
       is_possible_ = true;
     } catch (const InvalidMesh& problem) {
-      report_.problem = problem.what();
+      report_.steps = {problem.step()};
     }
   }
 
@@ -183,11 +183,7 @@ class ChartUnwrapper {
       }
       solve(options, progress, result);
     } catch (const InvalidMesh& problem) {
-      if (problem.step()) {
-        result.report.steps = {*problem.step()};
-      } else {
-        result.report.problem = problem.what();
-      }
+      result.report.steps = {problem.step()};
       if (has_no_area(chart_, chart_.positions(cut_.mesh))) result.point = mean_of_pins();
     } catch (const SolveFailure& problem) {
       result.report.steps = {problem.step()};
@@ -333,7 +329,6 @@ void add_points(const Cut& cut, const Points& points, Unwrap& result) {
     // L z = 0 for constant z.
     report.eigenvalue = report.residual = 0;
     report.mean_qc = report.max_qc = 1;
-    report.problem.clear();
     report.steps = {{StepKind::shrunk_to_point}};
     write_corners(
         cut, report.faces, [place = point](int) { return place; }, result);

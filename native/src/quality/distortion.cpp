@@ -185,9 +185,7 @@ Distortion measure_mesh_distortion(const PolygonMesh& given, const ComplexVector
   const ChartDecomposition decomposition = build_charts(mesh);
   std::vector<std::array<int, 3>> triangles(static_cast<std::size_t>(mesh.n_faces));
   for (int face = 0; face < mesh.n_faces; ++face) {
-    if (mesh.n_corners(face) != 3) {
-      throw InvalidMesh("Face " + std::to_string(face) + " is no triangle.");
-    }
+    if (mesh.n_corners(face) != 3) throw InvalidMesh(Rejection::not_triangle, face);
     const int* v = mesh.corner_vertices + mesh.face_offsets[face];
     triangles[face] = {v[0], v[1], v[2]};
   }

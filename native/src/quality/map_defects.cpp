@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "concurrency/listening.h"
@@ -33,8 +32,7 @@ class MapMesh {
         for (int c = mesh.face_offsets[face]; c < mesh.face_offsets[face + 1]; ++c) {
           const double* uv = corner_uv + 2 * static_cast<std::size_t>(c);
           if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) {
-            throw InvalidMesh("The UV of corner " + std::to_string(c) + " (face " + std::to_string(face) +
-                              ") is not finite; leave its face out of the selection or give it coordinates.");
+            throw InvalidMesh(Rejection::uv_not_finite, c, face);
           }
           visit(mesh.corner_vertices[c], Image{uv[0], uv[1], c});
         }

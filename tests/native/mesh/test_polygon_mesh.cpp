@@ -1,9 +1,8 @@
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "mesh/charts.h"
 #include "meshes.h"
+#include "refusal.h"
 #include "spectral_conformal/errors.h"
 #include "spectral_conformal/polygon_mesh.h"
 
@@ -44,26 +43,22 @@ TEST_CASE("arrays that do not describe a mesh are refused") {
 
 TEST_CASE("a mesh with more of anything than can be numbered is refused before its arrays are read") {
   const std::vector<int> offsets{0, size_limit + 1};
-  const auto refused = [](const PolygonMesh& mesh, const std::string& what) {
-    try {
-      validate(mesh);
-      return false;
-    } catch (const InvalidMesh& error) {
-      return std::string(error.what()).find(std::to_string(size_limit + 1) + " " + what) != std::string::npos;
-    }
+  const auto refused = [](const PolygonMesh& mesh, Rejection reason) {
+    const Step step = refusal([&] { validate(mesh); });
+    return step.reason == reason && step.count == size_limit + 1 && step.limit == size_limit;
   };
   PolygonMesh mesh;
   mesh.face_offsets = offsets.data();
   mesh.n_faces = 1;
-  CHECK(refused(mesh, "face corners"));
+  CHECK(refused(mesh, Rejection::too_many_corners));
   mesh.n_faces = size_limit + 1;
-  CHECK(refused(mesh, "faces"));
+  CHECK(refused(mesh, Rejection::too_many_faces));
   mesh.n_faces = 0;
   mesh.n_vertices = size_limit + 1;
-  CHECK(refused(mesh, "vertices"));
+  CHECK(refused(mesh, Rejection::too_many_vertices));
   mesh.n_vertices = 3;
   mesh.n_seam_edges = size_limit + 1;
-  CHECK(refused(mesh, "seam edges"));
+  CHECK(refused(mesh, Rejection::too_many_seam_edges));
 }
 
 TEST_SUITE_END();
