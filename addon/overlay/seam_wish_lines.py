@@ -30,8 +30,9 @@ class WishLines(Remembered):
 
 def on_update(depsgraph: bpy.types.Depsgraph) -> None:
     """Read the wishes again when they are drawn next, if Blender has updated a geometry."""
-    if any(update.is_updated_geometry for update in depsgraph.updates):
-        session.of(WishLines).batches.clear()
+    read = session.of(WishLines).batches
+    if read and any(update.is_updated_geometry for update in depsgraph.updates):
+        read.clear()
 
 
 def segments(mesh: bpy.types.Mesh) -> dict[int, np.ndarray]:
