@@ -9,7 +9,7 @@ namespace spectral_conformal {
 namespace {
 
 /// Longer than any detour on a mesh of less than a million edges, but small enough that sums keep their digits.
-constexpr double avoided = 1e6;
+constexpr double prohibitive = 1e6;
 
 std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -51,7 +51,7 @@ void AvoidedEdges::raise(const SeamGraph& graph, const Piece& piece, bool is_coa
     const int b = piece.vertices[static_cast<std::size_t>(second)];
     if (!is_end_[static_cast<std::size_t>(a)] || !is_end_[static_cast<std::size_t>(b)]) continue;
     count_steps(1);
-    if (is_coarse || std::binary_search(edges_.begin(), edges_.end(), sorted(a, b))) factors[e] *= avoided;
+    if (is_coarse || std::binary_search(edges_.begin(), edges_.end(), sorted(a, b))) factors[e] *= prohibitive;
   }
 }
 
