@@ -109,3 +109,15 @@ def test_it_can_be_stopped_at_every_report(mesh):
 
         with pytest.raises(sc.Cancelled):
             sc.parameterize(*mesh, fold_free=True, progress=cancel)
+
+
+@pytest.mark.parametrize("turns", [1.5, 3.0])
+def test_an_even_map_stays_even_where_its_parts_come_apart(turns):
+    mesh = triangulated(*meshes.spiral_ramp(turns))
+    conformal = sc.parameterize(*mesh, fold_free=True)
+    even = sc.parameterize(*mesh, area_blend=1, fold_free=True)
+    assert even.is_embedding
+    after = sc.distortion(*mesh, even.uv)
+    assert not after.overlapping.any()
+    assert not after.flipped.any()
+    assert after.log2_scale_deviation < 0.5 * sc.distortion(*mesh, conformal.uv).log2_scale_deviation

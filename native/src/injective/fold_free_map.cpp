@@ -27,7 +27,8 @@ class FoldFree {
     const std::size_t n = energy.triangles().size() - energy.n_virtual();
     const auto end = static_cast<std::ptrdiff_t>(n);
     triangles_.assign(energy.triangles().begin(), energy.triangles().begin() + end);
-    const std::vector<TriangleShape> shapes(energy.energy_shapes().begin(), energy.energy_shapes().begin() + end);
+    const std::vector<TriangleShape>& all_shapes = patch.sizes > 0 ? energy.shapes() : energy.energy_shapes();
+    const std::vector<TriangleShape> shapes(all_shapes.begin(), all_shapes.begin() + end);
     const std::vector<TriangleWeight> triangle_weights(energy.triangle_weights().begin(),
                                                        energy.triangle_weights().begin() + end);
     elements_ = distortion_elements(triangles_, shapes, triangle_weights, 0);
@@ -64,7 +65,7 @@ class FoldFree {
       result.is_locally_injective = result.flipped == 0 && goes_round_once(result.z);
       if (patch_.relaxes && result.is_locally_injective && patch_.held.empty()) {
         ComplexVector z = result.z;
-        result.relaxation = relax_angles(clamped_elements(), part(progress_, 0.3, 0.9), z);
+        result.relaxation = settle(clamped_elements(), part(progress_, 0.3, 0.9), z);
         if (count_flipped(elements_, z, unplaced) == 0 && goes_round_once(z)) result.z = std::move(z);
       }
       if (result.is_locally_injective || !patch_.held.empty()) return result;
@@ -91,7 +92,7 @@ class FoldFree {
       map.z = z;
       map.covers_itself = false;
       // The relaxation toward an isometry moved them farther than necessary.
-      relax_angles_apart(part(progress_, 0.92, 1), z);
+      settle_apart(part(progress_, 0.92, 1), z);
       if (is_one_to_one(z)) map.z = std::move(z);
       return;
     }
@@ -145,7 +146,7 @@ class FoldFree {
     // The first descent need not converge as far as the second, whose result is visible.
     relax(clamped, {DistortionMeasure::symmetric_dirichlet, 1e-2, max_factorizations, true}, part(progress, 0.4, 0.7),
           result.z);
-    result.relaxation = relax_angles(clamped, part(progress, 0.7, 1), result.z);
+    result.relaxation = settle(clamped, part(progress, 0.7, 1), result.z);
     finish(result);
     return result;
   }
@@ -158,7 +159,7 @@ class FoldFree {
     if (result.z.size() == 0) return result;
     relax(clamped_elements(), {DistortionMeasure::symmetric_dirichlet, 1e-4, more_factorizations, true},
           part(progress, 0.2, 0.6), result.z, Boundary::apart);
-    result.relaxation = relax_angles_apart(part(progress, 0.6, 1), result.z);
+    result.relaxation = settle_apart(part(progress, 0.6, 1), result.z);
     finish(result);
     return result;
   }
@@ -223,13 +224,13 @@ class FoldFree {
     return clamped;
   }
 
-  std::optional<Descent> relax_angles(const std::vector<DistortionElement>& elements, const Progress& progress,
-                                      ComplexVector& z) const {
-    return relax(elements, {DistortionMeasure::conformal, 1e-3, max_factorizations, true}, progress, z);
+  std::optional<Descent> settle(const std::vector<DistortionElement>& elements, const Progress& progress,
+                                ComplexVector& z) const {
+    return relax(elements, {DistortionMeasure{patch_.sizes}, 1e-3, max_factorizations, true}, progress, z);
   }
 
-  std::optional<Descent> relax_angles_apart(const Progress& progress, ComplexVector& z) const {
-    return relax(clamped_elements(), {DistortionMeasure::conformal, 1e-5, more_factorizations, true}, progress, z,
+  std::optional<Descent> settle_apart(const Progress& progress, ComplexVector& z) const {
+    return relax(clamped_elements(), {DistortionMeasure{patch_.sizes}, 1e-5, more_factorizations, true}, progress, z,
                  Boundary::apart);
   }
 

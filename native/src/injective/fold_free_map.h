@@ -20,6 +20,9 @@ struct FoldFreePatch {
   FactorizationBackend backend = FactorizationBackend::automatic;
   bool relaxes = false;      ///< whether to relax an unfolded map as a whole, like an embedding
   bool moves_apart = false;  ///< whether to separate overlapping parts too
+  /// DistortionMeasure::sizes of the relaxed maps. If positive, they are measured against the surface in 3D, without
+  /// the metric of the energy.
+  double sizes = 0;
 };
 
 struct FoldFreeMap {
@@ -27,8 +30,8 @@ struct FoldFreeMap {
   int flipped_before = 0;     ///< triangles without positive image area in the given map
   int flipped = 0;            ///< the same of z
   bool is_embedding = false;  ///< whether an embedding replaced the given map
-  /// For an embedding, or a map relaxed as a whole: the outcome of the last descent, on the conformal distortion. Empty
-  /// if there was none, or its result was rejected.
+  /// For an embedding, or a map relaxed as a whole: the outcome of the last descent. Empty if there was none, or its
+  /// result was rejected.
   std::optional<Descent> relaxation;
   /// Whether z is locally one-to-one: no flipped triangle, and winding number 1 of the triangles round every inner
   /// vertex and of the outer loop.
@@ -39,15 +42,15 @@ struct FoldFreeMap {
   bool came_apart_embedded = false;  ///< whether only an embedding separated the parts
 };
 
-/// A map without folds, as close to conformal as possible. Flipped triangles of the given map are unfolded locally
-/// (local_unfolding.h). If some remain, or if there is no map or its boundary winds round more than once, an embedding
-/// of the chart replaces it (tutte_embedding.h, or grid_embedding.h if limbs shrink below double precision); not with
-/// `held` vertices. The embedding is relaxed first toward an isometry, then toward the least conformal distortion,
-/// without folding a triangle (descent.h). The first split of a quad is kept unfolded (the second if the diagonal of
-/// the first is an edge), the other if there is room. Degenerate triangles cannot fold. If the resulting map is locally
-/// one-to-one but overlaps itself, and separation is requested, it is relaxed toward an isometry until the parts
-/// separate. If they do not, an embedding is relaxed without letting its boundary touch itself (boundary_barrier.h). If
-/// that fails too, the map is kept.
+/// A map without folds, of as little distortion as possible (DistortionMeasure; conformal by default). Flipped
+/// triangles of the given map are unfolded locally (local_unfolding.h). If some remain, or if there is no map or its
+/// boundary winds round more than once, an embedding of the chart replaces it (tutte_embedding.h, or grid_embedding.h
+/// if limbs shrink below double precision); not with `held` vertices. The embedding is relaxed first toward an
+/// isometry, then toward the least distortion, without folding a triangle (descent.h). The first split of a quad is
+/// kept unfolded (the second if the diagonal of the first is an edge), the other if there is room. Degenerate triangles
+/// cannot fold. If the resulting map is locally one-to-one but overlaps itself, and separation is requested, it is
+/// relaxed toward an isometry until the parts separate. If they do not, an embedding is relaxed without letting its
+/// boundary touch itself (boundary_barrier.h). If that fails too, the map is kept.
 ///
 /// z: (V,), mostly counterclockwise, or empty for none. Throws Cancelled, SolveFailure, and as Factorization does.
 FoldFreeMap fold_free_map(const FoldFreePatch& patch, ComplexVector z, const Progress& progress = {});

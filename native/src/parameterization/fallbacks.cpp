@@ -45,7 +45,7 @@ class FallbackSearch {
     if (whole.size() > 0) z = whole.head(problem().patch->n_vertices);
     UnfoldedMap unfolded;
     try {
-      unfolded = unfold(problem(), {}, z, {true, false}, progress_);
+      unfolded = unfold(problem(), {}, z, {true, false, sizes_of(task_.patch)}, progress_);
     } catch (const SolveFailure&) {
       return;  // report the rejection of the map itself
     }

@@ -22,9 +22,9 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
   // Pins may hold the map mirrored, which is not a fold.
   const bool mirrored = !held.empty() && signed_area(energy, z) < 0;
   FoldFreeMap& map = result.fold_free;
-  map = fold_free_map(
-      {energy, patch.surface(), loops, held_vertices, problem.backend, options.is_refused, options.moves_apart},
-      mirrored ? ComplexVector(z.conjugate()) : z, progress);
+  map = fold_free_map({energy, patch.surface(), loops, held_vertices, problem.backend, options.is_refused,
+                       options.moves_apart, options.sizes},
+                      mirrored ? ComplexVector(z.conjugate()) : z, progress);
   if (mirrored) map.z = map.z.conjugate().eval();
   result.changed = options.is_refused || map.is_embedding || map.flipped != map.flipped_before ||
                    map.covered_itself != map.covers_itself;
@@ -40,6 +40,8 @@ UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const Compl
   result.mean_qc = chart_distortion(patch, map.z).mean_qc;
   return result;
 }
+
+double sizes_of(const PreparedPatch& patch) { return patch.has_metric ? 0 : patch.options.area_blend; }
 
 PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfolded) {
   const PatchOptions& asked = task.patch.options;
@@ -91,7 +93,7 @@ PatchMap unfolded(const SolveTask& task, PatchMap map, const Progress& progress)
   if (!task.options.fold_free || task.is_constrained() || (map.rejection && !task.held.empty())) return map;
   if (map.rejection) problem.drop_factor();  // the embedding makes its own factors
   Stopwatch watch(map.result.timings);
-  UnfoldedMap unfolded = unfold(problem, task.held, map.result.z, {false, true}, progress);
+  UnfoldedMap unfolded = unfold(problem, task.held, map.result.z, {false, true, sizes_of(task.patch)}, progress);
   map = with_unfolded(task, std::move(map), std::move(unfolded));
   watch.lap("unfolding");
   return map;

@@ -20,12 +20,17 @@ struct UnfoldedMap {
 struct UnfoldingOptions {
   bool is_refused = false;   ///< the map was rejected and is not placed: relax it as a whole
   bool moves_apart = false;  ///< see FoldFreePatch
+  double sizes = 0;          ///< likewise
 };
 
 /// Applies fold_free_map to the map z (V,) of a patch; an empty z means no map. Pins hold their vertices. Throws
 /// SolveFailure if the result has no area, and as fold_free_map does.
 UnfoldedMap unfold(const SpectralProblem& problem, const Pins& held, const ComplexVector& z,
                    const UnfoldingOptions& options, const Progress& progress);
+
+/// FoldFreePatch::sizes for a patch: PatchOptions::area_blend, by which embeddings keep sizes as the blended metric
+/// would. 0 with a metric of the caller's, whose shapes are gone once it is blended.
+double sizes_of(const PreparedPatch& patch);
 
 /// The unfolded or replaced map, or its rejection, with the steps that report the cost and the remaining folds.
 PatchMap with_unfolded(const SolveTask& task, PatchMap map, UnfoldedMap&& unfolded);

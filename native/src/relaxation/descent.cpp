@@ -236,9 +236,8 @@ class Relaxation {
 
   /// The energy above its infimum, attained by an isometry or a similarity.
   double excess(double energy) const {
-    const double infimum = options_.measure == DistortionMeasure::conformal ? 2 : 4;
     // The constant, an invisible distortion of 1e-4, stops the descent on developable charts, which have no excess.
-    return std::abs(energy - infimum) + 1e-4;
+    return std::abs(energy - options_.measure.infimum()) + 1e-4;
   }
 
   Step descend() {

@@ -38,15 +38,15 @@ struct Density {
 };
 
 Density density(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
-  if (std::isinf(element.regularization)) return {2 * j.half_square, 2, 0};
+  const double squares = 2 * j.half_square;  // s1^2 + s2^2
+  if (std::isinf(element.regularization)) return {squares, 2, 0};
+  // With the determinant D = s1 s2: squares times (1 - sizes) / D + sizes (1 + 1 / D^2).
   const RegularizedDeterminant determinant(j.determinant, element.regularization);
   const double inverse = 1 / determinant.value;
-  if (measure == DistortionMeasure::conformal) {
-    return {2 * j.half_square * inverse, 2 * inverse, -2 * j.half_square * inverse * inverse * determinant.slope};
-  }
-  const double inverse_square = inverse * inverse;
-  return {2 * j.half_square * (1 + inverse_square), 2 * (1 + inverse_square),
-          -4 * j.half_square * inverse_square * inverse * determinant.slope};
+  const double angles = (1 - measure.sizes) * inverse;
+  const double areas = measure.sizes * inverse * inverse;
+  const double factor = angles + measure.sizes + areas;
+  return {squares * factor, 2 * factor, -squares * (angles + 2 * areas) * inverse * determinant.slope};
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ MapJacobian jacobian(const DistortionElement& element, const ComplexVector& z) {
 DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasure measure, const MapJacobian& j) {
   if (std::isinf(element.regularization)) return {isometry, isometry};
   const double determinant = RegularizedDeterminant(j.determinant, element.regularization).value;
-  if (measure == DistortionMeasure::conformal) {
+  if (measure.sizes == 0) {
     if (!element.barrier()) {
       const double both = 4 / determinant * (1 + j.half_square / determinant);
       return {both, both};
@@ -82,6 +82,7 @@ DistortionStiffness stiffness(const DistortionElement& element, DistortionMeasur
     const double antiholomorphic = 8 * a * (a + 3 * b) / cube;
     return {8 * b * (3 * a + b) / cube + min_fraction * antiholomorphic, antiholomorphic};
   }
+  // Any share of sizes: the weight of the symmetric Dirichlet energy bounds that of the conformal distortion too.
   const double larger = std::abs(j.holomorphic) + std::abs(j.antiholomorphic);
   // SLIM's weight (Rabinovich et al. 2017, Table 1): the slope of s^2 + 1 / s^2 over s - 1, halved. The smaller
   // singular value has the larger weight, which majorizes.

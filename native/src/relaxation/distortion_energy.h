@@ -11,16 +11,21 @@
 
 namespace spectral_conformal {
 
-/// The distortion of a triangle as a function of the singular values s1 and s2 of its Jacobian. Both measures are
-/// unbounded as a triangle loses its image area.
-enum class DistortionMeasure {
-  /// s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2: 4 for an isometry (Smith and Schaefer, Bijective Parameterization with Free
-  /// Boundaries, 2015).
-  symmetric_dirichlet,
-  /// s1 / s2 + s2 / s1: 2 for a conformal map, at any scale (Hormann and Greiner, MIPS: An Efficient Global
-  /// Parametrization Method, 2000).
-  conformal
+/// The distortion of a triangle as a function of the singular values s1 and s2 of its Jacobian,
+///   (1 - sizes) (s1 / s2 + s2 / s1) + sizes (s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2),
+/// a blend of the conformal distortion, which any similarity minimizes (Hormann and Greiner, MIPS: An Efficient Global
+/// Parametrization Method, 2000), and the symmetric Dirichlet energy, which only an isometry minimizes (Smith and
+/// Schaefer, Bijective Parameterization with Free Boundaries, 2015). Unbounded as a triangle loses its image area.
+struct DistortionMeasure {
+  double sizes = 1;  ///< from 0, angles alone, to 1
+
+  double infimum() const { return 2 + 2 * sizes; }
+
+  static const DistortionMeasure symmetric_dirichlet;
+  static const DistortionMeasure conformal;
 };
+inline constexpr DistortionMeasure DistortionMeasure::symmetric_dirichlet{1};
+inline constexpr DistortionMeasure DistortionMeasure::conformal{0};
 
 /// One triangle in a distortion energy.
 struct DistortionElement {

@@ -9,7 +9,8 @@
 namespace spectral_conformal::test {
 namespace {
 
-constexpr DistortionMeasure measures[] = {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal};
+constexpr DistortionMeasure measures[] = {DistortionMeasure::symmetric_dirichlet, DistortionMeasure::conformal,
+                                          DistortionMeasure{0.3}};
 
 /// The flat map, moved a little.
 ComplexVector moved(const Patch& patch) {
@@ -63,6 +64,20 @@ TEST_CASE("weights are shares of the area; an isometry has 4 or 2, a similarity 
 
 TEST_CASE("the gradient is that of finite differences, soft elements included") {
   for (const DistortionMeasure measure : measures) check_gradient(measure);
+}
+
+TEST_CASE("the measure is linear in the share of sizes, least where both parts are") {
+  const Patch patch(bumpy_grid(4, 3));
+  const auto elements = patch.elements();
+  const ComplexVector z = moved(patch);
+  const double angles = energy_of(elements, DistortionMeasure::conformal, z);
+  const double sizes = energy_of(elements, DistortionMeasure::symmetric_dirichlet, z);
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    const DistortionMeasure measure{share};
+    CHECK(energy_of(elements, measure, z) == doctest::Approx((1 - share) * angles + share * sizes));
+    const Patch flat(flat_grid(4, 3));
+    CHECK(energy_of(flat.elements(), measure, flat_map(flat.positions)) == doctest::Approx(measure.infimum()));
+  }
 }
 
 TEST_CASE("a flipped triangle costs infinity behind a barrier and a finite amount without") {
