@@ -36,6 +36,7 @@ from ._native import Cancelled, InvalidMeshError, put_errors_into_words
 from ._options import OptionChanges, Options, SeamOptionChanges, SeamOptions
 from ._parameterization import Solver, parameterize
 from ._quality import distortion, face_distortion, map_defects
+from ._relaxation import Relaxation, RelaxedMap, relax
 from ._results import Chart, Charts, Distortion, FaceDistortion, MapDefects, Parameterization, SplitMesh, Unwrap
 from ._seams import Cuts, suggest_cuts, suggest_seams
 from ._threads import limit_threads
@@ -62,6 +63,8 @@ __all__ = [
     "Parameterization",
     "Pins",
     "Progress",
+    "Relaxation",
+    "RelaxedMap",
     "SeamOptionChanges",
     "SeamOptions",
     "SolveError",
@@ -80,6 +83,7 @@ __all__ = [
     "metric_from_direction",
     "metric_from_uv",
     "parameterize",
+    "relax",
     "suggest_cuts",
     "suggest_seams",
     "unwrap",

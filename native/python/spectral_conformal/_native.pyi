@@ -42,6 +42,22 @@ class Solver:
         progress: Progress | None,
     ) -> dict[str, Any]: ...
 
+class Relaxation:
+    def __init__(
+        self,
+        vertices: _Floats,
+        triangles: _Indices,
+        uv: _Floats,
+        fixed: _Flags | None,
+        weights: _Floats | None,
+        sizes: float,
+        tolerance: float,
+        fold_free: bool,
+        progress: Progress | None,
+    ) -> None: ...
+    def advance(self, n: int, progress: Progress | None) -> bool: ...
+    def state(self) -> dict[str, Any]: ...
+
 class UnwrapArguments:
     def __init__(
         self,

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "concurrency/listening.h"
 #include "relaxation/lbfgs.h"
@@ -139,13 +141,29 @@ class Relaxation {
       const State before = state();
       regularize(fraction);
       if (first) result_.energy_before = energy_;
-      result_.status = minimize(progress);
+      while (!advance(progress)) continue;
       if (!first && count_flipped(elements_, z_) >= count_flipped(elements_, before.z)) restore(before);
       if (result_.status == DescentStatus::enough || regularized_ == 0 || count_flipped(elements_, z_) == 0) break;
     }
     result_.energy = energy_;
     return result_;
   }
+
+  /// Begins the first round.
+  void start() {
+    regularize(1);
+    result_.energy = result_.energy_before = energy_;
+  }
+
+  /// Takes one step of a round. Returns whether it ended the round; result() then says how.
+  bool advance(const Progress& progress) {
+    const std::optional<DescentStatus> end = step(progress);
+    result_.energy = energy_;
+    if (end) result_.status = *end;
+    return end.has_value();
+  }
+
+  const Descent& result() const { return result_; }
 
  private:
   /// A relative decrease so large that the form is outdated, and a step cut to nearly nothing by barriers: a new factor
@@ -187,27 +205,29 @@ class Relaxation {
     result_.status = state.status;
   }
 
-  DescentStatus minimize(const Progress& progress) {
+  std::optional<DescentStatus> step(const Progress& progress) {
     constexpr int steps_per_factor = 10;  // together as expensive as about one factorization
-    while (result_.factorizations < options_.max_factorizations) {
-      const double done = static_cast<double>(result_.factorizations) / options_.max_factorizations;
+    if (steps_left_ == 0) {
+      if (result_.factorizations >= options_.max_factorizations) return DescentStatus::factorization_limit;
+      done_ = static_cast<double>(result_.factorizations) / options_.max_factorizations;
       lbfgs_.clear();
       if (!form_.factorize(z_, curvature(), result_.factorizations)) return DescentStatus::indefinite_form;
-      for (int k = 0; k < steps_per_factor; ++k) {
-        report(progress, done, "relax");
-        const Step step = descend();
-        if (step.length > 0) ++result_.iterations;
-        if (options_.is_enough && options_.is_enough(z_)) return DescentStatus::enough;
-        const bool small = step.relative_fall < options_.tolerance;
-        if (small && k == 0) {
-          const bool is_minimum = step.length >= short_step || step.promised_fall < options_.tolerance;
-          return is_minimum ? DescentStatus::converged : DescentStatus::stalled;
-        }
-        // A new factor allows larger steps if the energy changes quickly or barriers cut the steps short.
-        if (small || step.relative_fall > quick_fall || step.length < short_step) break;
-      }
+      steps_left_ = steps_per_factor;
     }
-    return DescentStatus::factorization_limit;
+    report(progress, done_, "relax");
+    const bool is_first = steps_left_ == steps_per_factor;
+    --steps_left_;
+    const Step step = descend();
+    if (step.length > 0) ++result_.iterations;
+    if (options_.is_enough && options_.is_enough(z_)) return DescentStatus::enough;
+    const bool small = step.relative_fall < options_.tolerance;
+    if (small && is_first) {
+      const bool is_minimum = step.length >= short_step || step.promised_fall < options_.tolerance;
+      return is_minimum ? DescentStatus::converged : DescentStatus::stalled;
+    }
+    // A new factor allows larger steps if the energy changes quickly or barriers cut the steps short.
+    if (small || step.relative_fall > quick_fall || step.length < short_step) steps_left_ = 0;
+    return std::nullopt;
   }
 
   /// The curvature of the boundary barrier.
@@ -283,6 +303,7 @@ class Relaxation {
       ++regularized_;
     });
     started_ = true;
+    steps_left_ = 0;
     if (options_.boundary != nullptr) pairs_ = options_.boundary->pairs_near(z_, ComplexVector::Zero(z_.size()));
     energy_ = evaluate(z_, gradient_);
   }
@@ -317,6 +338,8 @@ class Relaxation {
   double energy_ = 0;
   ComplexVector gradient_;
   int regularized_ = 0;   ///< elements
+  int steps_left_ = 0;    ///< with the present factor
+  double done_ = 0;       ///< fraction of the factorizations before it
   bool started_ = false;  ///< whether barriers were set
   Descent result_;
 };
@@ -327,5 +350,37 @@ Descent descend(std::vector<DistortionElement>& elements, const std::vector<char
                 FactorizationBackend backend, const DescentOptions& options, const Progress& progress) {
   return Relaxation(elements, fixed, z, backend, options).run(progress);
 }
+
+struct StepwiseDescent::State {
+  std::vector<DistortionElement> elements;
+  std::vector<char> fixed;
+  ComplexVector z;
+  Relaxation relaxation;
+  bool has_ended = false;
+
+  State(std::vector<DistortionElement> given, std::vector<char> fixed_vertices, ComplexVector start,
+        FactorizationBackend backend, const DescentOptions& options)
+      : elements(std::move(given)),
+        fixed(std::move(fixed_vertices)),
+        z(std::move(start)),
+        relaxation(elements, fixed, z, backend, options) {
+    relaxation.start();
+  }
+};
+
+StepwiseDescent::StepwiseDescent(std::vector<DistortionElement> elements, std::vector<char> fixed, ComplexVector z,
+                                 FactorizationBackend backend, const DescentOptions& options)
+    : state_(std::make_unique<State>(std::move(elements), std::move(fixed), std::move(z), backend, options)) {}
+StepwiseDescent::~StepwiseDescent() = default;
+StepwiseDescent::StepwiseDescent(StepwiseDescent&&) noexcept = default;
+
+bool StepwiseDescent::advance(const Progress& progress) {
+  if (!state_->has_ended) state_->has_ended = state_->relaxation.advance(progress);
+  return !state_->has_ended;
+}
+
+const ComplexVector& StepwiseDescent::z() const { return state_->z; }
+const std::vector<DistortionElement>& StepwiseDescent::elements() const { return state_->elements; }
+const Descent& StepwiseDescent::result() const { return state_->relaxation.result(); }
 
 }  // namespace spectral_conformal

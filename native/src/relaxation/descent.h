@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "linear_algebra/factorization.h"
@@ -55,5 +56,25 @@ struct Descent {
 /// must not move. Throws Cancelled, and as Factorization does.
 Descent descend(std::vector<DistortionElement>& elements, const std::vector<char>& fixed, ComplexVector& z,
                 FactorizationBackend backend, const DescentOptions& options, const Progress& progress = {});
+
+/// The first round of the same descent, step by step, so that a caller can show the map on its way. The form is
+/// analyzed once; the factor and the steps that it serves are kept from one call to the next.
+class StepwiseDescent {
+ public:
+  StepwiseDescent(std::vector<DistortionElement> elements, std::vector<char> fixed, ComplexVector z,
+                  FactorizationBackend backend, const DescentOptions& options);
+  ~StepwiseDescent();
+  StepwiseDescent(StepwiseDescent&&) noexcept;
+
+  /// Takes a step. Returns whether there may be more.
+  bool advance(const Progress& progress = {});
+  const ComplexVector& z() const;
+  const std::vector<DistortionElement>& elements() const;
+  const Descent& result() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace spectral_conformal

@@ -161,6 +161,24 @@ TEST_CASE("it can be cancelled") {
       Cancelled);
 }
 
+TEST_CASE("step by step it goes the same way") {
+  const Patch patch(bumpy_grid(10, 8));
+  const ComplexVector start = flat_map(patch.positions) + 0.1 * random_map(patch.positions.rows());
+  const DescentOptions options{DistortionMeasure{0.5}, 1e-6, 60};
+  auto elements = patch.elements();
+  ComplexVector z = start;
+  const Descent whole = descend(elements, {}, z, FactorizationBackend::automatic, options);
+  StepwiseDescent descent(patch.elements(), {}, start, FactorizationBackend::automatic, options);
+  CHECK(descent.z() == start);
+  int calls = 1;
+  while (descent.advance()) ++calls;
+  CHECK(calls >= whole.iterations);
+  CHECK(descent.z() == z);
+  CHECK(descent.result().energy == whole.energy);
+  CHECK(descent.result().status == whole.status);
+  CHECK_FALSE(descent.advance());
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "spectral_conformal/options.h"
+#include "spectral_conformal/progress.h"
+#include "spectral_conformal/types.h"
+
+namespace spectral_conformal {
+
+struct MapRelaxationOptions {
+  /// From 0, angles alone, to 1, the symmetric Dirichlet energy.
+  double sizes = 0.5;
+  /// An island ends when a step with a fresh factor removes less than this fraction of its energy above the minimum.
+  double tolerance = 1e-3;
+  bool fold_free = false;  ///< whether to unfold flipped triangles first
+  FactorizationBackend backend = FactorizationBackend::automatic;
+};
+
+/// Lowers the distortion of a given map, step by step. The energy is the mean, weighted by area and by the caller, of
+///   (1 - sizes) (s1 / s2 + s2 / s1) + sizes (s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2)
+/// over the triangles with a vertex that moves, where s1, s2 are the singular values of a triangle's Jacobian, at the
+/// scale at which the island has its area in 3D (Hormann and Greiner 2000, MIPS; Smith and Schaefer, Bijective
+/// Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 sizes, is an isometry up to scale. This is not the
+/// paper's.
+///
+/// Triangles that share vertices form an island; each relaxes on its own, and as its mirror image if it is mirrored.
+/// The number of flipped and of overlapping triangles of an island never rises: triangles with image area keep it, and
+/// the border does not touch itself unless it did so at the start. Step by step the energy falls; the one exception is
+/// a flipped triangle that gains area, whose finite substitute then gives way to its distortion.
+class MapRelaxation {
+ public:
+  /// positions: (V, 3) and z: (V,), finite at used vertices. triangles: (F, 3), wound alike; each edge should have at
+  /// most two. fixed: (V,) or empty: vertices that stay exactly where they are. weights: (F,) or empty: positive
+  /// factors of the areas. Throws Cancelled, and as Factorization does.
+  MapRelaxation(const Eigen::Ref<const Positions>& positions, const std::vector<std::array<int, 3>>& triangles,
+                ComplexVector z, const std::vector<char>& fixed, const std::vector<double>& weights,
+                const MapRelaxationOptions& options, const Progress& progress = {});
+  ~MapRelaxation();
+  MapRelaxation(MapRelaxation&&) noexcept;
+
+  /// Takes up to n steps on every island. Returns whether there may be more. Throws Cancelled, which leaves the map
+  /// after the last whole step, and as Factorization does.
+  bool advance(int n, const Progress& progress = {});
+
+  const ComplexVector& z() const;
+  double energy_before() const;  ///< of the given map (unfolded, if requested)
+  double energy() const;
+  int steps() const;           ///< taken on the island with the most
+  int flipped() const;         ///< triangles flipped or collapsed against their island, of those with area in 3D
+  bool has_converged() const;  ///< whether every island ended at its minimum, to the tolerance
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace spectral_conformal

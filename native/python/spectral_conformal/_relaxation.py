@@ -1,0 +1,181 @@
+"""Lower the distortion of a map that is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _native
+from ._arguments import Progress
+
+
+@dataclass(frozen=True)
+class RelaxedMap:
+    """The result of `relax`."""
+
+    uv: npt.NDArray[np.float64]
+    """(V, 2)"""
+    energy_before: float
+    """The mean energy of the given map, or with `fold_free` of the unfolded one; see `relax`."""
+    energy: float
+    """The mean energy of `uv`; at least 2 + 2 `sizes`."""
+    steps: int
+    """Steps taken, of the island with the most."""
+    flipped: int
+    """Triangles that are flipped or collapsed in `uv`, never more than before."""
+    converged: bool
+    """Whether every island ended at its minimum, to the tolerance."""
+
+
+class Relaxation:
+    """A map that relaxes a few steps at a time, so that a window can draw it on its way.
+
+        relaxation = sc.Relaxation(V, F, uv, fixed=held)
+        while relaxation.step(5):
+            draw(relaxation.uv)
+
+    The linear systems are analyzed once; steps continue where the last call ended, with the same map as one long call.
+    Threads that share an object take turns; a progress function must not call the object that called it.
+    """
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        uv: npt.ArrayLike,
+        *,
+        sizes: float = 0.5,
+        fixed: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        tolerance: float = 1e-3,
+        fold_free: bool = False,
+        progress: Progress | None = None,
+    ) -> None:
+        """Begin with a map. Arguments and errors are those of `relax`."""
+        vertices = _arguments.checked_vertices(vertices)
+        triangles = _arguments.checked_indices(triangles, "triangles", 3, len(vertices))
+        if not np.isfinite(vertices[triangles]).all():
+            raise ValueError(
+                "vertices has values that are not finite; every vertex that a triangle uses needs a position."
+            )
+        uv = _arguments.checked_floats(uv, "uv", 2)
+        if len(uv) != len(vertices):
+            raise ValueError(f"uv has {len(uv)} rows, but there are {len(vertices)} vertices.")
+        if not np.isfinite(uv[triangles]).all():
+            raise ValueError("uv has values that are not finite; every vertex that a triangle uses needs a point.")
+        first, second, third = triangles.T
+        twice = np.flatnonzero((first == second) | (second == third) | (third == first))
+        if len(twice):
+            raise ValueError(f"Triangle {twice[0]} has a vertex twice: {triangles[twice[0]].tolist()}.")
+        held = None if fixed is None else _arguments.checked_flags(fixed, "fixed", len(vertices), "vertex")
+        factors = None
+        if weights is not None:
+            factors = _arguments.checked_broadcast(weights, "weights", (len(triangles),))
+            if not (np.isfinite(factors) & (factors > 0)).all():
+                raise ValueError("weights must be positive and finite.")
+        self._native = _native.Relaxation(
+            vertices,
+            triangles,
+            uv,
+            held,
+            factors,
+            _arguments.checked_between(sizes, 0, 1, "sizes"),
+            _arguments.checked_between(tolerance, 0, 1, "tolerance"),
+            _arguments.checked_flag(fold_free, "fold_free"),
+            _arguments.checked_progress(progress),
+        )
+
+    def step(self, n: int = 1, *, progress: Progress | None = None) -> bool:
+        """Take up to `n` steps on every island. Return whether there may be more.
+
+        Raises:
+            Cancelled: `progress` returned False; the map is that of the last whole step.
+        """
+        return self._native.advance(_arguments.checked_count(n, "n"), _arguments.checked_progress(progress))
+
+    @property
+    def uv(self) -> npt.NDArray[np.float64]:
+        """(V, 2) the present map, a copy."""
+        return self._state()["uv"]
+
+    @property
+    def energy(self) -> float:
+        """The mean energy of the present map."""
+        return self._state()["energy"]
+
+    @property
+    def result(self) -> RelaxedMap:
+        """The present map with its figures."""
+        return RelaxedMap(**self._state())
+
+    def _state(self) -> dict[str, Any]:
+        return self._native.state()
+
+
+def relax(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    uv: npt.ArrayLike,
+    *,
+    sizes: float = 0.5,
+    fixed: npt.ArrayLike | None = None,
+    weights: npt.ArrayLike | None = None,
+    tolerance: float = 1e-3,
+    max_steps: int = 1000,
+    fold_free: bool = False,
+    progress: Progress | None = None,
+) -> RelaxedMap:
+    """Lower the distortion of a map: toward angles, sizes or both.
+
+    Minimizes the mean, over the area of the triangles that can move, of
+
+        (1 - sizes) (s1 / s2 + s2 / s1) + sizes (s1^2 + s2^2 + 1 / s1^2 + 1 / s2^2)
+
+    where s1 and s2 are the singular values of a triangle's Jacobian, at the scale at which its island has its area in
+    3D. The first part depends on angles alone (Hormann and Greiner 2000, MIPS); the second is the symmetric Dirichlet
+    energy (Smith and Schaefer, Bijective Parameterization with Free Boundaries, 2015). The minimum, 2 + 2 `sizes`, is
+    an isometry up to scale. This function is not part of the paper.
+
+    Triangles that share vertices form an island. Each relaxes on its own, where it lies; one that is mirrored as a
+    whole stays so. No island gets more flipped or overlapping triangles: triangles with image area keep it, and the
+    border does not touch itself unless it did so at the start. Islands may come to overlap each other.
+
+    Directions come from a reweighted Dirichlet form (Rabinovich et al., Scalable Locally Injective Mappings, 2017) with
+    L-BFGS steps between factorizations. Projected Newton takes two to five times as long to the same energy.
+
+    Args:
+        vertices: (V, 3) positions, finite where a triangle uses them.
+        triangles: (F, 3) vertex indices, wound alike. Split vertices at seams: see `Unwrap.split_vertices`.
+        uv: (V, 2) the map, finite where a triangle uses it.
+        sizes: from 0, angles alone, to 1.
+        fixed: (V,) bool: vertices that keep their UVs to the last bit, any number. By default none.
+        weights: (F,) positive factors of the triangles' areas.
+        tolerance: an island ends when a step with a fresh factor removes less than this fraction of its energy above
+            the minimum. 0: only `max_steps` and rounding end it.
+        max_steps: for each island.
+        fold_free: first unfold flipped triangles locally, as the option of that name does. Without it they are pulled
+            toward their island's orientation, too, but in the course of the descent. Overlaps are not moved apart.
+        progress: as in `parameterize`.
+
+    Raises:
+        ValueError: an array is not as described here.
+        TypeError: an argument has the wrong type.
+        Cancelled: `progress` returned False.
+        MemoryError: there is too little memory.
+    """
+    relaxation = Relaxation(
+        vertices,
+        triangles,
+        uv,
+        sizes=sizes,
+        fixed=fixed,
+        weights=weights,
+        tolerance=tolerance,
+        fold_free=fold_free,
+        progress=progress,
+    )
+    relaxation.step(max_steps, progress=progress)
+    return relaxation.result

@@ -1,0 +1,320 @@
+#include "spectral_conformal/map_relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "concurrency/listening.h"
+#include "geometry/signed_area.h"
+#include "graph/disjoint_sets.h"
+#include "injective/local_unfolding.h"
+#include "quality/overlap.h"
+#include "relaxation/descent.h"
+
+namespace spectral_conformal {
+namespace {
+
+using Triangles = std::vector<std::array<int, 3>>;
+
+/// The boundary of the triangles as closed walks: the edges of an odd number of triangles, of which every vertex has an
+/// even number.
+std::vector<BoundaryLoop> border_of(const Triangles& triangles) {
+  std::vector<std::array<int, 2>> edges;
+  edges.reserve(3 * triangles.size());
+  for_each_heard(triangles.size(), [&](std::size_t t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+      edges.push_back({low, high});
+    }
+  });
+  std::sort(edges.begin(), edges.end());
+  std::map<int, std::vector<int>> neighbors;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i;
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    if ((end - i) % 2 == 1) {
+      neighbors[edges[i][0]].push_back(edges[i][1]);
+      neighbors[edges[i][1]].push_back(edges[i][0]);
+    }
+    i = end;
+  }
+  std::vector<BoundaryLoop> loops;
+  for (auto& [first, open] : neighbors) {
+    while (!open.empty()) {
+      BoundaryLoop loop;
+      for (int v = first; loop.empty() || v != first;) {
+        loop.push_back(v);
+        std::vector<int>& ways = neighbors[v];
+        const int next = ways.back();
+        ways.pop_back();
+        std::vector<int>& back = neighbors[next];
+        back.erase(std::find(back.begin(), back.end(), v));
+        v = next;
+      }
+      loops.push_back(std::move(loop));
+    }
+  }
+  return loops;
+}
+
+int count_overlapping(const Triangles& triangles, const ComplexVector& z) {
+  const std::vector<bool> overlapping = overlapping_triangles(triangles, z);
+  return static_cast<int>(std::count(overlapping.begin(), overlapping.end(), true));
+}
+
+/// One island, in coordinates in which it has its area in 3D and is counterclockwise.
+class Island {
+ public:
+  /// triangles: of the island, on the indices into its `vertices`.
+  Island(std::vector<int> vertices, Triangles triangles) : vertices_(std::move(vertices)), all_(std::move(triangles)) {}
+
+  /// shapes and weights: per triangle; fixed: per vertex of the island, or empty; z: the whole map.
+  void begin(const std::vector<TriangleShape>& shapes, const std::vector<double>& weights, std::vector<char> fixed,
+             const MapRelaxationOptions& options, const Progress& progress, ComplexVector& z) {
+    fixed_ = std::move(fixed);
+    double area = 0;
+    double image_area = 0;
+    for (std::size_t t = 0; t < all_.size(); ++t) {
+      const auto& [a, b, c] = all_[t];
+      if (shapes[t].clamped) continue;
+      area += shapes[t].area();
+      image_area += 0.5 * cross(z[vertices_[b]] - z[vertices_[a]], z[vertices_[c]] - z[vertices_[a]]);
+    }
+    scale_ = std::sqrt(area / std::abs(image_area));
+    if (!(area > 0) || !std::isfinite(scale_) || !(scale_ > 0)) return;
+    is_mirrored_ = image_area < 0;
+    const Complex origin = z[vertices_.front()];
+    ComplexVector own(static_cast<Eigen::Index>(vertices_.size()));
+    for (Eigen::Index v = 0; v < own.size(); ++v) {
+      const Complex from_origin = z[vertices_[v]] - origin;
+      own[v] = scale_ * (is_mirrored_ ? std::conj(from_origin) : from_origin);
+    }
+
+    // Triangles that cannot move are left out.
+    Triangles moving;
+    std::vector<TriangleShape> their_shapes;
+    std::vector<double> their_weights;
+    for (std::size_t t = 0; t < all_.size(); ++t) {
+      if (is_held(all_[t])) {
+        if (!shapes[t].clamped && !is_positive(all_[t], own, unplaced)) ++flipped_and_held_;
+        continue;
+      }
+      moving.push_back(all_[t]);
+      their_shapes.push_back(shapes[t]);
+      their_weights.push_back(weights.empty() ? 1 : weights[t]);
+      if (!shapes[t].clamped) weight_ += their_weights.back() * shapes[t].area();
+    }
+    if (!(weight_ > 0) || !std::isfinite(weight_)) return;
+    const std::vector<TriangleWeight> whole(moving.size());
+    std::vector<DistortionElement> elements = distortion_elements(moving, their_shapes, whole, 0);
+    double sum = 0;
+    for (std::size_t t = 0; t < moving.size(); ++t) sum += (elements[t].weight *= their_weights[t]);
+    for (DistortionElement& element : elements) element.weight /= sum;
+
+    const ComplexVector given = own;
+    if (options.fold_free && count_flipped(elements, own, unplaced) > 0) {
+      unfold_locally(elements, fixed_, options.backend, own, progress);
+    }
+    overlapping_ = count_overlapping(all_, own);
+    flipped_ = count_flipped(elements, own, unplaced);
+    written_ = given;
+    write(own, z);
+    DescentOptions descent;
+    descent.measure = {options.sizes};
+    descent.tolerance = options.tolerance;
+    descent.max_factorizations = std::numeric_limits<int>::max();
+    descent.keep_all_barriers = true;
+    const std::vector<BoundaryLoop> border = border_of(all_);
+    if (has_free_vertex(border)) descent.boundary = &border_.emplace(border, own);
+    descent_.emplace(std::move(elements), fixed_, std::move(own), options.backend, descent);
+  }
+
+  bool can_advance() const { return descent_ && !has_ended_; }
+
+  /// Takes a step and writes it into the map z, unless it adds flipped or overlapping triangles.
+  void advance(const Progress& progress, ComplexVector& z) {
+    has_ended_ = !descent_->advance(progress);
+    const int flipped = count_flipped(descent_->elements(), descent_->z(), unplaced);
+    // Without overlaps, the barrier of the border keeps it so.
+    const int overlapping = overlapping_ == 0 ? 0 : count_overlapping(all_, descent_->z());
+    if (flipped > flipped_ || overlapping > overlapping_) {
+      has_ended_ = is_rejected_ = true;
+      return;
+    }
+    flipped_ = flipped;
+    overlapping_ = overlapping;
+    energy_ = descent_->result().energy;
+    steps_ = descent_->result().iterations;
+    write(descent_->z(), z);
+  }
+
+  double weight() const { return descent_ ? weight_ : 0; }
+  double energy_before() const { return descent_->result().energy_before; }
+  double energy() const { return steps_ > 0 ? energy_ : energy_before(); }
+  int steps() const { return steps_; }
+  int flipped() const { return flipped_ + flipped_and_held_; }
+  bool has_converged() const {
+    return !descent_ || (has_ended_ && !is_rejected_ && descent_->result().status == DescentStatus::converged);
+  }
+
+ private:
+  bool is_held(const std::array<int, 3>& triangle) const {
+    if (fixed_.empty()) return false;
+    return std::all_of(triangle.begin(), triangle.end(), [&](int v) { return fixed_[v] != 0; });
+  }
+  bool has_free_vertex(const std::vector<BoundaryLoop>& loops) const {
+    return std::any_of(loops.begin(), loops.end(), [&](const BoundaryLoop& loop) {
+      return fixed_.empty() || std::any_of(loop.begin(), loop.end(), [&](int v) { return !fixed_[v]; });
+    });
+  }
+
+  /// Adds the way of the vertices that moved, so that the others keep every bit.
+  void write(const ComplexVector& own, ComplexVector& z) {
+    for (Eigen::Index v = 0; v < own.size(); ++v) {
+      if (own[v] == written_[v]) continue;
+      const Complex way = (own[v] - written_[v]) / scale_;
+      z[vertices_[v]] += is_mirrored_ ? std::conj(way) : way;
+    }
+    written_ = own;
+  }
+
+  std::vector<int> vertices_;
+  Triangles all_;
+  std::vector<char> fixed_;
+  double scale_ = 0;
+  bool is_mirrored_ = false;
+  ComplexVector written_;  ///< the map as it stands, in these coordinates
+  double weight_ = 0;
+  int flipped_ = 0;  ///< of the triangles that move
+  int flipped_and_held_ = 0;
+  int overlapping_ = 0;
+  double energy_ = 0;
+  int steps_ = 0;
+  bool has_ended_ = false;
+  bool is_rejected_ = false;
+  std::optional<BoundaryBarrier> border_;
+  std::optional<StepwiseDescent> descent_;
+};
+
+}  // namespace
+
+struct MapRelaxation::State {
+  ComplexVector z;
+  std::vector<Island> islands;
+
+  /// The mean over the islands.
+  template <class Energy>
+  double mean(const Energy& energy_of) const {
+    double sum = 0;
+    double weight = 0;
+    for (const Island& island : islands) {
+      if (!(island.weight() > 0)) continue;
+      sum += island.weight() * energy_of(island);
+      weight += island.weight();
+    }
+    return weight > 0 ? sum / weight : 0;
+  }
+};
+
+MapRelaxation::MapRelaxation(const Eigen::Ref<const Positions>& positions,
+                             const std::vector<std::array<int, 3>>& triangles, ComplexVector z,
+                             const std::vector<char>& fixed, const std::vector<double>& weights,
+                             const MapRelaxationOptions& options, const Progress& progress)
+    : state_(std::make_unique<State>()) {
+  const Listening listening(progress, "relax");
+  state_->z = std::move(z);
+  const auto n = static_cast<int>(state_->z.size());
+  DisjointSets sets(n);
+  for (const auto& [a, b, c] : triangles) {
+    sets.unite(a, b);
+    sets.unite(a, c);
+  }
+  std::vector<int> island(static_cast<std::size_t>(n), -1);
+  int n_islands = 0;
+  for (const auto& triangle : triangles) {
+    int& of_root = island[sets.find(triangle[0])];
+    if (of_root < 0) of_root = n_islands++;
+  }
+  std::vector<std::vector<int>> vertices(static_cast<std::size_t>(n_islands));
+  std::vector<std::vector<int>> members(static_cast<std::size_t>(n_islands));
+  std::vector<int> index(static_cast<std::size_t>(n));
+  for (int v = 0; v < n; ++v) {
+    const int k = island[sets.find(v)];
+    if (k < 0) continue;
+    index[v] = static_cast<int>(vertices[k].size());
+    vertices[k].push_back(v);
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    members[island[sets.find(triangles[t][0])]].push_back(static_cast<int>(t));
+  // Islands hold references into themselves.
+  state_->islands.reserve(static_cast<std::size_t>(n_islands));
+  for (int k = 0; k < n_islands; ++k) {
+    Triangles own;
+    std::vector<TriangleShape> shapes;
+    std::vector<double> own_weights;
+    for (const int t : members[k]) {
+      const auto& [a, b, c] = triangles[t];
+      own.push_back({index[a], index[b], index[c]});
+      shapes.push_back(local_isometric_frame(positions.row(a), positions.row(b), positions.row(c)));
+      if (!weights.empty()) own_weights.push_back(weights[t]);
+    }
+    std::vector<char> held;
+    for (const int v : vertices[k]) {
+      if (!fixed.empty()) held.push_back(fixed[v]);
+    }
+    if (std::find(held.begin(), held.end(), 1) == held.end()) held.clear();
+    still_working(300 * static_cast<double>(own.size()));
+    state_->islands.emplace_back(std::move(vertices[k]), std::move(own));
+    state_->islands.back().begin(shapes, own_weights, std::move(held), options, listening.progress(), state_->z);
+  }
+}
+
+MapRelaxation::~MapRelaxation() = default;
+MapRelaxation::MapRelaxation(MapRelaxation&&) noexcept = default;
+
+bool MapRelaxation::advance(int n, const Progress& progress) {
+  const Listening listening(progress, "relax");
+  const auto goes_on = [&] {
+    return std::any_of(state_->islands.begin(), state_->islands.end(), [](const Island& i) { return i.can_advance(); });
+  };
+  for (int k = 0; k < n && goes_on(); ++k) {
+    const Progress within = [&](double, const char* phase) {
+      return !progress || listening.progress()(static_cast<double>(k) / n, phase);
+    };
+    for (Island& island : state_->islands) {
+      if (island.can_advance()) island.advance(within, state_->z);
+    }
+  }
+  return goes_on();
+}
+
+const ComplexVector& MapRelaxation::z() const { return state_->z; }
+
+double MapRelaxation::energy_before() const {
+  return state_->mean([](const Island& island) { return island.energy_before(); });
+}
+
+double MapRelaxation::energy() const {
+  return state_->mean([](const Island& island) { return island.energy(); });
+}
+
+int MapRelaxation::steps() const {
+  int steps = 0;
+  for (const Island& island : state_->islands) steps = std::max(steps, island.steps());
+  return steps;
+}
+
+int MapRelaxation::flipped() const {
+  int flipped = 0;
+  for (const Island& island : state_->islands) flipped += island.flipped();
+  return flipped;
+}
+
+bool MapRelaxation::has_converged() const {
+  return std::all_of(state_->islands.begin(), state_->islands.end(), [](const Island& i) { return i.has_converged(); });
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`relax` and `Relaxation`: lower distortion from the present map, and nothing that was right gets wrong."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+SIZES = [0.0, 0.5, 1.0]
+
+
+def bumpy(n=12):
+    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
+    z = 0.6 * np.exp(-4 * (x**2 + y**2)) + 0.2 * np.sin(3 * x + 1) * y
+    i = np.arange(n * n).reshape(n, n)
+    a, b, c, d = i[:-1, :-1].ravel(), i[1:, :-1].ravel(), i[1:, 1:].ravel(), i[:-1, 1:].ravel()
+    return np.c_[x.ravel(), y.ravel(), z.ravel()], np.r_[np.c_[a, b, c], np.c_[a, c, d]]
+
+
+def flat(n=12):
+    vertices, triangles = bumpy(n)
+    return vertices * [1, 1, 0], triangles
+
+
+def border_of(vertices):
+    return (np.abs(vertices[:, :2]) > 1 - 1e-9).any(axis=1)
+
+
+def shaken(uv, free, amount, seed=0):
+    moved = uv.copy()
+    moved[free] += np.random.default_rng(seed).uniform(-amount, amount, (int(free.sum()), 2))
+    return moved
+
+
+def energy_of(vertices, triangles, uv, sizes):
+    """The formula of `relax`, at the scale at which the map has the area of the surface."""
+    p = vertices[triangles]
+    first, second = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
+    x1 = np.linalg.norm(first, axis=1)
+    x2 = (first * second).sum(axis=1) / x1
+    y2 = np.linalg.norm(np.cross(first, second), axis=1) / x1
+    q = uv[triangles]
+    d1, d2 = q[:, 1] - q[:, 0], q[:, 2] - q[:, 0]
+    image_area = 0.5 * (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]).sum()
+    by_x = d1 / x1[:, None]
+    by_y = (d2 - by_x * x2[:, None]) / y2[:, None]
+    s = np.linalg.svd(np.stack([by_x, by_y], axis=2), compute_uv=False) * np.sqrt((0.5 * x1 * y2).sum() / image_area)
+    angles = s[:, 0] / s[:, 1] + s[:, 1] / s[:, 0]
+    return np.average((1 - sizes) * angles + sizes * (s**2 + s**-2.0).sum(axis=1), weights=x1 * y2)
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+def test_the_energy_is_that_of_the_formula_and_falls_at_every_step(sizes):
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    relaxation = sc.Relaxation(vertices, triangles, uv, sizes=sizes, tolerance=1e-6)
+    energy = relaxation.energy
+    assert energy == pytest.approx(energy_of(vertices, triangles, uv, sizes), rel=1e-12)
+    steps = 0
+    while relaxation.step():
+        assert relaxation.energy <= energy
+        energy = relaxation.energy
+        steps += 1
+    assert steps > 2
+    result = relaxation.result
+    assert 2 + 2 * sizes < result.energy < result.energy_before
+    assert result.converged
+    assert result.flipped == 0
+    assert not sc.distortion(vertices, triangles, result.uv).overlapping.any()
+
+
+def test_more_sizes_even_out_the_areas():
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    maps = [sc.relax(vertices, triangles, uv, sizes=sizes, tolerance=1e-5).uv for sizes in SIZES]
+    spread = [sc.distortion(vertices, triangles, each).log2_scale_deviation for each in maps]
+    qc = [sc.distortion(vertices, triangles, each).mean_qc for each in maps]
+    assert spread[0] > spread[1] > spread[2]
+    assert qc[0] < qc[1] < qc[2]
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+def test_from_any_start_with_a_convex_border_it_ends_in_one_energy(sizes):
+    vertices, triangles = bumpy()
+    fixed = border_of(vertices)
+    ends = []
+    for seed in range(3):
+        start = shaken(vertices[:, :2], ~fixed, 0.04, seed)
+        assert not sc.distortion(vertices, triangles, start).flipped.any()
+        end = sc.relax(vertices, triangles, start, sizes=sizes, fixed=fixed, tolerance=1e-9)
+        assert end.energy < end.energy_before
+        ends.append(end)
+    for end in ends[1:]:
+        assert end.energy == pytest.approx(ends[0].energy, rel=1e-9)
+        assert np.abs(end.uv - ends[0].uv).max() < 1e-4
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_fixed_border_of_a_similarity_gives_the_similarity_back(sizes, mirrored):
+    vertices, triangles = flat()
+    turn = 2.5 * np.array([[np.cos(0.3), -np.sin(0.3)], [np.sin(0.3), np.cos(0.3)]])
+    similar = vertices[:, :2] * [1, -1 if mirrored else 1] @ turn.T + [30, -1]
+    fixed = border_of(vertices)
+    start = shaken(similar, ~fixed, 0.1)
+    result = sc.relax(vertices, triangles, start, sizes=sizes, fixed=fixed, tolerance=1e-10)
+    assert np.array_equal(result.uv[fixed], start[fixed])
+    assert np.abs(result.uv - similar).max() < 1e-6
+    assert result.energy == pytest.approx(2 + 2 * sizes, abs=1e-9)
+
+
+def test_fixed_vertices_keep_every_bit_wherever_they_are():
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv / 3 + [0.1, 0.7]
+    rng = np.random.default_rng(1)
+    for share in (0.02, 0.5, 0.95, 1.0):
+        fixed = rng.random(len(uv)) < share
+        result = sc.relax(vertices, triangles, uv, fixed=fixed, sizes=1)
+        assert np.array_equal(result.uv[fixed], uv[fixed])
+        assert (share == 1) == np.array_equal(result.uv, uv)
+
+
+def test_steps_in_any_portions_end_in_the_same_map():
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    whole = sc.relax(vertices, triangles, uv, sizes=1)
+    relaxation = sc.Relaxation(vertices, triangles, uv, sizes=1)
+    while relaxation.step(3):
+        pass
+    assert np.array_equal(relaxation.uv, whole.uv)
+    assert relaxation.step(5) is False
+    few = sc.relax(vertices, triangles, uv, sizes=1, max_steps=2)
+    assert few.steps == 2
+    assert not few.converged
+    assert few.energy > whole.energy
+
+
+def test_islands_relax_as_each_does_alone():
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    both = np.r_[vertices, 2 * vertices + [9, 0, 0]], np.r_[triangles, triangles + len(vertices)]
+    alone = sc.relax(vertices, triangles, uv)
+    together = sc.relax(*both, np.r_[uv, uv * [-0.1, 0.1] + [5, 5]])
+    assert np.array_equal(together.uv[: len(uv)], alone.uv)
+    assert np.abs(together.uv[len(uv) :] - (alone.uv * [-0.1, 0.1] + [5, 5])).max() < 1e-6
+    assert together.energy == pytest.approx(alone.energy, rel=1e-6)
+
+
+def test_no_more_flips_and_with_fold_free_none():
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    middle = len(uv) // 2 + 6
+    uv[middle] += [0.45, 0.1]
+    before = sc.distortion(vertices, triangles, uv).flipped.sum()
+    assert before > 0
+    assert sc.relax(vertices, triangles, uv, max_steps=1).flipped <= before
+    result = sc.relax(vertices, triangles, uv, fold_free=True)
+    assert result.flipped == 0
+    assert not sc.distortion(vertices, triangles, result.uv).flipped.any()
+    # Nowhere to go: every neighbor is held.
+    fixed = np.ones(len(uv), bool)
+    fixed[0] = False
+    held = sc.relax(vertices, triangles, uv, fixed=fixed, fold_free=True)
+    assert held.flipped == before
+
+
+def test_the_border_does_not_cover_itself():
+    vertices, faces = meshes.spiral_ramp(1.5)
+    faces = np.asarray(faces)
+    triangles = faces if faces.shape[1] == 3 else np.vstack([faces[:, :3], faces[:, [0, 2, 3]]])
+    apart = sc.parameterize(vertices, triangles, fold_free=True).uv
+    assert not sc.distortion(vertices, triangles, apart).overlapping.any()
+    relaxed = sc.relax(vertices, triangles, apart, sizes=1, tolerance=1e-5)
+    after = sc.distortion(vertices, triangles, relaxed.uv)
+    assert not after.overlapping.any()
+    assert relaxed.energy < relaxed.energy_before
+    # One that covers itself at the start does so no more than before.
+    covering = sc.parameterize(vertices, triangles).uv
+    count = sc.distortion(vertices, triangles, covering).overlapping.sum()
+    assert count > 0
+    relaxed = sc.relax(vertices, triangles, covering, sizes=1)
+    assert sc.distortion(vertices, triangles, relaxed.uv).overlapping.sum() <= count
+
+
+def test_weights_draw_the_distortion_elsewhere():
+    vertices, triangles = bumpy()
+    uv = sc.parameterize(vertices, triangles).uv
+    right = vertices[triangles].mean(axis=1)[:, 0] > 0
+    plain = sc.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6).uv
+    same = sc.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6, weights=np.full(len(triangles), 7.0)).uv
+    assert np.abs(same - plain).max() < 1e-6
+    weighted = sc.relax(vertices, triangles, uv, sizes=1, tolerance=1e-6, weights=np.where(right, 100.0, 1.0)).uv
+
+    def spread(each):
+        return np.std(sc.distortion(vertices, triangles, each).log2_scale[right])
+
+    assert spread(weighted) < spread(plain)
+
+
+def test_threads_do_not_matter_and_a_refusal_cancels():
+    vertices, triangles = bumpy(100)
+    uv = sc.parameterize(vertices, triangles).uv
+    free = sc.relax(vertices, triangles, uv, sizes=1)
+    before = sc.limit_threads(1)
+    try:
+        alone = sc.relax(vertices, triangles, uv, sizes=1)
+    finally:
+        sc.limit_threads(before)
+    assert np.array_equal(free.uv, alone.uv)
+    with pytest.raises(sc.Cancelled):
+        sc.relax(vertices, triangles, uv, progress=lambda fraction, phase: False)
+    calls = []
+    relaxation = sc.Relaxation(vertices, triangles, uv, sizes=1)
+    with pytest.raises(sc.Cancelled):
+        relaxation.step(1000, progress=lambda fraction, phase: calls.append(fraction) or len(calls) < 4)
+    assert calls == sorted(calls)
+    while relaxation.step():
+        pass
+    assert relaxation.energy == pytest.approx(free.energy, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"uv": np.zeros((3, 2))}, "uv has 3 rows, but there are 144 vertices"),
+        ({"uv": np.full((144, 2), np.nan)}, "uv has values that are not finite"),
+        ({"sizes": 1.5}, "sizes must lie between 0 and 1"),
+        ({"tolerance": -1}, "tolerance must lie between 0 and 1"),
+        ({"fixed": np.zeros(3, bool)}, "fixed must be 144 booleans, one per vertex"),
+        ({"weights": np.zeros(242)}, "weights must be positive and finite"),
+        ({"triangles": [[0, 0, 1]]}, "Triangle 0 has a vertex twice"),
+    ],
+)
+def test_what_cannot_be_used_is_named(changes, words):
+    vertices, triangles = bumpy()
+    arguments = {"vertices": vertices, "triangles": triangles, "uv": vertices[:, :2].copy(), **changes}
+    with pytest.raises(ValueError, match=words):
+        sc.relax(**arguments)
+
+
+def test_what_has_no_area_stays():
+    vertices, triangles = bumpy()
+    for uv in (np.zeros((144, 2)), np.c_[np.arange(144.0), np.zeros(144)]):
+        result = sc.relax(vertices, triangles, uv)
+        assert np.array_equal(result.uv, uv)
+    point = sc.relax(np.zeros((144, 3)), triangles, vertices[:, :2])
+    assert np.array_equal(point.uv, vertices[:, :2])
+    nothing = sc.relax(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 2)))
+    assert nothing.uv.shape == (0, 2)
