@@ -144,7 +144,7 @@ def relax(
     border does not touch itself unless it did so at the start. Islands may come to overlap each other.
 
     Directions come from a reweighted Dirichlet form (Rabinovich et al., Scalable Locally Injective Mappings, 2017) with
-    L-BFGS steps between factorizations. Projected Newton takes two to five times as long to the same energy.
+    L-BFGS steps between factorizations.
 
     Args:
         vertices: (V, 3) positions, finite where a triangle uses them.
