@@ -24,7 +24,7 @@ HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vec
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {
     "CHOLMOD": (r"cholmod|umfpack|SuiteSparse", {"cholmod_factorization.cpp"}),
-    "Spectra": (r"Spectra/", {"eigenproblem.cpp"}),
+    "Spectra": (r"Spectra/", {"eigenproblem.cpp", "constrained_eigenproblem.cpp"}),
     "Boost.Graph": (r"boost/graph/", {"maximum_flow.cpp"}),
     "CGAL": (r"CGAL/|boost/", {"orientation.cpp", "polygon_triangulation.cpp"}),
     "Python": (r"pybind11|Python\.h|numpy/", {path.name for path in BINDINGS}),

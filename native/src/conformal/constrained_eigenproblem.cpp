@@ -30,16 +30,6 @@ Unknown unknown_of(const LinearConstraints& constraints, int coordinate) {
   return {constraints.unknown[i], static_cast<double>(constraints.sign[i])};
 }
 
-/// P^T x for the coordinates x of a complex vector.
-VectorXd gathered(const LinearConstraints& constraints, const ComplexVector& z) {
-  VectorXd w = VectorXd::Zero(constraints.n_unknowns);
-  for (int c = 0; c < 2 * z.size(); ++c) {
-    const Unknown to = unknown_of(constraints, c);
-    if (to.index >= 0) w[to.index] += to.sign * (c % 2 == 0 ? z[c / 2].real() : z[c / 2].imag());
-  }
-  return w;
-}
-
 /// The lower triangle of P^T L P, where L acts on real coordinates: an entry a + i b of the complex form in row i and
 /// column j stands for the block [a, -b; b, a].
 HermitianMatrix reduced_matrix(const ConformalEnergy& energy, const LinearConstraints& constraints) {
@@ -85,17 +75,6 @@ BoundaryForm reduced_form(const BoundaryForm& form, const LinearConstraints& con
     result.mass[static_cast<Eigen::Index>(i)] = mass[result.vertices[i]];
   }
   return result;
-}
-
-/// The translation along an axis (0: u, 1: v) as w; empty if the constraints do not allow it, as across a mirror axis.
-VectorXd translation(const LinearConstraints& constraints, int axis) {
-  VectorXd along = VectorXd::Zero(constraints.n_unknowns);
-  for (int c = axis; c < static_cast<int>(constraints.unknown.size()); c += 2) {
-    const Unknown to = unknown_of(constraints, c);
-    if (to.index < 0 || along[to.index] == -to.sign) return {};
-    along[to.index] = to.sign;
-  }
-  return along;
 }
 
 /// The operator T of eigenproblem.h on the unknowns that carry mass, in real numbers.
@@ -186,43 +165,6 @@ VectorXd largest_eigenvector(const ConstrainedOperator& op, VectorXd start) {
 
 }  // namespace
 
-bool allows_translation(const LinearConstraints& constraints, int axis) {
-  return translation(constraints, axis).size() > 0;
-}
-
-LinearConstraints restricted(const LinearConstraints& constraints, const std::vector<int>& vertices, int n_free) {
-  LinearConstraints result;
-  std::vector<int> renumbered(static_cast<std::size_t>(constraints.n_unknowns), -1);
-  for (const int vertex : vertices) {
-    for (const int c : {2 * vertex, 2 * vertex + 1}) {
-      const auto i = static_cast<std::size_t>(c);
-      int unknown = constraints.unknown[i];
-      if (unknown >= 0) {
-        int& number = renumbered[static_cast<std::size_t>(unknown)];
-        if (number < 0) number = result.n_unknowns++;
-        unknown = number;
-      }
-      result.unknown.push_back(unknown);
-      result.sign.push_back(constraints.sign[i]);
-    }
-  }
-  for (int i = 0; i < 2 * n_free; ++i) {
-    result.unknown.push_back(result.n_unknowns++);
-    result.sign.push_back(1);
-  }
-  return result;
-}
-
-ComplexVector expanded(const LinearConstraints& constraints, const VectorXd& w) {
-  ComplexVector z(static_cast<Eigen::Index>(constraints.unknown.size() / 2));
-  const auto value = [&](int coordinate) {
-    const Unknown from = unknown_of(constraints, coordinate);
-    return from.index < 0 ? 0.0 : from.sign * w[from.index];
-  };
-  for (int v = 0; v < z.size(); ++v) z[v] = Complex(value(2 * v), value(2 * v + 1));
-  return z;
-}
-
 ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energy, const BoundaryForm& form,
                                                     const LinearConstraints& constraints, const Positions& positions,
                                                     double relative_shift, FactorizationBackend backend,
@@ -242,7 +184,7 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
 
   std::vector<VectorXd> constants;
   for (const int axis : {0, 1}) {
-    VectorXd along = translation(constraints, axis);
+    VectorXd along = constraints.translation(axis);
     if (along.size() > 0) constants.push_back(std::move(along));
   }
   ConstrainedOperator op(*factor.factorization, reduced, constants, part(progress, 0.6, 1.0));
@@ -251,7 +193,7 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
   for (std::size_t i = 0; i < form.vertices.size(); ++i) {
     circle[form.vertices[i]] = std::sqrt(form.mass[static_cast<Eigen::Index>(i)]) * on_boundary[i];
   }
-  VectorXd start = VectorXd(gathered(constraints, circle)(reduced.vertices)).cwiseQuotient(reduced.mass.cwiseSqrt());
+  VectorXd start = VectorXd(constraints.gathered(circle)(reduced.vertices)).cwiseQuotient(reduced.mass.cwiseSqrt());
   VectorXd y = largest_eigenvector(op, std::move(start));
   result.pair.solves = op.solves();
   if (y.size() == 0) return result;
@@ -266,10 +208,10 @@ ConstrainedEigenpair solve_constrained_eigenproblem(const ConformalEnergy& energ
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < max_corrections; ++k) {
     for (const VectorXd& constant : constants) w -= constant.dot(w) / constant.squaredNorm() * constant;
-    result.pair.vector = expanded(constraints, w);
+    result.pair.vector = constraints.expanded(w);
     const double lambda = eigen_residual(energy, quotient, result.pair.vector, residual);
     result.pair.mu = 1 / lambda;
-    factor.factorization->solve(gathered(constraints, residual).cast<Complex>(), solved);
+    factor.factorization->solve(constraints.gathered(residual).cast<Complex>(), solved);
     ++result.pair.solves;
     VectorXd change = solved.real();
     for (const VectorXd& constant : constants) change -= constant.dot(change) / constant.squaredNorm() * constant;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
 #include "conformal/eigenproblem.h"
@@ -11,15 +9,6 @@
 #include "spectral_conformal/types.h"
 
 namespace spectral_conformal {
-
-/// The constraints of these vertices of a mesh, in their order, and of `n_free` further ones without any.
-LinearConstraints restricted(const LinearConstraints& constraints, const std::vector<int>& vertices, int n_free);
-
-/// Whether all vertices may move along an axis (0: u, 1: v): not across a mirror axis.
-bool allows_translation(const LinearConstraints& constraints, int axis);
-
-/// The map P w as complex numbers. w: (unknowns,).
-ComplexVector expanded(const LinearConstraints& constraints, const Eigen::VectorXd& w);
 
 /// Eq. 5 with linear constraints. They single out directions, so the complex form of the energy no longer represents
 /// the problem: its real form on the 2V coordinates x does, and the constraints x = P w reduce it to

@@ -19,8 +19,8 @@ void place_without_turn(const SpectralProblem& problem, const LinearConstraints&
   const double area = problem.energy.area() * patch.scale * patch.scale;
   const double scale = std::copysign(std::sqrt(area / signed_area(problem.energy, z)), turn.real());
   const Complex mean = z.mean();
-  const Complex origin(allows_translation(constraints, 0) ? mean.real() : 0.0,
-                       allows_translation(constraints, 1) ? mean.imag() : 0.0);
+  const Complex origin(constraints.translation(0).size() > 0 ? mean.real() : 0.0,
+                       constraints.translation(1).size() > 0 ? mean.imag() : 0.0);
   for (Complex& point : z) point = scale * (point - origin);
 }
 

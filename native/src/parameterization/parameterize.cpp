@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "concurrency/listening.h"
-#include "conformal/constrained_eigenproblem.h"
 #include "conformal/correction.h"
 #include "mesh/chart_checks.h"
 #include "mesh/charts.h"
@@ -163,7 +162,7 @@ SolveOptions Solver::State::in_chart(const SolveOptions& options) const {
       chart_vertices.resize(static_cast<std::size_t>(normalized.n_vertices));
       std::iota(chart_vertices.begin(), chart_vertices.end(), 0);
     }
-    result.constraints = restricted(options.constraints, chart_vertices, n_filled);
+    result.constraints = options.constraints.restricted(chart_vertices, n_filled);
   }
   if (vertices.empty()) return result;
   for (Extender& extender : result.extenders) {
