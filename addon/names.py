@@ -43,12 +43,13 @@ MAP_OVERLAY_PROPERTY = "spectral_map_overlay"
 ISLANDS_PROPERTY = "spectral_islands"
 ACTIVE_ISLAND_PROPERTY = "spectral_islands_active"
 
-# Properties of meshes: the list of extenders, the index of the active one, and the name of the vertex layer of
-# their identifiers. The layer's name is the prefix and a digest of the list; the dot hides it in Blender.
+# Properties of meshes: the list of extenders, and the index of the active one.
 EXTENDERS_PROPERTY = "spectral_extenders"
 ACTIVE_EXTENDER_PROPERTY = "spectral_extenders_active"
-EXTENDER_LAYER_PROPERTY = "spectral_extenders_layer"
-EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
+# Starts the name of the vertex layer of an extender; the dot hides it in Blender.
+EXTENDER_LAYER_PREFIX = ".spectral_extender:"
+# Starts the name of the vertex layer with the identifiers of all extenders in files of version 1.
+FORMER_EXTENDER_LAYER_PREFIX = ".spectral_extenders:"
 
 ADD_EXTENDER_OPERATOR = "mesh.spectral_extender_add"
 REMOVE_EXTENDER_OPERATOR = "mesh.spectral_extender_remove"

@@ -28,7 +28,7 @@ from .unwrapping import island_list
 
 
 def _on_change(extender: PropertyGroup, _context: Context) -> None:
-    if storage.changed(extender):
+    if storage.rename_layer(extender):
         following.on_extender_change(extender.id_data)
 
 
@@ -42,8 +42,10 @@ class SpectralExtender(PropertyGroup):
     name: StringProperty(**texts.EXTENDER_NAME_PROPERTY, update=_on_change)
     strength: FloatProperty(**storage.STRENGTH, update=_on_change)
     use: BoolProperty(**texts.EXTENDER_USE_PROPERTY, default=True, update=_on_change)
-    first_id: IntProperty(**texts.FIRST_VERTEX_PROPERTY, options={"HIDDEN"})
-    second_id: IntProperty(**texts.SECOND_VERTEX_PROPERTY, options={"HIDDEN"})
+    layer: StringProperty(**texts.EXTENDER_LAYER_PROPERTY, options={"HIDDEN"})
+    # Of files of version 1.
+    first_id: IntProperty(options={"HIDDEN"})
+    second_id: IntProperty(options={"HIDDEN"})
 
 
 def _on_map_change(_overlay: PropertyGroup, context: Context) -> None:
@@ -103,7 +105,6 @@ def register() -> None:
     setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
     active = IntProperty(**texts.ACTIVE_EXTENDER_PROPERTY, min=0)
     setattr(Mesh, names.ACTIVE_EXTENDER_PROPERTY, active)
-    setattr(Mesh, names.EXTENDER_LAYER_PROPERTY, StringProperty(options={"HIDDEN"}))
     live = BoolProperty(name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle)
     setattr(Scene, names.LIVE_UNWRAP_PROPERTY, live)
 
@@ -111,7 +112,7 @@ def register() -> None:
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
     delattr(Scene, names.LIVE_UNWRAP_PROPERTY)
-    for name in (names.EXTENDER_LAYER_PROPERTY, names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
+    for name in (names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
         delattr(Mesh, name)
     unregister_class(SpectralExtender)
     for name in (names.ACTIVE_ISLAND_PROPERTY, names.ISLANDS_PROPERTY):

@@ -331,10 +331,8 @@ TEXTS = {
     "Name of the extender": "Name des Extenders",
     "Use": "Verwenden",
     "Use the extender in the next unwrap": "Den Extender beim nächsten Abwickeln verwenden",
-    "First Vertex": "Erster Punkt",
-    "Identifier of its first vertex": "Kennung seines ersten Punktes",
-    "Second Vertex": "Zweiter Punkt",
-    "Identifier of its second vertex": "Kennung seines zweiten Punktes",
+    "Layer": "Ebene",
+    "Attribute of the vertices that marks both ends": "Attribut der Punkte, das beide Enden markiert",
     "Active Extender": "Aktiver Extender",
     "The extender chosen in the panel": "Der im Panel gewählte Extender",
     # What enumerations offer.

@@ -178,9 +178,8 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
             if is_interactive:
                 self.strength = (yield _Drag(mesh, index, islands)).result
             with following.not_following():
-                storage.show_strength(mesh, index, self.strength)
+                storage.of(mesh)[index].strength = self.strength
                 islands.write([self.strength], is_final=True)
-                storage.show_strength(mesh, index, self.strength, is_final=True)
                 islands.update_list()
             back.pop_all()
         return {"FINISHED"}
@@ -190,7 +189,7 @@ def _give_back(mesh: bpy.types.Mesh, index: int, strength: float, islands: Adjus
     # The mesh may have gone.
     with suppress(ReferenceError), following.not_following():
         if index < len(storage.of(mesh)):
-            storage.show_strength(mesh, index, strength)
+            storage.of(mesh)[index].strength = strength
         islands.restore()
 
 
@@ -216,7 +215,7 @@ class _Drag:
         note = translate(texts.ADJUST_EXTENDER_KEYS)
         try:
             with following.not_following():
-                storage.show_strength(self._mesh, self._index, self.answer)
+                storage.of(self._mesh)[self._index].strength = self.answer
                 self._islands.write([self.answer], is_final=False)
         except AdjustmentError as error:
             note = str(error)

@@ -14,7 +14,7 @@ import numpy as np
 from tests.blender.inside import digest
 
 SELECTION = ("select", "UV selection", "selection history", "tool settings")
-EXTENDERS = ("extenders", "attribute .spectral_extenders:")
+EXTENDERS = ("extenders", "attribute .spectral_extender:")
 # Searches take long on larger meshes.
 FACES_TO_SEARCH = 800
 

@@ -1,71 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extenders without Blender: identifiers of their vertices, pairs from a selection, and names.
+"""Extenders without Blender: names of their layers, pairs from a selection, and free names.
 
 An extender is a soft force between two vertices (Mullen et al. 2008, section 4.2): it pushes them apart where its
 strength is positive, and pulls them together where it is negative.
 """
 
-import hashlib
-import json
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import astuple, dataclass
-from itertools import count
-
-import numpy as np
+from collections.abc import Collection, Sequence
 
 from ..errors import ReadableError
 from ..words import texts
 from ..words.translation import translate
 
-
-@dataclass(frozen=True)
-class Extender:
-    """One extender as a mesh stores it; `first_id` and `second_id` are the identifiers of its vertices."""
-
-    name: str
-    strength: float
-    use: bool
-    first_id: int
-    second_id: int
+# Blender's limit for names of layers in version 3.4, in bytes.
+_MAX_BYTES = 63
 
 
 class SelectionError(ReadableError, ValueError):
     """The selected vertices form no pairs; the message says what to select."""
 
 
-def layer_name(prefix: str, extenders: Sequence[Extender]) -> str:
-    """Return the name of the vertex layer for exactly this list of extenders."""
-    return prefix + _digest(json.dumps([astuple(extender) for extender in extenders]), 12).hex()
+def layer_name(prefix: str, name: str, strength: float, use: bool) -> str:
+    """Return the name of the layer of an extender, with all digits of a strength in single precision.
 
-
-def fresh_ids(taken: Collection[int]) -> Iterator[int]:
-    """Yield vertex identifiers that are not in `taken`, always in the same order.
-
-    They lie below 2**24, which single precision holds exactly: Blender interpolates the integers of vertices in it. And
-    they are scattered, so that values interpolated between vertices hardly ever equal another identifier; none of those
-    between the first hundred does.
+    A long name is cut.
     """
-    used = {0, *taken}
-    for number in count():
-        vertex_id = int.from_bytes(_digest(f"extender {number}", 3), "big")
-        if vertex_id not in used:
-            used.add(vertex_id)
-            yield vertex_id
+    return f"{prefix}{use:d}:{strength:.9g}:{name}".encode()[:_MAX_BYTES].decode(errors="ignore")
 
 
-def _digest(text: str, size: int) -> bytes:
-    return hashlib.blake2b(text.encode(), digest_size=size).digest()
-
-
-def first_with(vertex_ids: np.ndarray, wanted: Sequence[int]) -> list[int]:
-    """Return for every `wanted` identifier the lowest index that has it in `vertex_ids` (V,), -1 if none has.
-
-    Duplicated geometry has the identifiers of the original, which comes first.
-    """
-    carriers = np.flatnonzero(np.isin(vertex_ids, list(wanted)) & (vertex_ids != 0))
-    found, position = np.unique(vertex_ids[carriers], return_index=True)
-    index = dict(zip(found.tolist(), carriers[position].tolist()))
-    return [index.get(vertex_id, -1) for vertex_id in wanted]
+def properties(prefix: str, layer: str) -> tuple[str, float, bool] | None:
+    """Return name, strength and switch of the extender with this layer; None if it is another layer."""
+    if not layer.startswith(prefix):
+        return None
+    try:
+        use, strength, name = layer[len(prefix) :].split(":", 2)
+        return name, float(strength), bool(int(use))
+    except ValueError:
+        return None
 
 
 def pairs(selected: Sequence[int], active: int | None) -> list[tuple[int, int]]:

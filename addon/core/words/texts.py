@@ -280,8 +280,7 @@ BROKEN_PROPERTY = {"name": "Broken", "description": "Instead remove all extender
 # The properties of an extender, and of a mesh with extenders.
 EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name of the extender"}
 EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use the extender in the next unwrap"}
-FIRST_VERTEX_PROPERTY = {"name": "First Vertex", "description": "Identifier of its first vertex"}
-SECOND_VERTEX_PROPERTY = {"name": "Second Vertex", "description": "Identifier of its second vertex"}
+EXTENDER_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices that marks both ends"}
 ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The extender chosen in the panel"}
 
 # Enumeration items: (identifier, label, description). An identifier in lower case is the value of the option of

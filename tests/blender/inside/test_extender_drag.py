@@ -127,16 +127,13 @@ def test_list_and_arrows_show_the_strength_that_is_dragged(dragged):
     assert_as_before(grid, before)
 
 
-def test_the_layer_is_named_after_the_list_when_the_drag_has_ended(dragged):
+def test_the_name_of_the_layer_follows_for_undo(dragged):
     grid, _, drag = dragged
-    storage = module("extenders.storage")
-    name = grid.data.spectral_extenders_layer
     drag.move(100)
-    assert grid.data.spectral_extenders_layer == name
     drag.send("LEFTMOUSE")
-    core = module("core.extenders.pairs")
-    wanted = core.layer_name(".spectral_extenders:", storage._read(grid.data))
-    assert grid.data.spectral_extenders_layer == wanted != name
+    (extender,) = grid.data.spectral_extenders
+    assert extender.layer in grid.data.attributes
+    assert extender.layer == ".spectral_extender:1:2:Extender"
 
 
 def test_leaving_edit_mode_gives_map_and_strength_back(dragged):

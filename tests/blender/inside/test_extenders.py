@@ -301,7 +301,7 @@ def test_copy_of_the_object_has_extenders_of_its_own():
     assert listed(grid) == [("Extender", 1.0, True)]
 
 
-def test_joined_objects_keep_the_extenders_of_the_active_one():
+def test_joined_objects_bring_their_extenders():
     one, other = scenes.grid(4, 3), scenes.grid(2, 2, name="Other", offset=(0.0, 0.0, 9.0))
     scenes.edit(one, select=False)
     add(one, [6, 8])
@@ -309,14 +309,16 @@ def test_joined_objects_keep_the_extenders_of_the_active_one():
     bpy.ops.object.mode_set(mode="OBJECT")
     scenes.edit(other, select=False)
     add(other, [0, 1], strength=4.0)
+    before += positions(other)
     bpy.ops.object.mode_set(mode="OBJECT")
     scenes.edit(one, other)
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.join()
     scenes.edit(one, select=False)
-    assert positions(one) == before
+    assert [strength for _, strength, _ in listed(one)] == [1.0, 4.0]
+    assert [(a[:2], b[:2]) for a, b in positions(one)] == [(a[:2], b[:2]) for a, b in before]
     one.data.spectral_extenders[0].strength = 2.0
-    assert positions(one) == before
+    assert positions(one)[0] == before[0]
 
 
 def test_new_names_are_free_ones_and_others_may_be_any():
@@ -325,9 +327,14 @@ def test_new_names_are_free_ones_and_others_may_be_any():
         add(grid, [first, first + 1])
     first, second = grid.data.spectral_extenders
     assert (first.name, second.name) == ("Extender", "Extender.001")
+    second.strength = 3.0
     first.name = second.name = "Nose"
     add(grid, [4, 5])
     assert [name for name, _, _ in listed(grid)] == ["Nose", "Nose", "Extender"]
+    # In all the same, they would be one layer.
+    second.strength = 1.0
+    assert listed(grid) == [("Nose", 1.0, True), ("Nose.001", 1.0, True), ("Extender", 1.0, True)]
+    assert pairs(grid) == [(0, 1), (2, 3), (4, 5)]
 
 
 def test_strength_is_kept_within_bounds():
@@ -340,69 +347,138 @@ def test_strength_is_kept_within_bounds():
     assert extender.strength == -1e4
 
 
-def layer(edited):
-    (name,) = [a.name for a in edited.data.attributes if a.name.startswith(".spectral_extenders:")]
-    return name
+def layers(edited):
+    return [a.name for a in edited.data.attributes if a.name.startswith(".spectral_extender")]
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "OBJECT"])
-def test_layer_is_renamed_with_every_change_of_the_list(mode):
+def test_the_layer_has_the_properties_in_its_name(mode):
     grid = edit_grid()
+    add(grid, [2, 3], strength=-0.5)
     add(grid, [6, 8])
     bpy.ops.object.mode_set(mode=mode)
-    extender = grid.data.spectral_extenders[0]
-    start, seen = layer(grid), set()
-    for change, value in (("strength", 5.0), ("use", False), ("name", "Nose")):
-        before = getattr(extender, change)
+    extender = grid.data.spectral_extenders[1]
+    for change, value, name in (
+        ("strength", 5.0, "1:5:Extender.001"),
+        ("use", False, "0:5:Extender.001"),
+        ("name", "Nose", "0:5:Nose"),
+        ("name", "Nose: left", "0:5:Nose: left"),
+    ):
         setattr(extender, change, value)
-        seen.add(layer(grid))
-        setattr(extender, change, before)
-        assert layer(grid) == start
-    assert len(seen | {start}) == 4
+        assert layers(grid) == [".spectral_extender:1:-0.5:Extender", f".spectral_extender:{name}"]
     bpy.ops.object.mode_set(mode="EDIT")
+    assert pairs(grid) == [(2, 3), (6, 8)]
+    assert listed(grid) == [("Extender", -0.5, True), ("Nose: left", 5.0, False)]
+
+
+def test_long_names_are_cut_and_found_again():
+    grid = edit_grid()
+    add(grid, [6, 8], strength=-1.2345)
+    extender = grid.data.spectral_extenders[0]
+    extender.name = "ä" * 100
+    assert extender.name == "ä" * len(extender.name)
+    assert len(extender.name) >= 14
+    bpy.context.view_layer.update()
+    assert layers(grid) == [grid.data.spectral_extenders[0].layer]
     assert pairs(grid) == [(6, 8)]
 
 
-def test_ids_can_be_read_from_scripts_in_object_mode():
+def test_ends_can_be_read_from_scripts_in_object_mode():
     grid = edit_grid()
     add(grid, [6, 8])
     bpy.ops.object.mode_set(mode="OBJECT")
-    values = [value.value for value in grid.data.attributes[layer(grid)].data]
-    extender = grid.data.spectral_extenders[0]
-    assert (values.index(extender.first_id), values.index(extender.second_id)) == (6, 8)
+    values = [value.value for value in grid.data.attributes[grid.data.spectral_extenders[0].layer].data]
+    assert (np.argmax(values), np.argmin(values)) == (6, 8)
+    assert np.count_nonzero(values) == 2
 
 
-def test_list_is_restored_by_the_name_of_the_layer():
-    # What undo in edit mode does: it puts the layer back with its name, and leaves the properties.
+def test_the_list_is_that_of_the_layers_after_undo():
+    # What undo in edit mode does: it puts the layers back with their names, and leaves the properties.
     grid = edit_grid()
     extenders, mesh, session = module("extenders.storage"), grid.data, module("session")
     add(grid, [6, 8])
-    first = layer(grid)
     add(grid, [2, 3], strength=-4.0)
-    second = layer(grid)
-    mesh.attributes[second].name = first
+    mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5:Nose"
     session.begin()
-    assert listed(grid) == [("Extender", 1.0, True)]
+    assert listed(grid) == [("Nose", 2.5, False), ("Extender.001", -4.0, True)]
+    assert extenders.active_index(mesh) == 1
+    mesh.attributes.remove(mesh.attributes[layers(grid)[1]])
+    session.begin()
+    assert listed(grid) == [("Nose", 2.5, False)]
     assert extenders.active_index(mesh) == 0
-    mesh.attributes[first].name = second
-    session.begin()
-    assert listed(grid) == [("Extender", 1.0, True), ("Extender.001", -4.0, True)]
-    bm = scenes.edit_mesh(grid)
-    bm.verts.layers.int.remove(bm.verts.layers.int[second])
-    session.begin()
-    assert listed(grid) == []
+    assert pairs(grid) == [(6, 8)]
 
 
-def test_lost_layer_breaks_the_extenders_and_keeps_the_list():
+def test_an_extender_goes_with_its_layer():
     grid = edit_grid()
     add(grid, [6, 8])
+    add(grid, [2, 3])
     bpy.ops.object.mode_set(mode="OBJECT")
-    grid.data.attributes.remove(grid.data.attributes[layer(grid)])
+    grid.data.attributes.remove(grid.data.attributes[layers(grid)[0]])
     scenes.edit(grid, select=False)
-    assert pairs(grid) == [(-1, -1)]
-    grid.data.spectral_extenders[0].strength = 2.0
-    add(grid, [0, 1])
-    assert pairs(grid) == [(-1, -1), (0, 1)]
+    assert listed(grid) == [("Extender.001", 1.0, True)]
+    assert pairs(grid) == [(2, 3)]
+
+
+def test_other_layers_are_left_alone():
+    grid = edit_grid()
+    add(grid, [6, 8])
+    for name, kind, domain in (
+        (".spectral_extender:1:1:Float", "FLOAT", "POINT"),
+        (".spectral_extender:1:1:Face", "INT", "FACE"),
+        (".spectral_extender:1:one:Word", "INT", "POINT"),
+        ("Extender", "INT", "POINT"),
+    ):
+        grid.data.attributes.new(name, kind, domain)
+    bpy.context.view_layer.update()
+    assert listed(grid) == [("Extender", 1.0, True)]
+    assert len(layers(grid)) == 4
+
+
+def give_former_extenders(edited):
+    """Store extenders as version 1 does: their properties in the list, identifiers of the vertices in one layer."""
+    mesh = edited.data
+    layer = mesh.attributes.new(".spectral_extenders:ca3c79dd8ac0d1b0bf38e4d6", "INT", "POINT")
+    for vertex, identifier in ((6, 17), (8, 4), (2, 99), (12, 4)):
+        layer.data[vertex].value = identifier
+    for values in (("Extender", -3.0, True, 17, 4), ("Nose", 2.5, False, 99, 4), ("Broken", 1.0, True, 4, 5)):
+        extender = mesh.spectral_extenders.add()
+        for name, value in zip(("name", "strength", "use", "first_id", "second_id"), values):
+            setattr(extender, name, value)
+
+
+def assert_converted(edited):
+    assert listed(edited) == [("Extender", -3.0, True), ("Nose", 2.5, False), ("Broken", 1.0, True)]
+    assert pairs(edited) == [(6, 8), (2, 8), (8, -1)]
+    assert len(layers(edited)) == 3
+
+
+def test_extenders_of_version_1_are_converted_in_edit_mode():
+    grid = scenes.grid(4, 3)
+    give_former_extenders(grid)
+    scenes.edit(grid, select=False)
+    assert len(layers(grid)) == 3
+    assert_converted(grid)
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_extenders_of_version_1_are_converted_with_the_file(mode, tmp_path):
+    grid = scenes.grid(4, 3)
+    handlers = bpy.app.handlers.depsgraph_update_post[:]
+    bpy.app.handlers.depsgraph_update_post.clear()
+    give_former_extenders(grid)
+    bpy.context.view_layer.objects.active = grid
+    bpy.ops.object.mode_set(mode=mode)
+    path = str(tmp_path / "scene.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    assert len(layers(grid)) == 1
+    bpy.app.handlers.depsgraph_update_post.extend(handlers)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    grid = bpy.data.objects["Grid"]
+    assert len(layers(grid)) == 3
+    if bpy.context.mode != "EDIT_MESH":
+        scenes.edit(grid, select=False)
+    assert_converted(grid)
 
 
 def test_selection_in_the_uv_editor_counts_without_sync_selection():

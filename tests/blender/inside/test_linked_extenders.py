@@ -39,8 +39,8 @@ def contents(linked):
     mesh = linked.data
     uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
     mesh.uv_layers.active.data.foreach_get("uv", uv)
-    listed = [(e.name, e.strength, e.use, e.first_id, e.second_id) for e in mesh.spectral_extenders]
-    return uv.tolist(), listed, mesh.spectral_extenders_layer, [attribute.name for attribute in mesh.attributes]
+    listed = [(e.name, e.strength, e.use, e.layer) for e in mesh.spectral_extenders]
+    return uv.tolist(), listed, [attribute.name for attribute in mesh.attributes]
 
 
 def call_handlers():

@@ -157,7 +157,6 @@ def test_nothing_is_remembered_of_a_file_that_was_left(end):
         "Searched",
         "_Identities",
         "_LastResult",
-        "_Lists",
         "_Results",
     } <= remembered
     left = [session.of(kind) for kind in session._memory]

@@ -1,54 +1,53 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extenders apart from Blender: identifiers, pairs of the selection, names."""
+"""Extenders apart from Blender: names of layers, pairs of the selection, names."""
 
-from dataclasses import replace
-from itertools import combinations, islice
+import math
 
 import numpy as np
 import pytest
 from spectral_unwrap.core.extenders import pairs as extender_pairs
-from spectral_unwrap.core.extenders.pairs import Extender, SelectionError
+from spectral_unwrap.core.extenders.pairs import SelectionError
 
-FEW = [Extender("Extender", 1.0, True, 17, 4), Extender("Other", -2.5, False, 17, 99)]
-
-
-def test_ids_are_distinct_exact_in_single_precision_and_not_zero():
-    ids = np.array(list(islice(extender_pairs.fresh_ids(()), 20000)))
-    assert len(np.unique(ids)) == len(ids)
-    assert ids.min() > 0
-    assert ids.max() < 1 << 24
-    np.testing.assert_array_equal(ids.astype(np.float32).astype(int), ids)
-
-
-def test_values_interpolated_between_ids_are_no_ids():
-    ids = list(islice(extender_pairs.fresh_ids(()), 100))
-    pairs = [*combinations(ids, 2), *((vertex_id, 0) for vertex_id in ids)]
-    for weight in (0.5, 0.25, 0.75, 1.0 / 3.0, 2.0 / 3.0):
-        between = {round(weight * a + (1.0 - weight) * b) + shift for a, b in pairs for shift in (-1, 0, 1)}
-        assert not between & set(ids)
+PREFIX = ".spectral_extender:"
+EXTENDERS = [
+    ("Extender", 1.0, True),
+    ("", -2.5, False),
+    ("with: colons\nand lines", 1e4, True),
+    ("Drücken 推", float(np.float32(0.1)), True),
+    ("1:2:3", 1e-30, False),
+    ("without bound", -math.inf, True),
+]
 
 
-def test_taken_ids_are_left_out():
-    first, second, third = islice(extender_pairs.fresh_ids(()), 3)
-    assert list(islice(extender_pairs.fresh_ids([second]), 2)) == [first, third]
+@pytest.mark.parametrize("extender", EXTENDERS)
+def test_names_of_layers_hold_all_of_an_extender(extender):
+    name = extender_pairs.layer_name(PREFIX, *extender)
+    found = extender_pairs.properties(PREFIX, name)
+    assert (found[0], np.float32(found[1]), found[2]) == (extender[0], np.float32(extender[1]), extender[2])
+    assert extender_pairs.layer_name(PREFIX, *found) == name
 
 
-def test_lowest_vertex_of_an_id_counts_and_zero_is_none():
-    assert extender_pairs.first_with(np.array([0, 7, 5, 7, 5, 0]), [5, 7, 9, 0, 5]) == [2, 1, -1, -1, 2]
-    assert extender_pairs.first_with(np.array([], dtype=int), [5]) == [-1]
-    assert extender_pairs.first_with(np.array([3]), []) == []
+def test_a_strength_that_is_no_number_is_read_as_such():
+    name, strength, use = extender_pairs.properties(PREFIX, extender_pairs.layer_name(PREFIX, "Nose", math.nan, True))
+    assert (name, use) == ("Nose", True)
+    assert math.isnan(strength)
 
 
-def test_layer_name_tells_every_change_and_nothing_else():
-    name = extender_pairs.layer_name(".prefix:", FEW)
-    assert name.startswith(".prefix:")
-    assert name == extender_pairs.layer_name(".prefix:", list(map(replace, FEW)))
-    changes = [{"name": "x"}, {"strength": 1.5}, {"use": False}, {"first_id": 1}, {"second_id": 1}]
-    others = [[replace(FEW[0], **change), FEW[1]] for change in changes] + [FEW[:1], FEW[::-1], []]
-    names = {extender_pairs.layer_name(".prefix:", other) for other in others}
-    assert len(names | {name}) == len(others) + 1
-    # Blender cuts names of layers off.
-    assert max(map(len, names)) < 60
+@pytest.mark.parametrize(
+    "name",
+    ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:on:1:x"]
+    + [f".spectral_extender:1:{number}:x" for number in ("", "1e", "--1", "1.2.3", "one")],
+)
+def test_other_layers_are_no_extenders(name):
+    assert extender_pairs.properties(PREFIX, name) is None
+
+
+def test_long_names_are_cut_between_characters():
+    # Blender cuts names of layers off after 63 bytes.
+    name = extender_pairs.layer_name(PREFIX, "推" * 40, -1.23456789e-5, True)
+    assert 60 < len(name.encode()) <= 63
+    kept, _, _ = extender_pairs.properties(PREFIX, name)
+    assert kept == "推" * len(kept)
 
 
 def test_two_vertices_are_a_pair_with_or_without_an_active_one():
