@@ -22,8 +22,7 @@ from . import image_aspect, subsurf
 class EditMesh:
     """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
 
-    `broken_extenders` are the names of those that lost a vertex, `extenders_without_strength` of those with an invalid
-    strength.
+    `broken_extenders` are the names of those that lost a vertex.
     """
 
     edit_object: bpy.types.Object
@@ -31,7 +30,6 @@ class EditMesh:
     polygons: PolygonMesh
     subdivision: Subdivision | None = None
     broken_extenders: tuple[str, ...] = ()
-    extenders_without_strength: tuple[str, ...] = ()
 
 
 def read_mesh(
@@ -82,7 +80,7 @@ def _read(
     bm.to_mesh(copy)
     layer = bm.loops.layers.uv.active
     has_map = layer is not None and len(bm.faces) > 0
-    forces, broken, without_strength = storage.resolve(bm, mesh)
+    forces, broken = storage.resolve(bm, mesh)
     polygons = read_arrays(
         copy,
         all_visible,
@@ -94,7 +92,7 @@ def _read(
     if has_map and by_uv_selection:
         _restrict_to_selected_uvs(polygons, polygons.pinned_corners, compatibility.selected_uv_corners(bm, layer))
     subdivided = _subdivide(bm, edit_object, polygons) if use_subsurf else None
-    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), tuple(without_strength))
+    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken))
 
 
 @contextmanager

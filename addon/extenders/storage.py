@@ -8,7 +8,6 @@ layers, and a change of its entries renames their layers.
 """
 
 from collections.abc import Iterable, Sequence
-from functools import partial
 
 import bmesh
 import bpy
@@ -20,18 +19,14 @@ from ..core.extenders import pairs as core
 from ..core.words import texts
 from ..session import edit_meshes
 
-# Limit of all strengths, in drags and scripts.
-STRENGTH_LIMIT = 1e4
 # Arguments of a strength property.
 STRENGTH = {
     **texts.STRENGTH_PROPERTY,
-    **{"default": 1.0, "min": -STRENGTH_LIMIT, "max": STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
+    **{"default": 1.0, "min": -core.STRENGTH_LIMIT, "max": core.STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
 }
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
 _MARKS = (1 << 23, -(1 << 23))
-_layer_name = partial(core.layer_name, names.EXTENDER_LAYER_PREFIX)
-_properties = partial(core.properties, names.EXTENDER_LAYER_PREFIX)
 
 
 def of(mesh: bpy.types.Mesh) -> Sequence[bpy.types.PropertyGroup]:
@@ -45,9 +40,17 @@ def active_index(mesh: bpy.types.Mesh) -> int:
     return index if 0 <= index < len(of(mesh)) else -1
 
 
-def label(extender: bpy.types.PropertyGroup) -> str:
-    """Return the name of an extender for messages; it may be empty."""
-    return extender.name or texts.unnamed_extender()
+def _properties(layer: str) -> tuple[str, float, bool] | None:
+    return core.properties(names.EXTENDER_LAYER_PREFIX, layer)
+
+
+def _layer_name(name: str, strength: float, use: bool) -> str:
+    return core.layer_name(names.EXTENDER_LAYER_PREFIX, name or _default_name(), strength, use)
+
+
+def _default_name() -> str:
+    # In the user's language if Blender translates the names of new data.
+    return bpy.app.translations.pgettext_data(texts.EXTENDER_NAME)
 
 
 def rename_layer(extender: bpy.types.PropertyGroup) -> bool:
@@ -59,7 +62,7 @@ def rename_layer(extender: bpy.types.PropertyGroup) -> bool:
     layer.name = name
     # Blender numbers equal names.
     extender.layer = layer.name
-    extender.name, *_ = _properties(layer.name)
+    extender.name, extender.strength, _ = _properties(layer.name)
     return True
 
 
@@ -136,28 +139,16 @@ def ends(bm: BMesh, mesh: bpy.types.Mesh) -> list[tuple[int, int]]:
     return found
 
 
-def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float]], list[str], list[str]]:
-    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, and the names of those that cannot.
+def resolve(bm: BMesh, mesh: bpy.types.Mesh) -> tuple[list[tuple[int, int, float]], list[str]]:
+    """Return the extenders of `mesh` that act on a solve of `bm`, its edit mesh, and the names of broken ones.
 
-    Returns:
-        (first vertex, second vertex, strength) of every extender that is on, whole and of nonzero strength, with the
-        vertices' indices in `bm.verts`; the names of those that are on but lost a vertex; and the names of those that
-        are on and whole, but have an invalid strength, as scripts and files may.
+    Those that act are on, whole and of nonzero strength: (first vertex, second vertex, strength), with the vertices'
+    indices in `bm.verts`. Those that are broken are on, but lost a vertex.
     """
     sync(mesh)
-    forces, broken, without_strength = [], [], []
-    for extender, pair in zip(of(mesh), ends(bm, mesh)):
-        # The property is bounded, the layer may have any.
-        _, strength, _ = _properties(extender.layer) or (None, extender.strength, None)
-        if not extender.use:
-            continue
-        if -1 in pair:
-            broken.append(label(extender))
-        elif not abs(strength) <= STRENGTH_LIMIT:
-            without_strength.append(label(extender))
-        elif strength != 0.0:
-            forces.append((*pair, strength))
-    return forces, broken, without_strength
+    used = [(extender, pair) for extender, pair in zip(of(mesh), ends(bm, mesh)) if extender.use]
+    forces = [(*pair, extender.strength) for extender, pair in used if -1 not in pair and abs(extender.strength) > 0.0]
+    return forces, [extender.name for extender, pair in used if -1 in pair]
 
 
 def follow(meshes: Iterable[bpy.types.Mesh]) -> None:
@@ -207,10 +198,9 @@ def add(mesh: bpy.types.Mesh, pairs: Iterable[tuple[int, int]], strength: float)
     sync(mesh)
     present = set(map(frozenset, ends(edit_meshes.keep(mesh).bm, mesh)))
     fresh = [pair for pair in pairs if frozenset(pair) not in present]
-    # In the user's language if Blender translates the names of new data.
-    name, taken = bpy.app.translations.pgettext_data(texts.EXTENDER_NAME), [each.name for each in of(mesh)]
+    taken = [each.name for each in of(mesh)]
     for pair in fresh:
-        taken.append(core.free_name(name, taken))
+        taken.append(core.free_name(_default_name(), taken))
         _add_layer(mesh, _layer_name(taken[-1], strength, True), pair)
     if fresh:
         sync(mesh)

@@ -6,14 +6,13 @@ other changes in these meshes a little later.
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
 
 from .. import names, session
 from ..core.errors import ReadableError
-from ..core.extenders.adjustment import AdjustmentError
 from ..core.words import texts
 from ..session import Remembered, edit_meshes
 from ..session.problems import Printed, print_once
@@ -125,10 +124,10 @@ def not_following() -> Iterator[None]:
         begin()
 
 
-def follow_extenders(edit_object: bpy.types.Object, strengths: Mapping[Edge, float]) -> str:
+def follow_extenders(edit_object: bpy.types.Object, pairs: Collection[Edge]) -> str:
     """Solve the islands of changed extenders within an operator, as `extenders.follow` does."""
     with not_following():
-        return extenders.follow(edit_object, strengths)
+        return extenders.follow(edit_object, pairs)
 
 
 def _look(scene: bpy.types.Scene) -> None:
@@ -136,7 +135,7 @@ def _look(scene: bpy.types.Scene) -> None:
     for seen in _all_seen():
         if seen.pinned and seen.is_current:
             _follow_pins(scene, seen)
-    new_seams, new_strengths = {}, {}
+    new_seams, new_extenders = {}, {}
     with _window(scene):
         for edit_object in edit_meshes.edited():
             seen = _seen(edit_object.data)
@@ -149,24 +148,24 @@ def _look(scene: bpy.types.Scene) -> None:
             edges = seen.changed_seams(now)
             if len(edges) and last_operator.changes_seams(seen.operator):
                 new_seams[edit_object.data] = edges
-            new_strengths[edit_object] = seen.changed_strengths(now)
+            new_extenders[edit_object] = seen.changed_extenders(now)
             if seen.pinned and now.pinned:
                 now.pinned.goes_on_from(seen.pinned)
         _state().operator = last_operator.address()
         is_written = bool(new_seams) and seams.follow(bpy.context, new_seams)
-        for edit_object, strengths in new_strengths.items():
+        for edit_object, pairs in new_extenders.items():
             # Unwrapping after changed seams uses the extenders, but keeps other islands.
-            if strengths and not new_seams:
-                is_written |= _follow_strengths(edit_object, strengths)
+            if pairs and not new_seams:
+                is_written |= _follow_extenders(edit_object, pairs)
     if is_written:
         begin()
         _push_undo_step()
 
 
-def _follow_strengths(edit_object: bpy.types.Object, strengths: Mapping[Edge, float]) -> bool:
+def _follow_extenders(edit_object: bpy.types.Object, pairs: Collection[Edge]) -> bool:
     try:
-        extenders.follow(edit_object, strengths)
-    except AdjustmentError as error:
+        extenders.follow(edit_object, pairs)
+    except ReadableError as error:
         print_once(error, texts.could_not_follow)
         return False
     return True

@@ -77,15 +77,11 @@ class Snapshot:
             return np.empty((0, 2), dtype=np.int64)
         return np.array(sorted(changed))
 
-    def changed_strengths(self, later: "Snapshot") -> dict[Edge, float]:
-        """Return the strengths that changed until a `later` snapshot, 0 for extenders that no longer act."""
+    def changed_extenders(self, later: "Snapshot") -> set[Edge]:
+        """Return the vertices of the extenders that acted with another strength, or not, in a `later` snapshot."""
         if self.counts != later.counts:
-            return {}
-        return {
-            pair: later.strengths.get(pair, 0.0)
-            for pair in self.strengths.keys() | later.strengths.keys()
-            if self.strengths.get(pair) != later.strengths.get(pair)
-        }
+            return set()
+        return {pair for pair, _ in self.strengths.items() ^ later.strengths.items()}
 
 
 def take(edit_object: bpy.types.Object) -> Snapshot | None:
@@ -97,7 +93,7 @@ def take(edit_object: bpy.types.Object) -> Snapshot | None:
         return None
     pinned = _pinned_map(edit_object) if compatibility.has_pins(bm, layer) else None
     seams = {_sorted(*(vertex.index for vertex in edge.verts)) for edge in bm.edges if edge.seam}
-    forces, _, _ = storage.resolve(bm, mesh)
+    forces, _ = storage.resolve(bm, mesh)
     strengths = {_sorted(first, second): strength for first, second, strength in forces}
     return Snapshot(edit_object, bm, layer.name, _counts(bm), seams, strengths, last_operator.address(), pinned)
 

@@ -558,12 +558,6 @@ TEXTS = {
     # Extenders.
     "Skipped {n} extender that lost a vertex: {names}": "{n} Extender übersprungen, dem ein Punkt fehlt: {names}",
     "Skipped {n} extenders that lost a vertex: {names}": "{n} Extender übersprungen, denen ein Punkt fehlt: {names}",
-    "Skipped {n} extender with an invalid strength: {names}": (
-        "{n} Extender mit unzulässiger Stärke übersprungen: {names}"
-    ),
-    "Skipped {n} extenders with an invalid strength: {names}": (
-        "{n} Extender mit unzulässiger Stärke übersprungen: {names}"
-    ),
     "{name} lost a vertex; remove it and add another": (
         "{name} fehlt ein Punkt; entfernen und einen anderen hinzufügen"
     ),
@@ -941,7 +935,6 @@ TEXTS = {
         "dieses System und diese Version von Blender installieren ({reason})"
     ),
     "The margin must be a number, not {margin}": "Der Rand muss eine Zahl sein, nicht {margin}",
-    "Extender without a name": "Extender ohne Namen",
     "{n} island had no former bounds and was packed into the UV tile": (
         "{n} Insel hatte keinen früheren UV-Bereich und wurde in die UV-Kachel gepackt"
     ),

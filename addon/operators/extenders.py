@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators that add extenders to meshes in edit mode, change their strength and remove them."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 
 import bmesh
@@ -10,18 +10,16 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from .. import editors, names
 from ..core.errors import ReadableError
-from ..core.extenders.adjustment import AdjustmentError
-from ..core.extenders.pairs import SelectionError, pairs
+from ..core.extenders.pairs import pairs
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
 from ..extenders import storage
-from ..extenders.storage import STRENGTH, STRENGTH_LIMIT
 from ..live import following
 from ..live.extenders import AdjustedIslands
 from ..session import edit_meshes
 from ..ui import progress
-from .job_operator import Job, JobOperator
+from .job_operator import Choice, Job, JobOperator
 from .reporting_operator import ReportingOperator
 
 # Panels set these for one click; they are neither remembered nor shown in Adjust Last Operation.
@@ -41,33 +39,24 @@ class _ExtenderOperator(ReportingOperator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Allow the operator where the active mesh in edit mode has extenders."""
-        return context.mode == "EDIT_MESH" and len(storage.of(context.edit_object.data)) > 0
+        return super().poll(context) and len(storage.of(context.edit_object.data)) > 0
 
     def chosen(self, mesh: bpy.types.Mesh) -> int:
-        """Return the index of the extender to work on.
-
-        Raises:
-            SelectionError: there is none.
-        """
+        """Return the index of the extender to work on, or raise a `ReadableError`."""
         index = storage.active_index(mesh) if self.index < 0 else self.index
         if not 0 <= index < len(storage.of(mesh)):
-            raise SelectionError(translate(texts.NO_SUCH_EXTENDER))
+            raise ReadableError(translate(texts.NO_SUCH_EXTENDER))
         return index
 
 
-def _follow(
-    operator: bpy.types.Operator, edit_object: bpy.types.Object, strengths: Mapping[tuple[int, int], float]
-) -> bool:
-    """Let the map follow changed extenders in the operator's own undo step, or report why it cannot.
-
-    Returns whether it follows.
-    """
+def _follow(operator: bpy.types.Operator, edit_object: bpy.types.Object, changed: Sequence[tuple[int, int]]) -> bool:
+    """Let the map follow changed extenders in the operator's own undo step, or report why not; return whether."""
     follows = True
     try:
-        note = following.follow_extenders(edit_object, strengths) if strengths else ""
+        note = following.follow_extenders(edit_object, changed) if changed else ""
     except (ReadableError, MemoryError) as error:
-        follows = False
         note = str(error) if isinstance(error, ReadableError) else translate(texts.OUT_OF_MEMORY_TO_FOLLOW)
+        follows = False
     if note:
         operator.report({"WARNING"}, note)
     return follows
@@ -81,32 +70,26 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
     bl_description = texts.ADD_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    strength: FloatProperty(**STRENGTH)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
+    strength: FloatProperty(**storage.STRENGTH)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find the pairs of all meshes, then add extenders."""
         if self.strength != self.strength:
-            raise SelectionError(translate(texts.STRENGTH_IS_NO_NUMBER))
+            raise ReadableError(translate(texts.STRENGTH_IS_NO_NUMBER))
         wanted, edited = {}, context.objects_in_mode_unique_data
         for edit_object in edited:
             selected, active = selection.selected_vertices(context, edit_object.data)
             try:
                 if selected:
                     wanted[edit_object] = pairs(selected, active)
-            except SelectionError as error:
-                raise SelectionError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
+            except ReadableError as error:
+                raise ReadableError(f"{edit_object.name}: {error}" if len(edited) > 1 else str(error)) from error
         if not wanted:
-            raise SelectionError(translate(texts.NO_VERTICES_SELECTED))
+            raise ReadableError(translate(texts.NO_VERTICES_SELECTED))
         added = {each: storage.add(each.data, made, self.strength) for each, made in wanted.items()}
         follows = following.is_on(context.scene)
         if follows and self.strength != 0.0:
-            for edit_object, made in added.items():
-                follows &= _follow(self, edit_object, dict.fromkeys(made, self.strength))
+            follows = all([_follow(self, edit_object, made) for edit_object, made in added.items()])
         count = sum(map(len, added.values()))
         existing = sum(map(len, wanted.values())) - count
         self.report({"INFO" if count else "WARNING"}, texts.added_extenders(count, existing, follows))
@@ -132,19 +115,18 @@ class MESH_OT_spectral_extender_remove(_ExtenderOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Remove from the list of the active object's mesh."""
         mesh = context.edit_object.data
-        ends, listed = storage.ends(bmesh.from_edit_mesh(mesh), mesh), storage.of(mesh)
-        if self.broken:
-            indices = [index for index, pair in enumerate(ends) if -1 in pair]
-            self.report({"INFO"}, texts.removed_broken(len(indices)))
-        else:
-            indices = [self.chosen(mesh)]
-        if not indices:
-            return {"CANCELLED"}
-        acting = [ends[k] for k in indices if -1 not in ends[k] and listed[k].use and listed[k].strength != 0.0]
+        bm = bmesh.from_edit_mesh(mesh)
+        acting, _ = storage.resolve(bm, mesh)
+        indices = (
+            [k for k, pair in enumerate(storage.ends(bm, mesh)) if -1 in pair] if self.broken else [self.chosen(mesh)]
+        )
         storage.remove(mesh, indices)
+        left, _ = storage.resolve(bm, mesh)
         if following.is_on(context.scene):
-            _follow(self, context.edit_object, dict.fromkeys(acting, 0.0))
-        return {"FINISHED"}
+            _follow(self, context.edit_object, [(i, j) for i, j, _ in set(acting) - set(left)])
+        if self.broken:
+            self.report({"INFO"}, texts.removed_broken(len(indices)))
+        return {"FINISHED"} if indices else {"CANCELLED"}
 
 
 class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types.Operator):
@@ -155,82 +137,71 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
     bl_description = texts.ADJUST_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
-    strength: FloatProperty(**STRENGTH)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where there are extenders, one job at a time."""
-        return super().poll(context) and _ExtenderOperator.poll(context)
+    strength: FloatProperty(**storage.STRENGTH)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Drag the strength, store it and write the map; any other end restores both."""
-        mesh = context.edit_object.data
-        index = self.chosen(mesh)
-        extender, bm = storage.of(mesh)[index], edit_meshes.keep(mesh).bm
-        ends = storage.ends(bm, mesh)[index]
-        if -1 in ends:
-            raise AdjustmentError(texts.broken_extender(storage.label(extender)))
-        islands = AdjustedIslands(context.edit_object, [ends])
-        if islands.note:
-            self.report({"INFO"}, islands.note)
+        drag = _Drag(context.edit_object, self.chosen(context.edit_object.data))
+        if drag.islands.note:
+            self.report({"INFO"}, drag.islands.note)
         with ExitStack() as back:
-            back.callback(_give_back, mesh, index, extender.strength, islands)
+            back.callback(drag.give_back)
             if is_interactive:
-                self.strength = (yield _Drag(mesh, index, islands)).result
-            with following.not_following():
-                storage.of(mesh)[index].strength = self.strength
-                islands.write([self.strength], is_final=True)
-                islands.update_list()
+                self.strength = (yield drag).result
+            drag.show(self.strength, is_final=True)
             back.pop_all()
         return {"FINISHED"}
 
 
-def _give_back(mesh: bpy.types.Mesh, index: int, strength: float, islands: AdjustedIslands) -> None:
-    # The mesh may have gone.
-    with suppress(ReferenceError), following.not_following():
-        if index < len(storage.of(mesh)):
-            storage.of(mesh)[index].strength = strength
-        islands.restore()
-
-
-class _Drag:
-    """Asks for a strength, by dragging or as a typed number, while the map follows; a `job_operator.Choice`.
+class _Drag(Choice):
+    """Asks for a strength, by dragging or as a typed number, while the map follows.
 
     Attributes:
         answer: the strength.
+        islands: follow.
     """
 
-    def __init__(self, mesh: bpy.types.Mesh, index: int, islands: AdjustedIslands) -> None:
-        """Begin at the strength that the extender has."""
-        self._mesh, self._index, self._islands = mesh, index, islands
-        self._bm = edit_meshes.keep(mesh).bm
-        strength = storage.of(mesh)[index].strength
-        # A file may have a strength that is not finite.
-        self.answer = self._dragged = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
-        self._typed = ""
-        self._mouse_x: int | None = None
+    def __init__(self, edit_object: bpy.types.Object, index: int) -> None:
+        """Begin at the strength that the extender of this `index` has."""
+        self._mesh, self._index, self._bm = edit_object.data, index, edit_meshes.keep(edit_object.data).bm
+        extender, self._pair = storage.of(self._mesh)[index], storage.ends(self._bm, self._mesh)[index]
+        if -1 in self._pair:
+            raise ReadableError(texts.broken_extender(extender.name))
+        self.islands = AdjustedIslands(edit_object, [self._pair])
+        self.answer = self._dragged = self._former = extender.strength
+        self._typed, self._mouse_x = "", None
+
+    def show(self, strength: float, is_final: bool = False) -> None:
+        """Set the strength in the list, and let the map follow."""
+        extender, others = storage.of(self._mesh)[self._index], self.islands.extenders
+        with following.not_following():
+            extender.strength = strength
+            changed = (*self._pair, extender.strength)
+            self.islands.write([*(each for each in others if each[:2] != self._pair), changed], is_final)
+
+    def give_back(self) -> None:
+        """Restore the strength and the map; the mesh may have gone."""
+        with suppress(ReferenceError), following.not_following():
+            if self._index < len(storage.of(self._mesh)):
+                storage.of(self._mesh)[self._index].strength = self._former
+            self.islands.restore()
 
     def begin(self, context: bpy.types.Context) -> None:
         """Update the map for the strength; if that fails, it stays and the status bar says why."""
         note = translate(texts.ADJUST_EXTENDER_KEYS)
         try:
-            with following.not_following():
-                storage.of(self._mesh)[self._index].strength = self.answer
-                self._islands.write([self.answer], is_final=False)
-        except AdjustmentError as error:
+            self.show(self.answer)
+        except ReadableError as error:
             note = str(error)
-        number = f"[{self._typed}|]" if self._typed else f"{self.answer:.3f}"
-        progress.show_status(context, texts.adjusting(number, note))
+        progress.show_status(
+            context, texts.adjusting(f"[{self._typed}|]" if self._typed else f"{self.answer:.3f}", note)
+        )
         editors.redraw(context)
-
-    def leaves(self, _context: bpy.types.Context, _event: bpy.types.Event) -> bool:
-        """Keep all events: the mouse drags wherever it is."""
-        return False
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Handle mouse movement, slower with Shift, and typed numbers; Enter or a click confirms."""
         if not self._bm.is_valid:
-            raise AdjustmentError(texts.cancelled(texts.ADJUST_EXTENDER_LABEL))
+            raise ReadableError(texts.cancelled(texts.ADJUST_EXTENDER_LABEL))
         if event.type == "MOUSEMOVE":
             moved = event.mouse_x - (event.mouse_x if self._mouse_x is None else self._mouse_x)
             self._mouse_x = event.mouse_x
@@ -239,14 +210,9 @@ class _Drag:
             return {"PASS_THROUGH"}
         elif event.type in _CONFIRM:
             return {"FINISHED"}
-        self._dragged = _bounded(self._dragged)
-        has_digit = any(map(str.isdigit, self._typed))
-        self.answer = _bounded(float(self._typed)) if has_digit else self._dragged
+        self.answer = float(self._typed) if any(map(str.isdigit, self._typed)) else self._dragged
         self.begin(context)
         return {"RUNNING_MODAL"}
-
-    def update(self, context: bpy.types.Context) -> None:
-        """Do nothing."""
 
     def end(self, context: bpy.types.Context) -> None:
         """Restore the status bar."""
@@ -254,17 +220,13 @@ class _Drag:
 
     def _type(self, event: bpy.types.Event) -> bool:
         """Handle a key of a typed number, where minus changes the sign as in Blender; return whether it was one."""
-        key = "." if event.ascii == "," else event.ascii
+        key, typed = event.ascii.replace(",", "."), self._typed
         if event.type == "BACK_SPACE":
-            self._typed = self._typed[:-1]
+            self._typed = typed[:-1]
         elif key == "-":
-            self._typed = self._typed.removeprefix("-") if self._typed.startswith("-") else f"-{self._typed}"
-        elif key and (key in "0123456789" or (key == "." and "." not in self._typed)):
+            self._typed = typed[1:] if typed.startswith("-") else f"-{typed}"
+        elif key.isdigit() or (key == "." and key not in typed):
             self._typed += key
         else:
             return False
         return True
-
-
-def _bounded(strength: float) -> float:
-    return min(max(strength, -STRENGTH_LIMIT), STRENGTH_LIMIT)

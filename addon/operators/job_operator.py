@@ -28,11 +28,13 @@ Work = Callable[[Progress], Any]
 
 
 class Choice(Protocol):
-    """A question to the artist in the middle of a job."""
+    """A question to the artist in the middle of a job.
 
-    @property
-    def answer(self) -> object:
-        """The current answer."""
+    Attributes:
+        answer: the current answer.
+    """
+
+    answer: object
 
     def begin(self, context: bpy.types.Context) -> None:
         """Show the choice."""
@@ -179,7 +181,7 @@ class JobOperator(ReportingOperator):
         if current is not None and current.is_wanted:
             cls.poll_message_set(texts.is_running(current.label))
             return False
-        return context.mode == "EDIT_MESH"
+        return super().poll(context)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Do the whole job while Blender waits."""

@@ -11,7 +11,12 @@ from ..core.words.translation import translate
 
 
 class ReportingOperator:
-    """Mixin of an operator whose work is `run`."""
+    """Mixin of an operator on meshes in edit mode whose work is `run`."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Allow the operator where a mesh is in edit mode."""
+        return context.mode == "EDIT_MESH"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Do the work; report readable errors."""

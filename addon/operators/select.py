@@ -34,11 +34,6 @@ class UV_OT_spectral_select_distorted(ReportingOperator, bpy.types.Operator):
     whole_islands: BoolProperty(**texts.WHOLE_ISLANDS_PROPERTY)
     extend: BoolProperty(**texts.EXTEND_PROPERTY)
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
-
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the amount or the limit, whichever applies."""
         layout = self.layout
@@ -103,11 +98,6 @@ class UV_OT_spectral_select_failed(ReportingOperator, bpy.types.Operator):
     bl_description = texts.SELECT_FAILED_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
-
     def run(self, context: bpy.types.Context) -> set[str]:
         """Select the remembered faces."""
         edited = [item for item in context.objects_in_mode_unique_data if last_result.is_remembered(item.data)]
@@ -155,11 +145,6 @@ class UV_OT_spectral_select_defects(ReportingOperator, bpy.types.Operator):
         default=False,
     )
     extend: BoolProperty(**texts.EXTEND_PROPERTY, default=False)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Allow the operator where a mesh is in edit mode."""
-        return context.mode == "EDIT_MESH"
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the options; those of overlaps together."""

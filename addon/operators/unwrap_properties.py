@@ -5,8 +5,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import names
+from ..core.extenders.pairs import STRENGTH_LIMIT
 from ..core.words import texts
-from ..extenders.storage import STRENGTH_LIMIT
 
 
 class UnwrapProperties:

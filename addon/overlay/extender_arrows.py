@@ -5,12 +5,12 @@ Arrows point outward if an extender repels, inward if it attracts. Their size on
 and they are in front of the mesh. In the UV editor, where a vertex may have several UVs, they connect the closest two.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 
 import bpy
 import gpu
 import numpy as np
-from bmesh.types import BMesh, BMVert
+from bmesh.types import BMVert
 from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 
@@ -21,9 +21,9 @@ from ..extenders import storage
 from ..session import edit_meshes
 from . import draw_handlers
 
-_Point = tuple[float, float]
-# Returns the positions of two vertices on the screen, in pixels; None if one is not shown.
-_Places = Callable[[BMVert, BMVert], "tuple[_Point, _Point] | None"]
+_Ends = tuple[BMVert, BMVert]
+# Their positions on the screen, in pixels; None if one is not shown.
+_Places = Sequence[Sequence[float]] | None
 
 _REPEL = (1.0, 0.42, 0.12, 1.0)
 _ATTRACT = (0.2, 0.66, 1.0, 1.0)
@@ -34,25 +34,16 @@ _DIMMED = 0.3
 _WIDTH, _OUTLINE_WIDTH = 2.5, 5.5
 
 
-def _draw_in_viewport(context: bpy.types.Context) -> None:
-    if context.mode == "EDIT_MESH" and context.space_data.overlay.show_overlays:
-        _draw(context, _places_in_viewport)
-
-
-def _draw_in_uv_editor(context: bpy.types.Context) -> None:
-    space = context.space_data
-    if context.mode == "EDIT_MESH" and space.show_uvedit and space.overlay.show_overlays:
-        _draw(context, _places_in_uv_editor)
-
-
-def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None:
-    """Draw the arrows of all meshes in edit mode; the active one of the active object's mesh last, highlighted."""
+def _draw(context: bpy.types.Context) -> None:
+    """Draw the arrows of all meshes in edit mode."""
+    space, is_viewport = context.space_data, context.space_data.type == "VIEW_3D"
+    if context.mode != "EDIT_MESH" or not space.overlay.show_overlays or not (is_viewport or space.show_uvedit):
+        return
     scale, shader = context.preferences.system.ui_scale, gpu.shader.from_builtin(compatibility.LINE_SHADER)
     gpu.state.blend_set("ALPHA")
-    for start, end, outward, fill, outline in _arrows(context, places_of):
+    for start, end, outward, fill, outline in _arrows(context, _in_viewport if is_viewport else _in_uv_editor):
         lines = arrow_shapes.arrow(start, end, outward, scale).reshape(-1, 2)
-        points = np.column_stack([lines, np.zeros(len(lines))]).tolist()
-        batch = batch_for_shader(shader, "LINES", {"pos": points})
+        batch = batch_for_shader(shader, "LINES", {"pos": np.pad(lines, ((0, 0), (0, 1))).tolist()})
         shader.bind()
         shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
         for width, color in ((_OUTLINE_WIDTH, outline), (_WIDTH, fill)):
@@ -62,62 +53,39 @@ def _draw(context: bpy.types.Context, places_of: Callable[..., _Places]) -> None
     gpu.state.blend_set("NONE")
 
 
-def _arrows(context: bpy.types.Context, places_of: Callable[..., _Places]) -> Iterator[tuple]:
-    """Yield start, end, whether the arrow points outward, its color and that of its outline; the active one last."""
-    last = []
+def _arrows(context: bpy.types.Context, places: Callable[..., _Places]) -> list[tuple]:
+    """Return start, end, whether the arrow points outward, its color and that of its outline; the active one last."""
+    arrows = []
     for edit_object in context.objects_in_mode_unique_data:
         mesh = edit_object.data
-        vertices = storage.vertices(mesh) if storage.of(mesh) else None
-        if vertices is None:
-            continue
-        places = places_of(context, edit_object, edit_meshes.kept(mesh).bm)
         active = storage.active_index(mesh) if edit_object == context.edit_object else -1
-        for index, (extender, ends) in enumerate(zip(storage.of(mesh), vertices)):
-            found = places(*ends) if None not in ends else None
+        for index, (extender, ends) in enumerate(zip(storage.of(mesh), storage.vertices(mesh) or ())):
+            found = None if None in ends else places(context, edit_object, ends)
             if found is None:
                 continue
-            colors = (
-                _REPEL if extender.strength >= 0.0 else _ATTRACT,
-                _ACTIVE_OUTLINE if index == active else _OUTLINE,
-            )
-            if not extender.use:
-                colors = tuple((*color[:3], color[3] * _DIMMED) for color in colors)
-            arrow = (*found, extender.strength >= 0.0, *colors)
-            if index == active:
-                last.append(arrow)
-            else:
-                yield arrow
-    yield from last
+            repels, is_active = extender.strength >= 0.0, index == active
+            colors = [_REPEL if repels else _ATTRACT, _ACTIVE_OUTLINE if is_active else _OUTLINE]
+            dim = 1.0 if extender.use else _DIMMED
+            arrows.append((is_active, (*found, repels, *((*color[:3], color[3] * dim) for color in colors))))
+    return [arrow for _, arrow in sorted(arrows, key=lambda each: each[0])]
 
 
-def _places_in_viewport(context: bpy.types.Context, edit_object: bpy.types.Object, _bm: BMesh) -> _Places:
-    region, view, world = context.region, context.region_data, edit_object.matrix_world
-
-    def places(first: BMVert, second: BMVert) -> tuple[_Point, _Point] | None:
-        if first.hide or second.hide:
-            return None
-        points = [view3d_utils.location_3d_to_region_2d(region, view, world @ v.co) for v in (first, second)]
-        return None if None in points else tuple(map(tuple, points))
-
-    return places
+def _in_viewport(context: bpy.types.Context, edit_object: bpy.types.Object, ends: _Ends) -> _Places:
+    view = context.region, context.region_data
+    points = [view3d_utils.location_3d_to_region_2d(*view, edit_object.matrix_world @ vertex.co) for vertex in ends]
+    return None if None in points or any(vertex.hide for vertex in ends) else points
 
 
-def _places_in_uv_editor(context: bpy.types.Context, _object: bpy.types.Object, bm: BMesh) -> _Places:
-    layer, view = bm.loops.layers.uv.active, context.region.view2d
-
-    def copies(vertex: BMVert) -> np.ndarray:
-        return np.array([tuple(loop[layer].uv) for loop in vertex.link_loops if not loop.face.hide])
-
-    def places(first: BMVert, second: BMVert) -> tuple[_Point, _Point] | None:
-        uvs = [copies(vertex) for vertex in (first, second)] if layer is not None else [()]
-        if not all(map(len, uvs)):
-            return None
-        return tuple(view.view_to_region(*map(float, uv), clip=False) for uv in arrow_shapes.nearest_pair(*uvs))
-
-    return places
+def _in_uv_editor(context: bpy.types.Context, edit_object: bpy.types.Object, ends: _Ends) -> _Places:
+    layer, view = edit_meshes.kept(edit_object.data).bm.loops.layers.uv.active, context.region.view2d
+    loops = [[loop for loop in vertex.link_loops if layer and not loop.face.hide] for vertex in ends]
+    if not all(loops):
+        return None
+    copies = [np.array([loop[layer].uv[:] for loop in of_vertex]) for of_vertex in loops]
+    return [view.view_to_region(*map(float, uv), clip=False) for uv in arrow_shapes.nearest_pair(*copies)]
 
 
 def add_draw_handlers() -> None:
     """Start drawing."""
-    for space, draw in ((bpy.types.SpaceView3D, _draw_in_viewport), (bpy.types.SpaceImageEditor, _draw_in_uv_editor)):
-        draw_handlers.add(space, draw, "POST_PIXEL", name=texts.EXTENDERS_LABEL)
+    for space in (bpy.types.SpaceView3D, bpy.types.SpaceImageEditor):
+        draw_handlers.add(space, _draw, "POST_PIXEL", name=texts.EXTENDERS_LABEL)

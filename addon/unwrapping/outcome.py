@@ -64,7 +64,6 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
     warnings = [
         texts.broken_extenders([name for edit_mesh in edit_meshes for name in edit_mesh.broken_extenders]),
         texts.too_small(sum(solution.too_small_faces for solution in solutions)),
-        texts.extenders_without_strength([name for m in edit_meshes for name in m.extenders_without_strength]),
         texts.unused_extenders(sum(solution.unused_extenders for solution in solutions)),
     ]
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):

@@ -44,12 +44,12 @@ def inside(side: int, result: Path) -> None:
             extenders.add(mesh, [(0, side * side // 2)], 1.0)
             following = sys.modules["spectral_unwrap.live.extenders"]
             islands = following.AdjustedIslands(bpy.context.edit_object, [(0, side * side // 2)])
-            islands.write([1.0], False)
+            islands.write([(0, side * side // 2, 1.0)], False)
             solve, spent = islands.adjustment.map, []
 
-            def timed(strengths: list[float], is_final: bool) -> np.ndarray:
+            def timed(extenders: list[tuple[int, int, float]], is_final: bool) -> np.ndarray:
                 start = time.perf_counter()
-                uv = solve(strengths, is_final)
+                uv = solve(extenders, is_final)
                 spent.append(time.perf_counter() - start)
                 return uv
 
@@ -57,7 +57,7 @@ def inside(side: int, result: Path) -> None:
             seconds = []
             for strength in np.linspace(1.0, 3.0, ROUNDS + 1)[1:]:
                 start = time.perf_counter()
-                islands.write([float(strength)], False)
+                islands.write([(0, side * side // 2, float(strength))], False)
                 written = time.perf_counter()
                 solved = start + spent[-1]
                 bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)

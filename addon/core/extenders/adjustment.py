@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The map of the islands that extenders act on, updated while their strengths change."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -21,89 +22,70 @@ from ..words.translation import translate
 _TOLERANCE = 1e-4
 
 
-class AdjustmentError(ReadableError, ValueError):
-    """The extenders cannot be adjusted; the message says why and what to do."""
+@contextmanager
+def _readable() -> Iterator[None]:
+    try:
+        yield
+    except ValueError as error:
+        raise ReadableError(str(error)) from error
 
 
 class ExtenderAdjustment:
-    """Solves charts of one mesh again for changing strengths of extenders, and keeps their position and size.
+    """Solves charts of one mesh again for changing extenders, and keeps their position and size.
 
     Charts and factors are kept, so that a change costs a few solves only.
 
     Attributes:
-        corners: (N,) intp, the corners of the charts that the extenders act on, whole faces.
+        corners: (C,) bool, the corners of the charts that the extenders act on, whole faces.
         unused: how many of the extenders had no effect on the last map.
         charts: the records of the charts in the last map.
     """
 
-    def __init__(self, mesh: PolygonMesh, options: Options, pairs: Sequence[tuple[int, int]]) -> None:
-        """Take the charts of `mesh` that hold both vertices of one of the `pairs`.
-
-        The adjusted extenders replace those of `mesh` between the same two vertices.
+    @_readable()
+    def __init__(self, mesh: PolygonMesh, options: Options, pairs: Collection[tuple[int, int]]) -> None:
+        """Take the charts of `mesh`, which has a map, that hold both vertices of one of the `pairs`.
 
         Raises:
-            AdjustmentError: no chart holds both vertices of a pair.
-            NativeModuleError: `spectral_conformal` cannot be imported.
+            ReadableError: there is none, or `spectral_conformal` cannot be imported.
         """
-        try:
-            faces = charts.faces_of_charts_with(mesh, mesh.selected_faces, pairs)
-        except ValueError as error:
-            raise AdjustmentError(str(error)) from error
+        faces = charts.faces_of_charts_with(mesh, mesh.selected_faces, pairs)
         if not faces.any():
-            raise AdjustmentError(translate(texts.NO_COMMON_ISLAND))
-        self._mesh = replace(mesh, selected_faces=faces)
-        self._options = replace(options, method="spectral")
-        self._pairs = list(pairs)
-        adjusted = {frozenset(pair) for pair in pairs}
-        self._others = [extender for extender in mesh.extenders if frozenset(extender[:2]) not in adjusted]
-        self.corners = np.flatnonzero(faces[mesh.face_of_corner()])
-        self.unused = 0
-        self.charts: Sequence[Any] = ()
-        try:
-            self._unwrapper = native.spectral_conformal().Unwrapper(
-                mesh.vertices,
-                mesh.face_offsets,
-                mesh.corner_vertices,
-                **solution.arguments(self._mesh, self._options),
-            )
-        except ValueError as error:
-            raise AdjustmentError(str(error)) from error
-        self._chart: np.ndarray | None = None
+            raise ReadableError(translate(texts.NO_COMMON_ISLAND))
+        self._mesh, self._options = replace(mesh, selected_faces=faces), replace(options, method="spectral")
+        self._pairs = set(map(frozenset, pairs))
+        self._unwrapper = native.spectral_conformal().Unwrapper(
+            mesh.vertices, mesh.face_offsets, mesh.corner_vertices, **solution.arguments(self._mesh, self._options)
+        )
         self._shown: np.ndarray | None = None
-        self._scale: np.ndarray | None = None
+        self.corners = faces[mesh.face_of_corner()]
+        self.unused, self.charts = 0, ()
 
-    def map(self, strengths: Sequence[float], is_final: bool = False) -> np.ndarray:
-        """Return the map at `corners`, (N, 2) float64, for a strength of each pair; `is_final` asks for all digits.
+    @_readable()
+    def map(self, extenders: Sequence[tuple[int, int, float]], is_final: bool = False) -> np.ndarray:
+        """Return the map, (C, 2) float64, right at `corners`, for all `extenders`; `is_final` asks for all digits.
 
         Raises:
-            AdjustmentError: an island could not be solved with these strengths, or pins hold all of them.
+            ReadableError: an island could not be solved, or pins hold all the extenders.
         """
-        adjusted = [(*pair, strength) for pair, strength in zip(self._pairs, strengths)]
-        extenders = [*self._others, *adjusted]
-        constraints = {**solution.soft_constraints(self._mesh, self._options), "extenders": extenders}
-        try:
-            result = self._unwrapper.solve(**constraints, **({} if is_final else {"tolerance": _TOLERANCE}))
-        except ValueError as error:
-            raise AdjustmentError(str(error)) from error
+        mesh = replace(self._mesh, extenders=tuple(extenders))
+        tolerance: dict[str, Any] = {} if is_final else {"tolerance": _TOLERANCE}
+        result = self._unwrapper.solve(**solution.soft_constraints(mesh, self._options), **tolerance)
         failed = np.flatnonzero(result.charts.column("status") != "solved")
         if len(failed):
-            raise AdjustmentError(result.charts[failed[0]].message)
-        self.unused = int(np.count_nonzero(result.unused_extenders[len(self._others) :]))
-        if self.unused == len(self._pairs):
-            raise AdjustmentError(translate(texts.HELD_BY_PINS))
-        self.charts = result.charts
+            raise ReadableError(result.charts[failed[0]].message)
+        unused = [flag for each, flag in zip(extenders, result.unused_extenders) if frozenset(each[:2]) in self._pairs]
+        if unused and all(unused):
+            raise ReadableError(translate(texts.HELD_BY_PINS))
+        self.unused, self.charts = sum(map(bool, unused)), result.charts
         if self._shown is None:
-            self._chart = result.chart_of_face[self._mesh.face_of_corner()]
-            self._shown, self._scale = self._start(result.uv, self._chart, result.charts.column("area"))
+            self._begin(result.uv, result.chart_of_face[mesh.face_of_corner()], result.charts.column("area"))
         self._shown = placement.turned_onto(result.uv, self._shown, self._chart, self._scale)
-        return self._mesh.from_isotropic_uv(self._shown[self.corners])
+        return mesh.from_isotropic_uv(self._shown)
 
-    def _start(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the former map of the charts, (C, 2), side by side if the mesh has none, and their scale."""
-        offsets = self._mesh.face_offsets
-        former = self._mesh.isotropic_uv()
-        former = np.zeros_like(uv) if former is None else np.where(np.isfinite(former), former, 0.0)
-        former_area = placement.areas(former, chart, offsets, len(area))
-        mapped = former_area > 0.0
-        start = np.where(mapped[chart][:, None], former, placement.side_by_side(uv, np.where(mapped[chart], -1, chart)))
-        return start, np.sqrt(placement.areas(start, chart, offsets, len(area)) / area)
+    def _begin(self, uv: np.ndarray, chart: np.ndarray, area: np.ndarray) -> None:
+        """Take the former map of the charts, and the scales to its areas; charts of no area are put side by side."""
+        former = np.nan_to_num(self._mesh.isotropic_uv(), posinf=0.0, neginf=0.0)
+        mapped = placement.areas(former, chart, self._mesh.face_offsets, len(area))[chart] > 0.0
+        self._shown = np.where(mapped[:, None], former, placement.side_by_side(uv, np.where(mapped, -1, chart)))
+        self._chart = chart
+        self._scale = np.sqrt(placement.areas(self._shown, chart, self._mesh.face_offsets, len(area)) / area)

@@ -11,20 +11,20 @@ from ..errors import ReadableError
 from ..words import texts
 from ..words.translation import translate
 
+# Limit of all strengths, in drags and scripts.
+STRENGTH_LIMIT = 1e4
 # Blender's limit for names of layers in version 3.4, in bytes.
 _MAX_BYTES = 63
-
-
-class SelectionError(ReadableError, ValueError):
-    """The selected vertices form no pairs; the message says what to select."""
 
 
 def layer_name(prefix: str, name: str, strength: float, use: bool) -> str:
     """Return the name of the layer of an extender, with all digits of a strength in single precision.
 
-    A long name is cut.
+    A long name is cut. A strength that is no number or beyond its limit, as in damaged files, counts as 0.
     """
-    return f"{prefix}{use:d}:{strength:.9g}:{name}".encode()[:_MAX_BYTES].decode(errors="ignore")
+    strength = strength if abs(strength) <= STRENGTH_LIMIT else 0.0
+    text = f"{prefix}{use:d}:{strength:.9g}:{name}"
+    return text.encode()[:_MAX_BYTES].decode(errors="ignore")
 
 
 def properties(prefix: str, layer: str) -> tuple[str, float, bool] | None:
@@ -33,7 +33,7 @@ def properties(prefix: str, layer: str) -> tuple[str, float, bool] | None:
         return None
     try:
         use, strength, name = layer[len(prefix) :].split(":", 2)
-        return name, float(strength), bool(int(use))
+        return (name, float(strength), use == "1") if abs(float(strength)) <= STRENGTH_LIMIT else None
     except ValueError:
         return None
 
@@ -42,12 +42,12 @@ def pairs(selected: Sequence[int], active: int | None) -> list[tuple[int, int]]:
     """Return the pairs of every other `selected` vertex and the `active` one; two vertices need none that is active.
 
     Raises:
-        SelectionError: fewer than two vertices are selected, or more and none of them is active.
+        ReadableError: fewer than two vertices are selected, or more and none of them is active.
     """
     if len(selected) < 2:
-        raise SelectionError(translate(texts.SELECT_PAIR))
+        raise ReadableError(translate(texts.SELECT_PAIR))
     if active is None and len(selected) > 2:
-        raise SelectionError(translate(texts.NO_ACTIVE_VERTEX))
+        raise ReadableError(translate(texts.NO_ACTIVE_VERTEX))
     last = selected[-1] if active is None else active
     return [(vertex, last) for vertex in selected if vertex != last]
 

@@ -636,17 +636,6 @@ def broken_extenders(names: Sequence[str]) -> str:
     return _count(len(names), forms, names=", ".join(names))
 
 
-def extenders_without_strength(names: Sequence[str]) -> str:
-    """Return the sentence about extenders with an invalid strength; empty for none."""
-    if not names:
-        return ""
-    forms = (
-        "Skipped {n} extender with an invalid strength: {names}",
-        "Skipped {n} extenders with an invalid strength: {names}",
-    )
-    return _count(len(names), forms, names=", ".join(names))
-
-
 def broken_extender(name: str) -> str:
     """Return why an extender that lost a vertex cannot be adjusted."""
     return translate("{name} lost a vertex; remove it and add another").format(name=name)
@@ -829,11 +818,6 @@ def solver(factorization: str, kernel: str) -> str:
 def no_margin(margin: float) -> str:
     """Return the error of a margin that is not finite."""
     return translate("The margin must be a number, not {margin}").format(margin=margin)
-
-
-def unnamed_extender() -> str:
-    """Return the name of an extender without a name."""
-    return translate("Extender without a name")
 
 
 def without_bounds(count: int) -> str:

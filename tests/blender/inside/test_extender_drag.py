@@ -114,7 +114,7 @@ def test_list_and_arrows_show_the_strength_that_is_dragged(dragged):
     arrows = module("overlay.extender_arrows")
 
     def points_outward():
-        in_plane = lambda _context, _object, _bm: lambda first, second: (tuple(first.co.xy), tuple(second.co.xy))  # noqa: E731
+        in_plane = lambda _context, _object, ends: [tuple(vertex.co.xy) for vertex in ends]  # noqa: E731
         ((_, _, outward, *_),) = arrows._arrows(bpy.context, in_plane)
         return outward
 

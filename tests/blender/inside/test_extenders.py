@@ -54,9 +54,7 @@ def listed(edited):
 
 
 def resolved(edited):
-    forces, broken, without_strength = module("extenders.storage").resolve(scenes.edit_mesh(edited), edited.data)
-    assert without_strength == []
-    return forces, broken
+    return module("extenders.storage").resolve(scenes.edit_mesh(edited), edited.data)
 
 
 def positions(edited):
@@ -536,7 +534,7 @@ def test_arrows_of_meshes_in_edit_mode():
     one.data.spectral_extenders[1].use = False
     delete_vertices(one, [9])
     one.data.spectral_extenders_active = 0
-    arrows = list(drawing._arrows(bpy.context, drawing_in_plane))
+    arrows = drawing._arrows(bpy.context, drawing_in_plane)
     assert [arrow[2] for arrow in arrows] == [True, True, False]
     # The active one is last.
     np.testing.assert_allclose(arrows[-1][:2], [(1.0, 1.0), (3.0, 1.0)])
@@ -544,8 +542,8 @@ def test_arrows_of_meshes_in_edit_mode():
     assert opaque[0] < opaque[1] == opaque[2]
 
 
-def drawing_in_plane(_context, edit_object, _bm):
-    return lambda first, second: (tuple(first.co.xy), tuple(second.co.xy))
+def drawing_in_plane(_context, _object, ends):
+    return [tuple(vertex.co.xy) for vertex in ends]
 
 
 def test_uv_editor_connects_the_nearest_copies():
@@ -564,7 +562,7 @@ def test_uv_editor_connects_the_nearest_copies():
 
     context = type("Context", (), {"region": type("Region", (), {"view2d": View})})
     (ends,) = module("extenders.storage").vertices(cube.data)
-    a, b = drawing._places_in_uv_editor(context, cube, bm)(*ends)
+    a, b = drawing._in_uv_editor(context, cube, ends)
     nearest = np.linalg.norm(first[:, None] - second[None], axis=2).min()
     assert np.linalg.norm(np.subtract(a, b)) == pytest.approx(nearest)
 

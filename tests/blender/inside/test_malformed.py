@@ -98,11 +98,9 @@ def test_damaged_extenders(name):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("strength NaN", "Skipped 1 extender with an invalid strength: Whole"),
-        ("strength beyond its limit", "Skipped 1 extender with an invalid strength: Whole"),
         ("one vertex twice", "Skipped 1 extender that lost a vertex: Whole"),
         ("huge identifiers", "Skipped 1 extender that lost a vertex: Whole"),
-        ("nothing inside", "Skipped 1 extender that lost a vertex: Extender without a name"),
+        ("nothing inside", "Skipped 1 extender that lost a vertex: Extender"),
     ],
 )
 def test_damaged_extenders_are_named(name, message, reports):
@@ -110,6 +108,14 @@ def test_damaged_extenders_are_named(name, message, reports):
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
     assert [text for level, text in reports() if level == "Warning"] == [message]
+
+
+@pytest.mark.parametrize("name", ["strength NaN", "strength infinite", "strength beyond its limit"])
+def test_a_strength_that_is_none_is_shown_as_zero(name):
+    grid = damaged(DAMAGED[name])
+    assert [(e.name, e.strength) for e in grid.data.spectral_extenders] == [("Whole", 0.0)]
+    grid.data.spectral_extenders[0].strength = NAN
+    assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
 
 
 def test_whole_extender_acts_beside_a_damaged_one():

@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from spectral_unwrap.core.errors import ReadableError
 from spectral_unwrap.core.extenders import pairs as extender_pairs
-from spectral_unwrap.core.extenders.pairs import SelectionError
 
 PREFIX = ".spectral_extender:"
 EXTENDERS = [
@@ -15,7 +15,6 @@ EXTENDERS = [
     ("with: colons\nand lines", 1e4, True),
     ("Drücken 推", float(np.float32(0.1)), True),
     ("1:2:3", 1e-30, False),
-    ("without bound", -math.inf, True),
 ]
 
 
@@ -27,16 +26,19 @@ def test_names_of_layers_hold_all_of_an_extender(extender):
     assert extender_pairs.layer_name(PREFIX, *found) == name
 
 
-def test_a_strength_that_is_no_number_is_read_as_such():
-    name, strength, use = extender_pairs.properties(PREFIX, extender_pairs.layer_name(PREFIX, "Nose", math.nan, True))
-    assert (name, use) == ("Nose", True)
-    assert math.isnan(strength)
+@pytest.mark.parametrize("strength", [math.nan, math.inf, -math.inf, 1.1e4, -1e38])
+def test_a_strength_that_is_none_counts_as_zero(strength):
+    assert extender_pairs.properties(PREFIX, extender_pairs.layer_name(PREFIX, "Nose", strength, True)) == (
+        "Nose",
+        0.0,
+        True,
+    )
 
 
 @pytest.mark.parametrize(
     "name",
-    ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:on:1:x"]
-    + [f".spectral_extender:1:{number}:x" for number in ("", "1e", "--1", "1.2.3", "one")],
+    ["", "Attribute", ".spectral_extenders:8f01", ".spectral_extender:", ".spectral_extender:1:x"]
+    + [f".spectral_extender:1:{number}:x" for number in ("", "1e", "--1", "1.2.3", "one", "nan", "inf", "1e5")],
 )
 def test_other_layers_are_no_extenders(name):
     assert extender_pairs.properties(PREFIX, name) is None
@@ -64,7 +66,7 @@ def test_several_vertices_are_connected_with_the_active_one():
     ("selected", "active", "words"), [([], None, "two vertices"), ([1], 1, "two vertices"), ([1, 2, 3], None, "active")]
 )
 def test_selection_without_pairs_is_refused_with_advice(selected, active, words):
-    with pytest.raises(SelectionError, match=words):
+    with pytest.raises(ReadableError, match=words):
         extender_pairs.pairs(selected, active)
 
 

@@ -204,12 +204,6 @@ def test_expected_gain():
     )
 
 
-def test_extenders_without_a_strength_are_named():
-    assert texts.extenders_without_strength([]) == ""
-    assert texts.extenders_without_strength(["A", "B"]).startswith("Skipped 2 extenders")
-    assert texts.extenders_without_strength(["A", "B"]).endswith(": A, B")
-
-
 def test_where_seams_are_missing_suggest_seams_is_named():
     cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
     faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -172,7 +172,6 @@ CALLS = {
     "pinned": [(summary(1),), (summary(1, pinned=Counter(lscm=1)),)],
     "object_scale": [([(1.0, 1.0, 2.0)], [False]), ([(1.0, 1.0, 1.0)], [True])],
     "broken_extenders": [(["A"],), (["A", "B"],)],
-    "extenders_without_strength": [(["A"],), (["A", "B"],)],
     "broken_extender": [("A",)],
     "adjusting": [("0.5", "A")],
     "removed_broken": [(2,)],
@@ -196,7 +195,6 @@ CALLS = {
     + [(MapQuality(0.5, NAN), MapQuality(1.0, 1.5), 2.0)],
     "no_module": [("A",)],
     "no_margin": [(-1.0,)],
-    "unnamed_extender": [()],
     "without_bounds": [(0,), (1,), (2,)],
 }
 
