@@ -10,7 +10,7 @@ namespace {
 constexpr int max_reach = 3;
 
 /// Seam edges of a coarse piece that follow each other, by their vertices. All belong to one cut.
-struct SeamChain {
+struct CoarseChain {
   std::vector<int> vertices;
   int cut;
 };
@@ -20,22 +20,22 @@ struct SeamChain {
 class SeamChains {
  public:
   SeamChains(const PieceSeams& seams, const std::vector<SeamEdges>& cuts);
-  const std::vector<SeamChain>& chains() const { return chains_; }
+  const std::vector<CoarseChain>& chains() const { return chains_; }
 
  private:
   std::array<int, 2> ends(int edge) const { return seams_.graph().edges()[edge].vertices; }
   int side(int v) const { return seams_.is_symmetric() ? seams_.side(v) : 1; }
   bool crosses(int edge) const { return side(ends(edge)[0]) * side(ends(edge)[1]) < 0; }
   bool goes_on(int v, int edge, int other) const;
-  void follow(int v, SeamChain& chain);
-  void add(SeamChain&& chain);
+  void follow(int v, CoarseChain& chain);
+  void add(CoarseChain&& chain);
 
   const PieceSeams& seams_;
   std::vector<int> cut_of_edge_;          ///< -1 where an edge is no new seam
   std::vector<int> degree_;               ///< cut edges per vertex
   std::vector<std::vector<int>> new_at_;  ///< new seams per vertex
   std::vector<char> followed_;            ///< per edge
-  std::vector<SeamChain> chains_;
+  std::vector<CoarseChain> chains_;
 };
 
 SeamChains::SeamChains(const PieceSeams& seams, const std::vector<SeamEdges>& cuts)
@@ -62,7 +62,7 @@ SeamChains::SeamChains(const PieceSeams& seams, const std::vector<SeamEdges>& cu
       const auto [a, b] = ends(e);
       if (!crosses(e) && (side(a) < 0 || side(b) < 0)) continue;
       followed_[e] = 1;
-      SeamChain chain{{a, b}, static_cast<int>(i)};
+      CoarseChain chain{{a, b}, static_cast<int>(i)};
       if (crosses(e)) {
         if (side(a) < 0) std::swap(chain.vertices[0], chain.vertices[1]);
       } else {
@@ -81,7 +81,7 @@ bool SeamChains::goes_on(int v, int edge, int other) const {
 }
 
 /// Goes on from the last vertex of a chain, by an edge of the same cut as `edge`.
-void SeamChains::follow(int edge, SeamChain& chain) {
+void SeamChains::follow(int edge, CoarseChain& chain) {
   for (bool found = true; found;) {
     found = false;
     const int v = chain.vertices.back();
@@ -98,14 +98,14 @@ void SeamChains::follow(int edge, SeamChain& chain) {
 
 /// Chains begin off the mirror plane where they can, and where both ends are in one place they are halved: a path is
 /// found from the first vertex to the last, and only the last may be on the plane.
-void SeamChains::add(SeamChain&& chain) {
+void SeamChains::add(CoarseChain&& chain) {
   std::vector<int>& all = chain.vertices;
   const bool in_plane =
       seams_.is_symmetric() && std::all_of(all.begin(), all.end(), [&](int v) { return side(v) == 0; });
   const bool both_in_plane = !in_plane && side(all.front()) == 0 && side(all.back()) == 0;
   if (all.size() > 2 && (all.front() == all.back() || both_in_plane)) {
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    SeamChain other{{middle, all.end()}, chain.cut};
+    CoarseChain other{{middle, all.end()}, chain.cut};
     all.erase(middle + 1, all.end());
     std::reverse(all.begin(), all.end());
     chains_.push_back(std::move(chain));
@@ -137,7 +137,7 @@ class SeamCarrier {
     for (std::size_t v = 0; v < coarse.cluster.size(); ++v) members_[coarse.cluster[v]].push_back(static_cast<int>(v));
   }
   /// The new seams that a chain becomes.
-  SeamEdges carry(const SeamChain& chain) {
+  SeamEdges carry(const CoarseChain& chain) {
     const std::vector<int>& vertices = chain.vertices;
     open_corridor(vertices);
     const bool crosses = to_.is_symmetric() &&
@@ -239,7 +239,7 @@ class SeamCarrier {
 /// Euler characteristic and boundary loops of the charts of a piece, ascending.
 std::vector<std::array<int, 2>> chart_topology(const PieceSeams& seams) {
   PolygonMesh mesh = seams.piece().view();
-  const std::vector<std::array<int, 2>> edges = seams.with({});
+  const std::vector<std::array<int, 2>> edges = seams.changed({}, {});
   mesh.seam_edges = edges.data();
   mesh.n_seam_edges = static_cast<int>(edges.size());
   std::vector<std::array<int, 2>> result;
@@ -262,7 +262,7 @@ std::vector<SeamEdges> carry_seams(const CoarsePiece& coarse, const PieceSeams& 
     to.remove(SeamEdges(to.edges()));
     result.assign(cuts.size(), {});
     SeamCarrier carrier(coarse, from, is_wide, to);
-    for (const SeamChain& chain : chains.chains()) {
+    for (const CoarseChain& chain : chains.chains()) {
       const SeamEdges path = carrier.carry(chain);
       SeamEdges& cut = result[static_cast<std::size_t>(chain.cut)];
       cut.insert(cut.end(), path.begin(), path.end());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <unordered_set>
 #include <vector>
 
 #include "mesh/charts.h"
@@ -15,6 +16,14 @@ namespace spectral_conformal {
 /// Edges of a SeamGraph, by number.
 using SeamEdges = std::vector<int>;
 
+/// Seams that follow each other, from one end to the other.
+struct SeamChain {
+  SeamEdges edges;
+  std::array<int, 2> ends;     ///< vertices; the same of a closed chain
+  std::array<bool, 2> is_tip;  ///< whether nothing else is cut there
+  bool is_own_image = false;   ///< in a piece that mirrors itself
+};
+
 /// The new seams of a piece, and the cuts that extend them. If the piece is its own mirror image, every cut includes
 /// its image and stays in one half, so that the two together enclose nothing.
 class PieceSeams {
@@ -27,17 +36,23 @@ class PieceSeams {
   /// The new seams so far.
   const SeamEdges& edges() const { return edges_; }
   double length(const SeamEdges& edges) const;
+  /// The sum of SeamGraph::Edge::cost.
+  double cost(const SeamEdges& edges) const;
   /// Multiplies the costs of the edges, not their lengths; factors per edge.
   void scale_costs(const std::vector<double>& factors);
   void add(const SeamEdges& edges);
   /// Takes new seams away again.
   void remove(const SeamEdges& edges);
-  /// The vertices of all seams of the piece, old, new and `more`, for a PolygonMesh of it.
-  std::vector<std::array<int, 2>> with(const SeamEdges& more) const;
-  /// The same without some of the new ones.
-  std::vector<std::array<int, 2>> without(const SeamEdges& some) const;
-  /// The new seams from one crossing or end of seams to the next, each with its image, longest first.
-  std::vector<SeamEdges> chains() const;
+  /// The vertices of all seams of the piece, old and new, for a PolygonMesh of it, after a change of the new ones.
+  std::vector<std::array<int, 2>> changed(const SeamEdges& added, const SeamEdges& removed) const;
+  /// The new seams, from one crossing or end of seams to the next; of two that mirror each other the one whose first
+  /// edge has the lower number.
+  std::vector<SeamChain> chains() const;
+  /// Some new seams and their images, ascending.
+  SeamEdges with_cut_images(const SeamEdges& some) const;
+  /// The cheapest path between the ends of a chain that touches no other cut, where that is cheaper than the chain;
+  /// empty where there is none, and of closed chains and those that meet their own image. The chain is not cut.
+  SeamEdges straightened(const SeamChain& chain) const;
 
   /// Whether the charts of the piece's faces are mapped so that `chart` is its own mirror image.
   bool self_mirrored(int chart, const FaceCharts& chart_of_face) const;
@@ -88,6 +103,27 @@ class PieceSeams {
   bool symmetric_;                 ///< cuts come with their images
   std::vector<signed char> side_;  ///< per vertex, see MirrorSymmetry; all 0 without a mirror image
   SeamEdges edges_;
+};
+
+/// The edges of some cuts, each once, in the order in which they come.
+class JoinedCuts {
+ public:
+  explicit JoinedCuts(const PieceSeams& seams) : seams_(seams) {}
+  void add(const SeamEdges& cut) {
+    for (const int edge : cut) {
+      if (!known_.insert(edge).second) continue;
+      edges_.push_back(edge);
+      length_ += seams_.graph().edges()[static_cast<std::size_t>(edge)].length;
+    }
+  }
+  SeamEdges& edges() { return edges_; }
+  double length() const { return length_; }
+
+ private:
+  const PieceSeams& seams_;
+  SeamEdges edges_;
+  std::unordered_set<int> known_;
+  double length_ = 0;
 };
 
 }  // namespace spectral_conformal

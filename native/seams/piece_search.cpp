@@ -12,9 +12,7 @@
 #include "seams/carried_seams.h"
 #include "seams/cut_surface.h"
 #include "seams/rigid_unfolding.h"
-#include "seams/seam_functional.h"
 #include "seams/seam_preferences.h"
-#include "seams/seam_price.h"
 
 namespace spectral_conformal {
 namespace {
@@ -22,13 +20,9 @@ namespace {
 /// Of one level; far above what any took (at most 112 on the meshes of the tests): a bound, not a limit.
 constexpr int max_steps = 1000;
 /// Seams of pieces with more vertices are looked for on a coarse copy first, then carried over to finer ones and to the
-/// piece, each of which has at most `level_ratio` times as many vertices.
-constexpr int max_searched = 6000;
-/// A smaller piece, down to `min_copied` vertices, gets coarse copies once its search has solved for this number of
-/// vertices: seams found on copies were 9 % longer on meshes whose search ends before, but 9 % shorter, in less than
-/// half the time, on bodies with many limbs.
-constexpr std::int64_t patience = 220000;
-constexpr int min_copied = 2048;
+/// piece, each of which has at most `level_ratio` times as many vertices: with 6000, seams were as long and took
+/// longer.
+constexpr int max_searched = 2048;
 constexpr int level_ratio = 4;
 constexpr int coarse_vertices = 1000;
 /// Of larger pieces no more than has to be is solved for at their finer levels: on a sword of 22,000 vertices such
@@ -46,6 +40,9 @@ constexpr double unfolding_nanoseconds = 2000;
 /// What the seams of an unfolding may cost for the value of those that were found: of more, which curved surfaces need,
 /// too much is left when chains were taken back.
 constexpr double hopeless_price = 3.5;
+/// What follows sharp edges without distortion is taken unless the other seams are better by this factor: its hinges
+/// are wide, which the functional does not see.
+constexpr double rigid_bonus = 1.15;
 
 SeamSuggestionOptions with_less_energy(SeamSuggestionOptions options) {
   options.energy_limit = 4 + coarse_energy * (options.energy_limit - 4);
@@ -94,8 +91,6 @@ void PieceSearch::step(double longest, const Progress& progress) {
     finish();
   } else if (ended) {
     refine(progress);
-  } else if (takes_too_long()) {
-    begin_again_on_copies(progress);
   }
 }
 
@@ -106,7 +101,6 @@ double PieceSearch::urgency() const {
 
 /// Copies of a large piece, each with fewer vertices than the one before.
 void PieceSearch::make_levels(const Progress& progress) {
-  began_on_copies_ = true;
   // Coarse seams are shorter than those that they become, so that a limit of the length could not be kept.
   if (std::isfinite(mesh_.options.max_length)) return;
   const bool is_own_image = mirror().image == index_;
@@ -146,18 +140,6 @@ void PieceSearch::open(const Progress& progress) {
   cutter_->solve(progress);
 }
 
-bool PieceSearch::takes_too_long() const {
-  return levels_.empty() && !began_on_copies_ && n_vertices() > min_copied && cutter_->solved_vertices() > patience;
-}
-
-void PieceSearch::begin_again_on_copies(const Progress& progress) {
-  make_levels(progress);
-  if (levels_.empty()) return;
-  cuts_.clear();
-  steps_ = 0;
-  open(progress);
-}
-
 std::unique_ptr<Cutter> PieceSearch::cutter(PieceSeams&& seams, bool refined) const {
   const bool is_one_of_many = mesh_.given_vertices.size() > large_mesh && n_vertices() > max_searched;
   return std::make_unique<Cutter>(std::move(seams), levels_.empty() ? mesh_.options : mesh_.coarse_options,
@@ -194,6 +176,7 @@ void PieceSearch::refine(const Progress& progress) {
   const std::unique_ptr<CoarsePiece> coarse = std::move(levels_.back());
   levels_.pop_back();
   steps_ = 0;
+  if (has_straightened()) cuts_ = chains_as_cuts(cutter_->seams());
   const bool was_filled = levels_.empty() && filled_;
   PieceSeams seams = was_filled ? priced(filled_->piece, filled_->mirror) : unseamed();
   std::vector<SeamEdges> found;
@@ -226,28 +209,19 @@ void PieceSearch::take_unfolded(double longest, const Progress& progress) {
   if (std::isfinite(longest) || is_large()) return;
   PieceSeams unfolded = priced(piece(), mirror());
   unfolded.forget_symmetry();
-  std::vector<double> price = cost_factors_of(unfolded.graph(), piece());
-  for (std::size_t e = 0; e < price.size(); ++e) price[e] *= seam_price(unfolded.graph().edges()[e]);
-  const SeamFunctional functional(cutter_->seams().graph(), price, mesh_.options.energy_limit);
   SeamEdges edges;
   call_while_listening(unfolding_nanoseconds * static_cast<double>(piece().corner_vertices.size()),
-                       [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph(), price); });
+                       [&] { edges = rigid_unfolding_seams(piece(), unfolded.graph()); });
   const auto value = [&](const Cutter& of) {
-    return of.is_sound() ? functional(of.seams().edges(), of.charts()) : std::numeric_limits<double>::infinity();
+    return of.is_sound() ? of.value() : std::numeric_limits<double>::infinity();
   };
   const double found = value(*cutter_);
-  if (edges.empty() || functional.price(edges) > hopeless_price * found * std::sqrt(piece().area())) return;
+  if (edges.empty() || unfolded.cost(edges) > hopeless_price * found * std::sqrt(piece().area())) return;
   unfolded.add(edges);
   std::unique_ptr<Cutter> cutter = this->cutter(std::move(unfolded), true);
   cutter->solve(progress);
-  cutter->settle(functional, progress);
-  // The limits hold for it as for the search.
-  const MapQuality& quality = cutter->quality();
-  const MapQuality& before = cutter_->quality();
-  if (quality.mean_qc > std::max(mesh_.options.qc_limit, before.mean_qc) ||
-      quality.energy > std::max(mesh_.options.energy_limit, before.energy) || !(value(*cutter) < found)) {
-    return;
-  }
+  cutter->settle(progress);
+  if (!(value(*cutter) < rigid_bonus * found)) return;
   cutter_ = std::move(cutter);
   cuts_ = chains_as_cuts(cutter_->seams());
 }
@@ -258,8 +232,15 @@ std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams&
   double left = seams.length(seams.edges());
   bool is_open = false;
   std::vector<std::array<int, 2>> edges;
-  for (SeamEdges& chain : seams.chains()) {
-    left -= seams.length(chain);
+  std::vector<std::pair<double, SeamEdges>> chains;
+  for (const SeamChain& chain : seams.chains()) {
+    SeamEdges whole = seams.with_cut_images(chain.edges);
+    const double length = seams.length(whole);
+    chains.emplace_back(-length, std::move(whole));
+  }
+  std::sort(chains.begin(), chains.end());
+  for (auto& [length, chain] : chains) {
+    left += length;
     if (is_open) {
       cuts.push_back({std::move(chain), left});
       continue;
@@ -267,9 +248,9 @@ std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams&
     for (const int e : chain) edges.push_back(seams.graph().edges()[static_cast<std::size_t>(e)].vertices);
     SeamEdges& first = cuts.front().edges;
     first.insert(first.end(), chain.begin(), chain.end());
-    std::vector<std::array<int, 2>> all = piece().seams;
+    std::vector<std::array<int, 2>> all = seams.piece().seams;
     all.insert(all.end(), edges.begin(), edges.end());
-    PolygonMesh mesh = piece().view();
+    PolygonMesh mesh = seams.piece().view();
     mesh.seam_edges = all.data();
     mesh.n_seam_edges = static_cast<int>(all.size());
     const std::vector<Chart> charts = build_charts(mesh).charts;
@@ -280,8 +261,17 @@ std::vector<PieceSearch::FoundCut> PieceSearch::chains_as_cuts(const PieceSeams&
   return cuts;
 }
 
+/// Whether there are seams that no cut was found with.
+bool PieceSearch::has_straightened() const {
+  std::set<int> found;
+  for (const FoundCut& cut : cuts_) found.insert(cut.edges.begin(), cut.edges.end());
+  const SeamEdges& edges = cutter_->seams().edges();
+  return std::any_of(edges.begin(), edges.end(), [&](int edge) { return found.count(edge) == 0; });
+}
+
 /// Keeps what was found, and gives the memory of the search back.
 void PieceSearch::finish() {
+  if (has_straightened()) cuts_ = chains_as_cuts(cutter_->seams());
   const PieceSeams& seams = cutter_->seams();
   const std::set<int> left(seams.edges().begin(), seams.edges().end());
   for (const FoundCut& found : cuts_) {

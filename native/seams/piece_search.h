@@ -71,8 +71,6 @@ class PieceSearch {
   int n_vertices() const;
   void make_levels(const Progress& progress);
   void open(const Progress& progress);
-  bool takes_too_long() const;
-  void begin_again_on_copies(const Progress& progress);
   std::unique_ptr<Cutter> cutter(PieceSeams&& seams, bool refined) const;
   PieceSeams unseamed() const;
   PieceSeams priced(const Piece& piece, const PieceMirror& mirror) const;
@@ -80,6 +78,7 @@ class PieceSearch {
   PieceSeams with_holes(const PieceSeams& filled, std::vector<SeamEdges>& cuts) const;
   void take_unfolded(double longest, const Progress& progress);
   std::vector<FoundCut> chains_as_cuts(const PieceSeams& seams) const;
+  bool has_straightened() const;
   std::vector<double> cost_factors_of(const SeamGraph& graph, const Piece& piece) const;
   void finish();
 
@@ -88,7 +87,6 @@ class PieceSearch {
   std::vector<std::unique_ptr<CoarsePiece>>
       levels_;                         ///< copies on which seams are still to be looked for, each coarser
   std::optional<FilledPiece> filled_;  ///< what the first of them is made from, where it has small holes
-  bool began_on_copies_ = false;
   std::unique_ptr<Cutter> cutter_;
   int steps_ = 0;  ///< at this level
   std::vector<FoundCut> cuts_;

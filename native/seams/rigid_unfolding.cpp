@@ -169,8 +169,7 @@ struct Net {
 
 class Unfolder {
  public:
-  Unfolder(const Piece& piece, const SeamGraph& graph, const std::vector<double>& price)
-      : piece_(piece), graph_(graph), price_(price) {
+  Unfolder(const Piece& piece, const SeamGraph& graph) : piece_(piece), graph_(graph) {
     find_corners();
     lay_facets();
   }
@@ -380,7 +379,7 @@ class Unfolder {
       if (edge.length > 0 && r != s) joined = hinges(shared, a, b, onto(e, a, b));
       double price = 0;
       for (const int h : joined) {
-        price += price_[static_cast<std::size_t>(h)] * graph_.edges()[static_cast<std::size_t>(h)].length;
+        price += graph_.edges()[static_cast<std::size_t>(h)].cost;
       }
       if (!joined.empty()) {
         const double step = price_step * std::sqrt(area_);
@@ -459,7 +458,6 @@ class Unfolder {
 
   const Piece& piece_;
   const SeamGraph& graph_;
-  const std::vector<double>& price_;
   double area_ = 0;
   std::vector<std::array<std::array<int, 2>, 2>> corners_;  ///< per edge and face: of its first and second vertex
   std::vector<Complex> z_;                                  ///< per corner, in the plane of its net
@@ -474,8 +472,8 @@ class Unfolder {
 
 }  // namespace
 
-std::vector<int> rigid_unfolding_seams(const Piece& piece, const SeamGraph& graph, const std::vector<double>& price) {
-  Unfolder unfolder(piece, graph, price);
+std::vector<int> rigid_unfolding_seams(const Piece& piece, const SeamGraph& graph) {
+  Unfolder unfolder(piece, graph);
   if (!unfolder.has_few_facets()) return {};
   unfolder.join_all();
   return unfolder.seams();

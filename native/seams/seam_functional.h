@@ -1,37 +1,40 @@
 #pragma once
 
-#include <vector>
-
-#include "seams/seam_graph.h"
 #include "seams/trial_map.h"
+#include "spectral_conformal/seam_suggestion.h"
 
 namespace spectral_conformal {
 
-/// The functional that rates a choice of seams in a piece; lower is better:
+/// The functional that rates a choice of seams in a piece; lower is better, and every decision of the search lowers it:
 ///
-///     F = |E - 4| / (E_max - 4) + sum of p_e l_e / sqrt(A) + n / 20
+///     F = |E - 4| / (E_max - 4) + sum of c_e / sqrt(A) + n / 20 + G
 ///
-/// |E - 4| is the 4-norm, as a mean over the area A of the piece, of the faces' symmetric Dirichlet energies above that
-/// of an isometry (bounded as in MapQuality::energy). It lies between their mean and their maximum. E_max is
+/// |E - 4| is the root mean square, over the area A of the piece, of the faces' symmetric Dirichlet energies above that
+/// of an isometry (bounded as in MapQuality::energy). It lies between their mean and their maximum; with the 4-norm the
+/// search followed a few faces that no cut helps. E_max is
 /// SeamSuggestionOptions::energy_limit, the exchange rate between distortion and seams: the allowed distortion costs as
-/// much as a seam of length sqrt(A). p_e and l_e are the prices and lengths of the new seam edges (seam_price.h). n is
-/// the number of islands; each costs a twentieth of such a seam. The caller excludes flips and overlaps.
+/// much as a seam of length sqrt(A). c_e are the costs of the new seam edges, their lengths times their prices
+/// (SeamGraph::Edge::cost). n is the number of islands; each costs a twentieth of such a seam. G is the price of what
+/// exceeds the limits of the options. The caller excludes flips and overlaps.
 class SeamFunctional {
  public:
-  /// price per edge of the graph, which must outlive this object.
-  SeamFunctional(const SeamGraph& graph, std::vector<double> price, double energy_limit)
-      : graph_(graph), price_(std::move(price)), energy_limit_(energy_limit) {}
+  /// `options` must outlive this object. `mesh_area` is that of the whole mesh, which options.qc_gain is for; 0: of the
+  /// piece alone.
+  SeamFunctional(const SeamSuggestionOptions& options, double mesh_area) : options_(options), mesh_area_(mesh_area) {}
 
-  /// `seams` are edges of the graph, `charts` the maps of what they leave connected; infinite where one has no map.
-  double operator()(const std::vector<int>& seams, const TrialMaps& charts) const;
-  /// Sum of p_e l_e.
-  double price(const std::vector<int>& seams) const;
-  const std::vector<double>& prices() const { return price_; }
+  /// `cost` is the sum of c_e, `charts` are the maps of what the seams leave connected, and `quality` is theirs;
+  /// infinite where one has no map.
+  double operator()(double cost, const TrialMaps& charts, const MapQuality& quality) const;
+  /// What it counts beside the cost of seams and the number of islands.
+  double distortion(const TrialMaps& charts, const MapQuality& quality) const;
+  /// Whether a limit is exceeded.
+  bool exceeds_limits(const MapQuality& quality) const;
 
  private:
-  const SeamGraph& graph_;
-  std::vector<double> price_;
-  double energy_limit_;
+  double beyond_limits(const MapQuality& quality) const;
+
+  const SeamSuggestionOptions& options_;
+  double mesh_area_;
 };
 
 }  // namespace spectral_conformal

@@ -17,7 +17,7 @@ class SeamGraph {
     std::array<int, 2> vertices;  ///< the smaller first
     std::array<int, 2> faces;     ///< -1 where there is none; of three or more faces the first two
     double length;
-    double cost;  ///< the length, lowered along sharp edges, most along concave ones, where seams are seen least
+    double cost;  ///< of a seam along it: the length times the price (seam_price.h) and the factors of scale_cost
     bool cut;     ///< seam, or not between exactly two faces
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< sum of the unit normals of the two faces; 0 where it is cut
 
@@ -39,6 +39,9 @@ class SeamGraph {
   /// Precondition: it lies between exactly two faces.
   void uncut(int edge) { edges_[edge].cut = false; }
   void scale_cost(int edge, double factor) { edges_[edge].cost *= factor; }
+
+  /// The angle between the normals of the edge's two faces, in radians, 0 to pi; pi for a cut edge.
+  static double dihedral_angle(const Edge& edge);
 
   /// Cost of the cheapest path from every vertex to a source along `allowed` edges, cut ones being free; infinite where
   /// there is no path. With `parent`, the edge by which each vertex is reached from its source, or -1.

@@ -116,7 +116,7 @@ class SeamFinder {
           const std::size_t place = n_large + static_cast<std::size_t>(k);
           is_left[place] = !has_memory_for(order[place], [&] { search(order[place], going_on); });
         },
-        progress_, "seams", Cutter::max_threads);
+        progress_, "seams", CutPiece::max_threads);
     const bool were_others = order.size() - n_large > 1;
     for (std::size_t place = n_large; place < order.size(); ++place) {
       if (!is_left[place]) continue;

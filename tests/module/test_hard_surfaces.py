@@ -31,8 +31,9 @@ def test_seams_that_an_artist_would_keep(name):
     assert all((chart.status, chart.flipped, chart.overlapping) == ("solved", 0, 0) for chart in charts)
     area = np.array([chart.area for chart in charts])
     assert np.average([chart.mean_qc for chart in charts], weights=area) < 1.01
-    # The chamfer of the bolt, a hundredth of its area, stays with the shaft.
-    assert max(chart.max_qc for chart in charts) < (1.13 if name == "bolt" else 1.1)
+    # The chamfer of the bolt stays with the shaft, and the corners of round bevels, which are curved both ways, with
+    # the top: a hundredth of the area each.
+    assert max(chart.max_qc for chart in charts) < (1.13 if name in ("bolt", "rounded block") else 1.1)
 
 
 def test_numbering_makes_no_difference():

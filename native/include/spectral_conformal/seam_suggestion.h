@@ -19,8 +19,9 @@ struct SeamSuggestionOptions {
   /// Applies where only the mean QC exceeds its limit, or where no cut lowers the energy further. A cut must then lower
   /// the mean QC of the whole mesh by at least this, per length sqrt(mesh area); at least 0.
   double qc_gain = 0;
-  /// Stop when the symmetric Dirichlet energy of the maps (area-weighted mean, 4 for an isometry, see MapQuality) is at
-  /// most this; at least 4.
+  /// The symmetric Dirichlet energy of the maps that is allowed (area-weighted mean, 4 for an isometry, see
+  /// MapQuality); at least 4. It is the exchange rate between distortion and seams (seam_functional.h), and what
+  /// exceeds it is dear, as with the other limits, but they are no bounds.
   double energy_limit = 4.3;
   /// Direction from the mesh to the viewer; its length says how strongly seams avoid being seen: an edge whose faces
   /// look at the viewer costs 1 + |front| times its length. Zero: no viewer. Finite.
@@ -47,8 +48,9 @@ struct SeamSuggestion {
 /// (handle_cuts.h) and closed surfaces along a path between distant vertices. Then it cuts greedily from the most
 /// distorted regions to the boundary: cheapest paths join the prominent extrema of the scale (field_extrema.h) and the
 /// vertices of highest QC to the existing cuts (Sheffer and Hart 2002, "Seamster"). It solves each candidate, keeps it
-/// only if the distortion falls, and prefers the one that lowers it most per length. Charts with a mirror plane
-/// (mirror_symmetry.h) get mirrored cuts where paths allow it. Large charts are first processed on coarse copies
+/// only if one functional of distortion, priced length and islands falls (seam_functional.h), and prefers the one that
+/// lowers it most; in the end it takes seams back and straightens them where that lowers it too. Charts with a mirror
+/// plane (mirror_symmetry.h) get mirrored cuts where paths allow it. Large charts are first processed on coarse copies
 /// (coarse_piece.h): the charts are then cut where their copies are, and further where that is not enough. Charts that
 /// still cannot be solved get no seams. If the length is not limited, each chart is also split into flat parts that
 /// unfold without distortion (rigid_unfolding.h), and seams not worth their length are removed; the cheaper of the two

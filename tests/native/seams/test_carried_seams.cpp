@@ -27,7 +27,7 @@ struct TwoLevels : MirroredPieces {
 
 std::vector<Chart> charts_of(const PieceSeams& seams) {
   PolygonMesh view = seams.piece().view();
-  const auto edges = seams.with({});
+  const auto edges = seams.changed({}, {});
   view.seam_edges = edges.data();
   view.n_seam_edges = static_cast<int>(edges.size());
   return build_charts(view).charts;

@@ -29,7 +29,7 @@ struct SolvedPiece : MirroredPieces {
   }
   std::vector<Chart> charts_with(const SeamEdges& more) const {
     PolygonMesh view = pieces[0].view();
-    const auto edges = seams->with(more);
+    const auto edges = seams->changed(more, {});
     view.seam_edges = edges.data();
     view.n_seam_edges = static_cast<int>(edges.size());
     return build_charts(view).charts;

@@ -13,7 +13,6 @@
 #include "meshes.h"
 #include "seams/pieces.h"
 #include "seams/rigid_unfolding.h"
-#include "seams/seam_price.h"
 
 namespace spectral_conformal::test {
 namespace {
@@ -21,16 +20,14 @@ namespace {
 struct Unfolded {
   Piece piece;
   SeamGraph graph;
-  std::vector<double> price;
   std::vector<int> seams;
 
   explicit Unfolded(const Mesh& mesh) : piece(MirroredPieces(mesh.view()).pieces.front()), graph(piece.view()) {
-    for (const auto& edge : graph.edges()) price.push_back(seam_price(edge));
-    seams = rigid_unfolding_seams(piece, graph, price);
+    seams = rigid_unfolding_seams(piece, graph);
   }
   double seams_price() const {
     double sum = 0;
-    for (const int e : seams) sum += price[e] * graph.edges()[e].length;
+    for (const int e : seams) sum += graph.edges()[e].cost;
     return sum;
   }
   std::size_t n_charts() const {
@@ -82,8 +79,8 @@ double least_price_of_box(const Unfolded& unfolded) {
     const int a = facet(edge.faces[0]);
     const int b = facet(edge.faces[1]);
     if (a == b) continue;
-    border[std::min(a, b)][std::max(a, b)] += unfolded.price[e] * edge.length;
-    all += unfolded.price[e] * edge.length;
+    border[std::min(a, b)][std::max(a, b)] += edge.cost;
+    all += edge.cost;
   }
   std::vector<std::array<int, 2>> pairs;
   for (int a = 0; a < 6; ++a) {
@@ -118,7 +115,7 @@ TEST_CASE("a box becomes one net, with the cheapest seams that there are") {
   CHECK(unfolded.n_charts() == 1);
   CHECK(unfolded.seams_price() == doctest::Approx(least_price_of_box(unfolded)).epsilon(1e-12));
   // No seam runs across one of its flat sides.
-  for (const int e : unfolded.seams) CHECK(dihedral_angle(unfolded.graph.edges()[e]) > 1);
+  for (const int e : unfolded.seams) CHECK(SeamGraph::dihedral_angle(unfolded.graph.edges()[e]) > 1);
 }
 
 TEST_CASE("round caps come off their pipe, which gets one line, and those of few sides stay") {
@@ -147,7 +144,7 @@ TEST_CASE("images of parts never overlap: a comb of long teeth, folded, is taken
       cell_surface(5, [](int i, int j, int k) { return k < 1 && (i == 0 || i == 4 || j == 0 || j == 4); });
   const Unfolded unfolded(frame);
   CHECK(unfolded.n_charts() >= 1);
-  for (const int e : unfolded.seams) CHECK(dihedral_angle(unfolded.graph.edges()[e]) > 1);
+  for (const int e : unfolded.seams) CHECK(SeamGraph::dihedral_angle(unfolded.graph.edges()[e]) > 1);
 }
 
 TEST_CASE("faces without area and seams that are there do no harm") {

@@ -4,8 +4,6 @@
 #include <limits>
 #include <memory>
 
-#include "meshes.h"
-#include "seams/pieces.h"
 #include "seams/seam_functional.h"
 
 namespace spectral_conformal::test {
@@ -28,35 +26,50 @@ std::shared_ptr<const TrialMap> map_of(std::vector<double> area, std::vector<dou
 TEST_SUITE_BEGIN("seam_functional");
 
 TEST_CASE("an isometry costs its seams and islands alone") {
-  const Mesh mesh = sphere(4);
-  const SeamGraph graph(mesh.view());
-  const std::vector<double> price(graph.edges().size(), 3);
-  const SeamFunctional functional(graph, price, 4.5);
+  const SeamSuggestionOptions options;
+  const SeamFunctional functional(options, 0);
   const auto isometry = map_of({2, 7}, {0, 0}, {1, 1});
-  CHECK(functional({}, {isometry}) == doctest::Approx(0.05));
-  CHECK(functional({}, {isometry, isometry}) == doctest::Approx(0.1));
-  CHECK(functional.price({0, 1}) == doctest::Approx(3 * (graph.edges()[0].length + graph.edges()[1].length)));
-  CHECK(functional({0, 1}, {isometry}) == doctest::Approx(0.05 + functional.price({0, 1}) / 3));
+  const auto value = [&](double cost, const TrialMaps& maps) { return functional(cost, maps, map_quality(maps, 2)); };
+  CHECK(value(0, {isometry}) == doctest::Approx(0.05));
+  CHECK(value(0, {isometry, isometry}) == doctest::Approx(0.1));
+  CHECK(value(6, {isometry}) == doctest::Approx(0.05 + 6.0 / 3));
+  CHECK_FALSE(functional.exceeds_limits(map_quality({isometry}, 2)));
 }
 
 TEST_CASE("distortion counts by the rate of its limit, the worst faces most") {
-  const Mesh mesh = sphere(4);
-  const SeamGraph graph(mesh.view());
-  const std::vector<double> price(graph.edges().size(), 1);
   const auto sheared = map_of({1}, {0}, {2});
   const double excess = 2 * (2 + 0.5) - 4;
-  CHECK(SeamFunctional(graph, price, 4.5)({}, {sheared}) == doctest::Approx(excess / 0.5 + 0.05));
-  CHECK(SeamFunctional(graph, price, 5)({}, {sheared}) == doctest::Approx(excess + 0.05));
+  const auto distortion = [&](double energy_limit, const TrialMaps& maps) {
+    SeamSuggestionOptions options;
+    options.energy_limit = energy_limit;
+    options.qc_limit = 10;
+    return SeamFunctional(options, 0).distortion(maps, map_quality(maps, 2));
+  };
+  CHECK(distortion(6, {sheared}) == doctest::Approx(excess / 2));
+  CHECK(distortion(5, {sheared}) == doctest::Approx(excess));
   // A tenth of the area: more than a tenth of the distortion.
   const auto partly = map_of({9, 1}, {0, 0}, {1, 2});
-  CHECK(SeamFunctional(graph, price, 5)({}, {partly}) == doctest::Approx(excess * std::pow(0.1, 0.25) + 0.05));
+  CHECK(distortion(5, {partly}) == doctest::Approx(excess * std::sqrt(0.1)));
+  // Beyond the limit each part of what it allows costs three times as much.
+  CHECK(distortion(4.5, {sheared}) == doctest::Approx(2 * excess + 3 * (excess - 0.5) / 0.5));
+}
+
+TEST_CASE("QC beyond its limit costs what the options say, of the whole mesh") {
+  SeamSuggestionOptions options;
+  options.energy_limit = 1e9;
+  options.qc_limit = 1.5;
+  options.qc_gain = 0.25;
+  const TrialMaps maps{map_of({1}, {0}, {2})};
+  const MapQuality quality = map_quality(maps, 2);
+  CHECK(SeamFunctional(options, 0).distortion(maps, quality) == doctest::Approx(0.5 / 0.25));
+  CHECK(SeamFunctional(options, 4).distortion(maps, quality) == doctest::Approx(0.5 * 0.5 / 0.25));
+  CHECK(SeamFunctional(options, 0).exceeds_limits(quality));
 }
 
 TEST_CASE("a chart without a map costs more than anything") {
-  const Mesh mesh = sphere(4);
-  const SeamGraph graph(mesh.view());
-  const SeamFunctional functional(graph, std::vector<double>(graph.edges().size(), 1), 4.5);
-  CHECK(functional({}, {std::make_shared<const TrialMap>()}) == std::numeric_limits<double>::infinity());
+  const SeamSuggestionOptions options;
+  const TrialMaps maps{std::make_shared<const TrialMap>()};
+  CHECK(SeamFunctional(options, 0)(0, maps, map_quality(maps, 2)) == std::numeric_limits<double>::infinity());
 }
 
 TEST_SUITE_END();

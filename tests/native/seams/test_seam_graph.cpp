@@ -72,7 +72,7 @@ TEST_CASE("cut edges are free and forbidden edges are not walked") {
 
 TEST_CASE("folded edges are cheaper, concave ones most") {
   Mesh mesh = quad_grid(4, 2);
-  for (Eigen::Vector3d& p : mesh.points) p.z() = std::abs(p.x() - 1) < 0.5 ? 1 : std::abs(p.x() - 3) < 0.5 ? -1 : 0;
+  for (Eigen::Vector3d& p : mesh.points) p.z() = std::abs(p.x() - 1) < 0.5 ? 0.2 : std::abs(p.x() - 3) < 0.5 ? -0.2 : 0;
   const SeamGraph graph(mesh.view());
   const auto relative = [&](int a, int b) {
     const auto& edge = graph.edges()[graph.find_edge(a, b)];
@@ -82,7 +82,16 @@ TEST_CASE("folded edges are cheaper, concave ones most") {
   const double valley = relative(3, 8);
   CHECK(valley < ridge);
   CHECK(ridge < 1);
-  CHECK(relative(5, 6) == doctest::Approx(1));
+  CHECK(relative(5, 6) == doctest::Approx(2));
+}
+
+TEST_CASE("the angle between the faces is that of their normals") {
+  for (const double degrees : {0.0, 1.0, 35.0, 90.0, 179.0}) {
+    const double angle = degrees * M_PI / 180;
+    SeamGraph::Edge edge{{0, 1}, {0, 1}, 1, 1, false};
+    edge.normal = Eigen::Vector3d(1 + std::cos(angle), std::sin(angle), 0);
+    CHECK(SeamGraph::dihedral_angle(edge) == doctest::Approx(angle).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("distances and the tree that they come from") {
@@ -93,7 +102,7 @@ TEST_CASE("distances and the tree that they come from") {
   const std::vector<double> distance = graph.distances({7}, inner, &parent);
   CHECK(distance[7] == 0);
   CHECK(parent[7] == -1);
-  CHECK(distance[28] == doctest::Approx(6));
+  CHECK(distance[28] == doctest::Approx(12));
   CHECK(graph.edges()[parent[8]].vertices == std::array<int, 2>{7, 8});
   CHECK(std::isinf(distance[0]));
 }

@@ -1,0 +1,188 @@
+#include "seams/cut_piece.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "concurrency/parallel_calls.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Some faces of a mesh, on its vertices and with its seams: their charts are built without a look at the others.
+class FaceSubset {
+ public:
+  /// The faces ascending. The mesh's vertices and seams must outlive this object.
+  FaceSubset(const PolygonMesh& mesh, std::vector<int> faces) : mesh_(mesh), faces_(std::move(faces)) {
+    for (const int face : faces_) {
+      corner_vertices_.insert(corner_vertices_.end(), mesh.corner_vertices + mesh.face_offsets[face],
+                              mesh.corner_vertices + mesh.face_offsets[face + 1]);
+      face_offsets_.push_back(static_cast<int>(corner_vertices_.size()));
+    }
+  }
+
+  PolygonMesh view() const {
+    PolygonMesh mesh = mesh_;
+    mesh.n_faces = static_cast<int>(faces_.size());
+    mesh.face_offsets = face_offsets_.data();
+    mesh.corner_vertices = corner_vertices_.data();
+    return mesh;
+  }
+  void number_as_in_mesh(Chart& chart) const {
+    for (std::vector<int>* numbers : {&chart.faces, &chart.duplicates}) {
+      for (int& face : *numbers) face = faces_[static_cast<std::size_t>(face)];
+    }
+  }
+
+ private:
+  PolygonMesh mesh_;
+  std::vector<int> faces_;
+  std::vector<int> face_offsets_{0};
+  std::vector<int> corner_vertices_;
+};
+
+}  // namespace
+
+void try_in_parallel(std::size_t n, const std::function<void(int, const Progress&)>& work, const Progress& progress) {
+  run_in_parallel(static_cast<int>(n), work, progress, "seams", CutPiece::max_threads);
+}
+
+CutPiece::CutPiece(PieceSeams seams, const SeamSuggestionOptions& options, double mesh_area)
+    : seams_(std::move(seams)), options_(options), functional_(options, mesh_area) {}
+
+void CutPiece::solve(const KnownMaps& known, const Progress& progress) { take(attempt({}, {}, known, progress)); }
+
+void CutPiece::allow_fallbacks(const Progress& progress) {
+  has_fallbacks_ = true;
+  KnownMaps solved;
+  for (const auto& old : charts_) {
+    if (old->solved) solved.add(old);
+  }
+  charts_.clear();
+  current_ = {};
+  recent_ = {};
+  fresh_ = {};
+  solve(solved, progress);
+}
+
+SeamTrial CutPiece::attempt(SeamEdges added, SeamEdges removed, const KnownMaps& known,
+                            const Progress& progress) const {
+  SeamTrial trial;
+  trial.charts = map_charts(added, removed, known, progress);
+  trial.quality = map_quality(trial.charts, options_.scale_limit);
+  const double cost = seams_.cost(seams_.edges()) + seams_.cost(added) - seams_.cost(removed);
+  trial.value = functional_(cost, trial.charts, trial.quality);
+  trial.added = std::move(added);
+  trial.removed = std::move(removed);
+  return trial;
+}
+
+std::vector<SeamTrial> CutPiece::attempt_all(const std::vector<std::array<SeamEdges, 2>>& added_and_removed,
+                                             const Progress& progress) {
+  std::vector<SeamTrial> trials(added_and_removed.size());
+  try_in_parallel(
+      trials.size(),
+      [&](int i, const Progress& going_on) {
+        const auto& [added, removed] = added_and_removed[static_cast<std::size_t>(i)];
+        trials[static_cast<std::size_t>(i)] = attempt(added, removed, {}, going_on);
+      },
+      progress);
+  for (const SeamTrial& trial : trials) remember(trial.charts);
+  return trials;
+}
+
+void CutPiece::take(SeamTrial&& trial) {
+  seams_.remove(trial.removed);
+  seams_.add(trial.added);
+  charts_ = std::move(trial.charts);
+  current_ = KnownMaps(charts_);
+  quality_ = trial.quality;
+  value_ = trial.value;
+  chart_of_face_.assign(static_cast<std::size_t>(seams_.piece().n_faces()), -1);
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    for (const int face : charts_[i]->chart.faces) chart_of_face_[face] = static_cast<int>(i);
+  }
+}
+
+bool CutPiece::is_sound(const SeamTrial& trial) const {
+  return std::all_of(trial.charts.begin(), trial.charts.end(), [&](const auto& mapped) {
+    return current_.contains(mapped) || (mapped->solved && defective_faces(*mapped).empty());
+  });
+}
+
+void CutPiece::remember(const TrialMaps& tried) {
+  for (const auto& mapped : tried) {
+    if (fresh_.n_vertices() > max_remembered) return;
+    if (!current_.contains(mapped) && !fresh_.contains(mapped)) fresh_.add(mapped);
+  }
+}
+
+void CutPiece::forget_old_trials() { recent_ = std::exchange(fresh_, {}); }
+
+/// The faces of the charts beside some edges, ascending; the other charts are added to `others`.
+std::vector<int> CutPiece::faces_beside(const SeamEdges& added, const SeamEdges& removed, TrialMaps& others) const {
+  std::vector<int> faces;
+  if (charts_.empty()) {
+    faces.resize(static_cast<std::size_t>(seams_.piece().n_faces()));
+    std::iota(faces.begin(), faces.end(), 0);
+    return faces;
+  }
+  std::vector<char> is_changed(charts_.size(), 0);
+  for (const SeamEdges* edges : {&added, &removed}) {
+    for (const int edge : *edges) {
+      for (const int face : seams_.graph().edges()[edge].faces) {
+        if (face >= 0 && chart_of_face_[face] >= 0) is_changed[chart_of_face_[face]] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    if (is_changed[i] == 0) {
+      others.push_back(charts_[i]);
+    } else {
+      faces.insert(faces.end(), charts_[i]->chart.faces.begin(), charts_[i]->chart.faces.end());
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+/// Only charts beside the changed edges are built anew, and of these only those solved that are not known.
+TrialMaps CutPiece::map_charts(const SeamEdges& added, const SeamEdges& removed, const KnownMaps& known,
+                               const Progress& progress) const {
+  PolygonMesh mesh = seams_.piece().view();
+  const std::vector<std::array<int, 2>> seams = seams_.changed(added, removed);
+  mesh.seam_edges = seams.data();
+  mesh.n_seam_edges = static_cast<int>(seams.size());
+  TrialMaps result;
+  const FaceSubset changed_faces(mesh, faces_beside(added, removed, result));
+  ChartDecomposition decomposition = build_charts(changed_faces.view());
+  std::vector<Chart> unknown;
+  for (Chart& chart : decomposition.charts) {
+    changed_faces.number_as_in_mesh(chart);
+    std::shared_ptr<const TrialMap> same;
+    for (const KnownMaps* maps : {&current_, &known, &recent_, &fresh_}) {
+      if (!same) same = maps->find(chart);
+    }
+    if (same) {
+      result.push_back(std::move(same));
+    } else {
+      solved_vertices_ += chart.n_vertices();
+      unknown.push_back(std::move(chart));
+    }
+  }
+  const std::size_t first = result.size();
+  result.resize(first + unknown.size());
+  try_in_parallel(
+      unknown.size(),
+      [&](int i, const Progress& going_on) {
+        const auto k = static_cast<std::size_t>(i);
+        result[first + k] = std::make_shared<const TrialMap>(
+            solve_trial_map(mesh, std::move(unknown[k]), options_.map, has_fallbacks_, going_on));
+      },
+      progress);
+  std::sort(result.begin(), result.end(),
+            [](const auto& a, const auto& b) { return a->chart.faces.front() < b->chart.faces.front(); });
+  return result;
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,252 @@
+#include "seams/defect_parting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <utility>
+
+
+namespace spectral_conformal {
+namespace {
+
+/// Of several cuts that part a chart's defects those are preferred that remove at least this fraction of them and raise
+/// the distortion by no more than this factor.
+constexpr double min_removed = 0.5;
+constexpr double distortion_for_parting = 1.05;
+/// Where none does, the cuts that remove less are made together if these remove at least this fraction.
+constexpr double min_removed_together = 0.25;
+/// What any such cut costs, as a fraction of the root of the area: without it the shortest would win.
+constexpr double base_price = 0.25;
+/// Cuts that may part a chart's defects are tried in fours, the cheapest first.
+constexpr std::size_t parted_at_once = 4;
+
+/// The area of a face, with a little of the whole, so that slivers count.
+double extent_of(const TrialMap& mapped, int face, double whole) {
+  return mapped.area[static_cast<std::size_t>(face)] + 1e-9 * whole;
+}
+
+}  // namespace
+
+DefectParting::DefectParting(CutPiece& piece, const SeamSuggestionOptions& options, const Limits& limits,
+                             const Progress& progress)
+    : piece_(piece),
+      options_(options),
+      limits_(limits),
+      candidates_(piece.seams(), piece.charts(), piece.quality()),
+      defects_(piece.charts().size()) {
+  try_in_parallel(
+      defects_.size(),
+      [&](int i, const Progress&) {
+        const auto chart = static_cast<std::size_t>(i);
+        if (!piece_.is_known_sound(piece_.charts()[chart])) defects_[chart] = defective_faces(*piece_.charts()[chart]);
+      },
+      progress);
+  KnownMaps sound;
+  for (std::size_t i = 0; i < defects_.size(); ++i) {
+    const int chart = static_cast<int>(i);
+    if (defects_[i].empty()) {
+      sound.add(piece_.charts()[i]);
+    } else if (candidates_.is_first_of_mirrored(chart)) {
+      parted_.push_back(chart);
+    }
+  }
+  piece_.set_sound(sound);
+}
+
+SeamTrial DefectParting::part(const Progress& progress) {
+  // The largest first: smaller ones fill the time until it is parted.
+  std::vector<std::size_t> order(parted_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto n_faces = [&](std::size_t k) {
+    return piece_.charts()[static_cast<std::size_t>(parted_[k])]->chart.faces.size();
+  };
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return n_faces(a) > n_faces(b); });
+  std::vector<Parting> partings(parted_.size());
+  try_in_parallel(
+      parted_.size(),
+      [&](int i, const Progress& going_on) {
+        const std::size_t k = order[static_cast<std::size_t>(i)];
+        const std::int64_t remembered = CutPiece::max_remembered / static_cast<std::int64_t>(parted_.size());
+        partings[k] = part_chart(parted_[k], remembered, going_on);
+      },
+      progress);
+  JoinedCuts all(piece_.seams());
+  KnownMaps known;
+  for (const Parting& parting : partings) {
+    piece_.remember(parting.tried);
+    // What does not fit any more is for the next step to shorten.
+    if (all.length() + piece_.seams().length(parting.cut) > limits_.longest) continue;
+    all.add(parting.cut);
+    for (const auto& mapped : parting.charts) known.add(mapped);
+  }
+  if (all.edges().empty()) return {};
+  return piece_.attempt(std::move(all.edges()), {}, known, progress);
+}
+
+/// The cut that parts the defects of one chart: with the least distortion and length, or in any case. Maps of as many
+/// vertices as are to be `remembered` are returned with it.
+DefectParting::Parting DefectParting::part_chart(int chart, std::int64_t remembered, const Progress& progress) const {
+  Parting result;
+  result.room = remembered;
+  result.cut = part_large_chart(chart);
+  if (!result.cut.empty()) return result;
+  const DefectiveChart defective = defective_chart(chart);
+  const std::vector<int>& faces = defects_[static_cast<std::size_t>(chart)];
+  for (const bool at_any_price : {false, true}) {
+    std::vector<PartCut> some;
+    SeamTrial best = best_parting(
+        defective, at_any_price ? candidates_.cuts_apart(chart, faces) : candidates_.cuts_between(chart, faces),
+        at_any_price, some, result, progress);
+    if (best.added.empty() && some.size() > 1) best = part_together(defective, some, progress);
+    if (best.added.empty()) continue;
+    result.cut = std::move(best.added);
+    std::copy_if(best.charts.begin(), best.charts.end(), std::back_inserter(result.charts),
+                 [&](const auto& mapped) { return !piece_.is_current(mapped); });
+    break;
+  }
+  return result;
+}
+
+/// Without trials, whose maps would take too long; nothing where these are to choose.
+SeamEdges DefectParting::part_large_chart(int chart) const {
+  const int n_vertices = piece_.charts()[static_cast<std::size_t>(chart)]->chart.n_vertices();
+  if (n_vertices <= limits_.max_chosen_vertices) return {};
+  SeamEdges cut = candidates_.cut_out(chart, defects_[static_cast<std::size_t>(chart)]);
+  if (cut.empty() && limits_.halves) cut = candidates_.halve(chart);
+  return piece_.seams().length(cut) <= limits_.longest ? cut : SeamEdges{};
+}
+
+DefectParting::DefectiveChart DefectParting::defective_chart(int chart) const {
+  const TrialMap& map = *piece_.charts()[static_cast<std::size_t>(chart)];
+  DefectiveChart result;
+  for (const int face : defects_[static_cast<std::size_t>(chart)]) {
+    const double extent = extent_of(map, face, piece_.quality().area);
+    result.faces.push_back({map.chart.faces[static_cast<std::size_t>(face)], extent});
+    result.extent += extent;
+  }
+  return result;
+}
+
+double DefectParting::price(const SeamEdges& cut) const {
+  return piece_.seams().cost(cut) + base_price * std::sqrt(piece_.quality().area);
+}
+
+bool DefectParting::is_too_distorted(const SeamTrial& trial) const {
+  const double allowed = std::max(distortion_for_parting * piece_.quality().distortion(), options_.energy_limit - 4);
+  return !(trial.quality.distortion() <= allowed);
+}
+
+/// The trial of the cut that parts most of a chart's defects for its price. Those that are not good enough but remove
+/// some are added to `some`, and the maps of all to the parting's, as far as there is room.
+SeamTrial DefectParting::best_parting(const DefectiveChart& chart, std::vector<SeamEdges>&& cuts, bool at_any_price,
+                                      std::vector<PartCut>& some, Parting& parting, const Progress& progress) const {
+  cuts.erase(
+      std::remove_if(cuts.begin(), cuts.end(),
+                     [&](const SeamEdges& cut) { return cut.empty() || piece_.seams().length(cut) > limits_.longest; }),
+      cuts.end());
+  // The cheapest first: what is left cannot win once its price is higher than the best score allows.
+  std::stable_sort(cuts.begin(), cuts.end(),
+                   [&](const SeamEdges& a, const SeamEdges& b) { return price(a) < price(b); });
+  SeamTrial best;
+  double best_score = 0;
+  for (std::size_t first = 0; first < cuts.size(); first += parted_at_once) {
+    if (best_score * price(cuts[first]) >= 1) break;
+    std::vector<SeamTrial> trials(std::min(parted_at_once, cuts.size() - first));
+    std::vector<Defects> left(trials.size());
+    try_in_parallel(
+        trials.size(),
+        [&](int i, const Progress& going_on) {
+          const auto k = static_cast<std::size_t>(i);
+          trials[k] = piece_.attempt(cuts[first + k], {}, {}, going_on);
+          left[k] = defects_left(trials[k], chart.extent);
+        },
+        progress);
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      SeamTrial& trial = trials[k];
+      for (const auto& mapped : trial.charts) {
+        if (parting.room < 0 || piece_.is_current(mapped)) continue;
+        parting.tried.push_back(mapped);
+        parting.room -= mapped->chart.n_vertices();
+      }
+      const double removed = (chart.extent - left[k].extent) / chart.extent;
+      const bool is_distorted = is_too_distorted(trial);
+      const bool is_fine = removed >= min_removed && !is_distorted;
+      if (!at_any_price && !is_fine) {
+        if (removed > 0 && !is_distorted) some.push_back(part_cut(chart, trial.added, left[k]));
+        continue;
+      }
+      // What parts the chart always counts: a single face is neither flipped nor covers itself.
+      const double score =
+          (is_fine ? 1 : 1e-3) * std::max(removed, piece_.makes_islands(trial) ? 1e-3 : 0.0) / price(trial.added);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = std::move(trial);
+    }
+  }
+  return best;
+}
+
+DefectParting::PartCut DefectParting::part_cut(const DefectiveChart& chart, const SeamEdges& cut, const Defects& left) {
+  PartCut result{cut, {}};
+  std::copy_if(chart.faces.begin(), chart.faces.end(), std::back_inserter(result.removed),
+               [&](const DefectiveFace& defect) {
+                 return !std::binary_search(left.faces.begin(), left.faces.end(), defect.face);
+               });
+  return result;
+}
+
+/// The trial of several cuts at once, without a cut where they are no better.
+SeamTrial DefectParting::part_together(const DefectiveChart& chart, const std::vector<PartCut>& some,
+                                       const Progress& progress) const {
+  SeamEdges cut = cut_together(some);
+  if (piece_.seams().length(cut) > limits_.longest) return {};
+  SeamTrial together = piece_.attempt(std::move(cut), {}, {}, progress);
+  const double removed = (chart.extent - defects_left(together, chart.extent).extent) / chart.extent;
+  if (removed >= min_removed_together && !is_too_distorted(together)) return together;
+  return {};
+}
+
+/// In the charts that a trial changes; one without a map counts as much as `unsolved`.
+DefectParting::Defects DefectParting::defects_left(const SeamTrial& trial, double unsolved) const {
+  Defects result;
+  for (const auto& mapped : trial.charts) {
+    if (piece_.is_current(mapped)) continue;
+    double extent = 0;
+    for (const int face : defective_faces(*mapped)) {
+      extent += extent_of(*mapped, face, piece_.quality().area);
+      result.faces.push_back(mapped->chart.faces[static_cast<std::size_t>(face)]);
+    }
+    result.extent += mapped->solved ? extent : unsolved;
+  }
+  std::sort(result.faces.begin(), result.faces.end());
+  return result;
+}
+
+/// Each part of a chart's defects has a cut of its own: those that remove most for their price, until none removes
+/// more.
+SeamEdges DefectParting::cut_together(const std::vector<PartCut>& cuts) const {
+  JoinedCuts all(piece_.seams());
+  std::set<int> removed;
+  while (true) {
+    const PartCut* best = nullptr;
+    double best_score = 0;
+    for (const PartCut& cut : cuts) {
+      double more = 0;
+      for (const DefectiveFace& defect : cut.removed) {
+        if (removed.count(defect.face) == 0) more += defect.extent;
+      }
+      const double score = more / price(cut.cut);
+      if (!(score > best_score)) continue;  // not a number: a cut that costs nothing and removes no more
+      best_score = score;
+      best = &cut;
+    }
+    if (best == nullptr) return std::move(all.edges());
+    for (const DefectiveFace& defect : best->removed) removed.insert(defect.face);
+    all.add(best->cut);
+  }
+}
+
+}  // namespace spectral_conformal

@@ -1,0 +1,35 @@
+#include <doctest/doctest.h>
+
+#include "meshes.h"
+#include "seams/cut_piece.h"
+
+namespace spectral_conformal::test {
+
+TEST_SUITE_BEGIN("cut_piece");
+
+TEST_CASE("a trial changes nothing until it is taken, and its maps are solved once") {
+  const Mesh mesh = sphere(5);
+  const MirroredPieces parts(mesh.view());
+  PieceSeams seams(parts.pieces[0], 0, parts.mirrors[0], parts.symmetry);
+  seams.open();
+  const SeamSuggestionOptions options;
+  CutPiece piece(seams, options, 0);
+  piece.solve({}, {});
+  const double before = piece.value();
+  CHECK(before == piece.functional()(seams.cost(seams.edges()), piece.charts(), piece.quality()));
+  const SeamEdges last{seams.edges().back()};
+  std::vector<SeamTrial> trials = piece.attempt_all({{SeamEdges{}, last}}, {});
+  CHECK(piece.value() == before);
+  CHECK(piece.seams().edges() == seams.edges());
+  const std::int64_t solved = piece.solved_vertices();
+  CHECK(piece.attempt({}, last, {}, {}).value == trials[0].value);
+  CHECK(piece.solved_vertices() == solved);
+  piece.take(std::move(trials[0]));
+  CHECK(piece.seams().edges().size() + 1 == seams.edges().size());
+  CHECK(piece.value() != before);
+  CHECK(piece.attempt(last, {}, {}, {}).value == doctest::Approx(before));
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test

@@ -1,0 +1,95 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "meshes.h"
+#include "seams/seam_settling.h"
+#include "spectral_conformal/seam_suggestion.h"
+
+namespace spectral_conformal::test {
+namespace {
+
+constexpr std::int64_t all_vertices = std::numeric_limits<std::int64_t>::max();
+
+struct Cut {
+  MirroredPieces parts;
+  SeamSuggestionOptions options;
+  CutPiece piece;
+
+  explicit Cut(const Mesh& mesh, bool all_edges) : parts(mesh.view()), piece(seams_of(parts, all_edges), options, 0) {
+    piece.solve({}, {});
+  }
+  static PieceSeams seams_of(const MirroredPieces& parts, bool all_edges) {
+    PieceSeams seams(parts.pieces[0], 0, parts.mirrors[0], parts.symmetry);
+    seams.forget_symmetry();
+    SeamEdges cut;
+    for (std::size_t e = 0; all_edges && e < seams.graph().edges().size(); ++e) {
+      if (!seams.graph().edges()[e].cut) cut.push_back(static_cast<int>(e));
+    }
+    seams.add(cut);
+    if (!all_edges) seams.open();
+    return seams;
+  }
+};
+
+/// The least value that any choice of the edges has without defects.
+double least_value(const Cut& cut) {
+  const int n_edges = static_cast<int>(cut.piece.seams().graph().edges().size());
+  double least = std::numeric_limits<double>::infinity();
+  for (int choice = 0; choice < 1 << n_edges; ++choice) {
+    SeamEdges added;
+    for (int e = 0; e < n_edges; ++e) {
+      if ((choice >> e & 1) != 0) added.push_back(e);
+    }
+    const SeamTrial trial = cut.piece.attempt(added, cut.piece.seams().edges(), {}, {});
+    if (trial.value < least && cut.piece.is_sound(trial)) least = trial.value;
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("seam_settling");
+
+TEST_CASE("a tiny solid with all edges cut gets better, and the search finds the best of all choices") {
+  const Mesh tetrahedron({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  for (const Mesh& mesh : {tetrahedron, cell_surface(1, [](int, int, int) { return true; })}) {
+    Cut cut(mesh, true);
+    const double before = cut.piece.value();
+    settle_seams(cut.piece, all_vertices, {});
+    CHECK(cut.piece.value() < before);
+    const double least = least_value(cut);
+    const Piece& piece = cut.parts.pieces[0];
+    SeamEdges found;
+    for (auto [a, b] : suggest_seams(mesh.view(), cut.options, {}).edges) {
+      const auto in_piece = [&](int v) {
+        return static_cast<int>(std::find(piece.vertices.begin(), piece.vertices.end(), v) - piece.vertices.begin());
+      };
+      found.push_back(cut.piece.seams().graph().find_edge(in_piece(a), in_piece(b)));
+    }
+    const SeamTrial suggested = cut.piece.attempt(found, cut.piece.seams().edges(), {}, {});
+    CHECK(suggested.value == doctest::Approx(least));
+  }
+}
+
+TEST_CASE("no move raises the functional, and none is made where no vertex may be solved for") {
+  for (const Mesh& mesh : {sphere(5), torus(12, 8)}) {
+    Cut cut(mesh, false);
+    const double before = cut.piece.value();
+    const SeamEdges edges = cut.piece.seams().edges();
+    settle_seams(cut.piece, 0, {});
+    CHECK(cut.piece.seams().edges() == edges);
+    settle_seams(cut.piece, all_vertices, {});
+    CHECK(cut.piece.value() <= before);
+    const SeamTrial same = cut.piece.attempt({}, {}, {}, {});
+    CHECK(same.value == cut.piece.value());
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace spectral_conformal::test
