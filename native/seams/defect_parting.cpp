@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-
 namespace spectral_conformal {
 namespace {
 
