@@ -135,7 +135,9 @@ SeamEdges PieceSeams::with_cut_images(const SeamEdges& some) const {
 }
 
 SeamEdges PieceSeams::straightened(const SeamChain& chain) const {
-  const auto [start, end] = chain.ends;
+  // No structured binding: C++17 forbids to capture one.
+  const int start = chain.ends[0];
+  const int end = chain.ends[1];
   if (start == end || chain.is_own_image || chain.edges.size() < 2) return {};
   // A chain on one side of the mirror plane stays there.
   int own_side = 0;

@@ -37,6 +37,7 @@ class SeamSettling {
       std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.saved > b.saved; });
       moves.resize(std::min(moves.size(), tried_at_once));
       std::vector<std::array<SeamEdges, 2>> changes;
+      changes.reserve(moves.size());
       for (const Move& move : moves) changes.push_back({move.added, move.removed});
       std::vector<SeamTrial> trials = piece_.attempt_all(changes, progress_);
       SeamTrial* best = nullptr;

@@ -35,13 +35,13 @@ TEST_SUITE("constrained_map") {
     options.polish = true;
     options.fold_free = true;
     Solver solver(patch.chart, patch.positions, {});
-    const Parameterization map = solver.solve(options);
+    const Parameterization map = solver.solve(options, {});
     for (const int v : {1, 2, 3}) CHECK(map.z[v].real() == map.z[0].real());
     CHECK(std::abs(map.z.mean()) < 1e-12);
     CHECK(shoelace_area(patch.outer(), map.z) == doctest::Approx(solver.energy().area() * std::pow(solver.scale(), 2)));
     CHECK(map.polish_steps == 0);
     CHECK(map.eigenvalue_of == EigenvalueOf::eigenvector);
-    CHECK(map.eigenvalue > solver.solve({}).eigenvalue);
+    CHECK(map.eigenvalue > solver.solve({}, {}).eigenvalue);
   }
 }
 
