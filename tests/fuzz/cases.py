@@ -292,5 +292,8 @@ def same(left, right):
 def shortened(value):
     if isinstance(value, np.ndarray):
         return f"{value.dtype}{value.shape}"
-    text = repr(copy.copy(value)) if not callable(value) else getattr(value, "__name__", "callable")
+    try:
+        text = repr(copy.copy(value)) if not callable(value) else getattr(value, "__name__", "callable")
+    except TypeError:  # views of dictionaries
+        text = repr(value)
     return text if len(text) < 100 else text[:100] + "..."

@@ -104,6 +104,17 @@ def progress(rng, mesh):
     return listen
 
 
+def constraints(rng, mesh):
+    def chains(longest):
+        return [
+            rng.integers(0, max(len(mesh.vertices), 1), rng.integers(1, longest)).tolist()
+            for _ in range(rng.integers(3))
+        ]
+
+    pairs = [pair for pair in chains(3) if len(pair) == 2]
+    return sc.Constraints(horizontal=chains(6), vertical=chains(6), mirrored=pairs)
+
+
 class Kept(sc.hosts.KeptMaps):
     """Maps to keep, which look alike in the description of a case whatever they hold."""
 
@@ -131,6 +142,7 @@ PARAMETERS = {
     "corner_uv": corner_uv,
     "soft_pins": power_of_ten(-4, 4),
     "extenders": extenders,
+    "constraints": constraints,
     "hole_rigidity": lambda rng, mesh: "automatic" if rng.random() < 0.3 else power_of_ten(-4, 4)(rng, mesh),
     "fill_holes": flag,
     "fold_free": flag,
@@ -186,6 +198,9 @@ def make_compatible(arguments, names):
     """Leave out what the method does not take."""
     if "method" not in names:
         return
+    if "constraints" in arguments:
+        for name in ("pins", "soft_pins", "extenders", "hole_rigidity", "fold_free", "method"):
+            arguments.pop(name, None)
     forces = {"extenders", "hole_rigidity"} & set(arguments)
     if forces or "soft_pins" in arguments:
         arguments["method"] = "spectral"

@@ -17,6 +17,8 @@ LIMIT = 6.0
 LIMITS = {
     "border/suggest_seams": 10.0,
     "border/suggest_cuts": 10.0,
+    "alternating/suggest_seams": 8.0,
+    "alternating/suggest_cuts": 8.0,
     "duplicate_corners/suggest_seams": 8.0,
     "valence/pack_boxes": 8.0,
     **dict.fromkeys((f"{name}/suggest_{what}" for name in ("cap", "valence") for what in ("seams", "cuts")), 8.0),

@@ -275,7 +275,9 @@ TEST_CASE("handles are cut open without building the charts anew for every loop 
   const std::size_t charts = bytes([&] { build_charts(mesh.view()); });
   const std::size_t loops = bytes([&] { generator_loops(graph, mesh.n_faces(), 0); });
   const std::size_t all = bytes([&] { n_cuts = handle_cuts(mesh.view(), graph, [](int) { return -1; }).size(); });
-  CHECK(n_cuts == 36);
+  // At least one per handle, and at most all generators: sharp rims are cheaper than short loops.
+  CHECK(n_cuts >= 36);
+  CHECK(n_cuts <= 72);
   CHECK(all < 4 * (charts + loops));
 }
 
