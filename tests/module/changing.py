@@ -116,6 +116,7 @@ CALLS = {
     "Solver.solve": lambda a, p: changed_after(
         sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric), a, p
     ).solve(extenders=EXTENDERS, progress=p),
+    "relax": lambda a, p: sc.relax(a.vertices, a.triangles, a.uv, max_steps=3, progress=p),
     "unwrap": lambda a, p: sc.unwrap(*mesh(a), **cut(a), extenders=a.extenders, metric=a.metric, progress=p),
     "unwrap with pins": lambda a, p: sc.unwrap(*mesh(a), **cut(a), **with_pins(a), progress=p),
     "Unwrapper.solve": lambda a, p: changed_after(sc.Unwrapper(*mesh(a), **cut(a), metric=a.metric), a, p).solve(

@@ -38,7 +38,7 @@ OPERATIONS = {
     # Extenders and rigid holes change the form B, not the L that is factorised.
     "forces": (1, 1, 20, 4.796, 3.296),
     # One for every map that is tried.
-    "suggest_seams": (5, 5, 81, 1.629, 1.501),
+    "suggest_seams": (102, 102, 1360, 10.27, 10.92),
 }
 
 
@@ -93,11 +93,11 @@ def test_operations_are_counted():
 
 # One thing is huge: how the mesh is made, the smaller of two sizes, and options. The larger has twice as much of it.
 HUGE = {
-    "corners of a polygon": (meshes.prism, 1000, {}),
+    "corners of a polygon": (meshes.prism, 2000, {}),
     "corners of a polygon, on coarse copies": (meshes.prism, 4100, {}),
     "valence": (meshes.spindle, 1000, {}),
     "valence, on coarse copies": (meshes.spindle, 7000, {}),
-    "visits of one vertex": (meshes.petals, 400, {}),
+    "visits of one vertex": (meshes.petals, 800, {}),
     "pieces within a length": (meshes.boxes, 150, {"max_length": 400.0}),
 }
 # Twice as much, by a logarithm more, and a little for searches that end later. On coarse copies as many of these for

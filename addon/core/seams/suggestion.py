@@ -30,7 +30,7 @@ class Options:
     the edges whose faces enclose `sharp_angle` radians or more, and the other options do not count.
     """
 
-    scale_limit: float = 2.0
+    scale_limit: float = 1.25
     qc_limit: float = 1.1
     max_length: float | None = None
     weights: str = "uniform"

@@ -129,7 +129,7 @@ class SeamOptions:
         energy_limit: at least 4: its symmetric Dirichlet energy is at most this: the area-weighted mean of
             s^2 + t^2 + 1 / s^2 + 1 / t^2, where s and t are the singular values of a face's map at the median scale.
             4 means no stretching. Large values count as the square of their logarithm. None derives it from the other
-            limits: 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2), which is 4.32 at their defaults.
+            limits: 4 + 0.3 log2(scale_limit)^2 + 2 (qc_limit + 1 / qc_limit - 2), which is 4.05 at their defaults.
         qc_gain: at least 0. If only the mean quasi-conformal distortion exceeds its limit, or no cut lowers the energy
             any more, a cut must lower that mean, over the whole mesh, by at least this per seam length, in units of the
             root of the mesh's area. With a `qc_limit` of 1 this alone decides how far cuts go; at 0 the limit alone
@@ -142,7 +142,7 @@ class SeamOptions:
     """
 
     max_length: float | None = None
-    scale_limit: float = 2.0
+    scale_limit: float = 1.25
     qc_limit: float = 1.1
     energy_limit: float | None = None
     qc_gain: float = 0.0
