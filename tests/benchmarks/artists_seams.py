@@ -130,14 +130,14 @@ def angles(model: Model, edges: np.ndarray) -> np.ndarray:
     return np.array(result)
 
 
-def _samples(model: Model, edges: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return points on edges (n, 3), at most `step` apart, and the length that each stands for (n,)."""
+def _samples(model: Model, edges: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return points on edges (n, 3), at most `step` apart, their edges (n,), and the length each stands for (n,)."""
     start, end = model.vertices[edges[:, 0]], model.vertices[edges[:, 1]]
     length = np.linalg.norm(end - start, axis=1)
     count = np.maximum(np.ceil(length / step).astype(int), 1)
     edge = np.repeat(np.arange(len(edges)), count)
     along = (np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[edge]
-    return start[edge] + along[:, None] * (end - start)[edge], (length / count)[edge]
+    return start[edge] + along[:, None] * (end - start)[edge], edge, (length / count)[edge]
 
 
 def measure(model: Model, seams: np.ndarray, islands: int, worst: float) -> SeamMeasures:
@@ -145,14 +145,13 @@ def measure(model: Model, seams: np.ndarray, islands: int, worst: float) -> Seam
     if len(seams) == 0:
         return SeamMeasures(0, 0, 0, 0, 0, 0, islands, worst)
     size = float(np.linalg.norm(np.ptp(model.vertices[np.unique(model.corners)], axis=0)))
-    points, weights = _samples(model, seams, 0.5 * NEAR * size)
-    theirs, their_weights = _samples(model, model.seams, 0.5 * NEAR * size)
+    points, edge, weights = _samples(model, seams, 0.5 * NEAR * size)
+    theirs, _, their_weights = _samples(model, model.seams, 0.5 * NEAR * size)
     near = cKDTree(theirs).query(points)[0] <= NEAR * size
     near_ours = cKDTree(points).query(theirs)[0] <= NEAR * size
     length = np.linalg.norm(model.vertices[seams[:, 0]] - model.vertices[seams[:, 1]], axis=1)
-    count = np.maximum(np.ceil(length / (0.5 * NEAR * size)).astype(int), 1)
     angle = angles(model, seams)
-    sharp = np.repeat(angle >= SHARP, count)
+    sharp = (angle >= SHARP)[edge]
     area = np.linalg.norm(_face_areas(model), axis=1).sum()
     return SeamMeasures(
         flat=float(np.average(angle <= FLAT, weights=length)),
