@@ -17,8 +17,8 @@ from tests.interface.extender_sidebar import (
     NEVER_HERE,
     SEAM_SETTINGS,
     SUGGEST_SEAMS,
-    TAB,
     click_sidebar,
+    open_sidebar,
 )
 from tests.interface.session import area_of, override, picture, point_at, screenshot, xdotool
 
@@ -35,12 +35,7 @@ def open_block():
         bpy.ops.mesh.select_mode(type="EDGE")
         bpy.ops.mesh.select_all(action="DESELECT")
         bpy.ops.ed.undo_push(message="Block")
-    yield
-    point_at("VIEW_3D", 0.3, 0.3)
-    xdotool("key", "n")
-    for _ in range(3):
-        yield
-    yield from click_sidebar(TAB)
+    yield from open_sidebar()
 
 
 def select(chosen):

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from tests.interface import driving as drive
-from tests.interface.extender_sidebar import SUGGEST_SEAMS, TAB, click_sidebar
+from tests.interface.extender_sidebar import SUGGEST_SEAMS, click_sidebar, open_sidebar
 from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
 
 CUTS_ROW = 1  # of Adjust Last Operation, from the bottom
@@ -63,13 +63,7 @@ def open_suzanne():
         bpy.ops.view3d.view_selected()
         bpy.ops.mesh.select_all(action="DESELECT")
         bpy.ops.ed.undo_push(message="Suzanne")
-    yield
-    point_at("VIEW_3D", 0.3, 0.3)
-    xdotool("key", "n")
-    # The sidebar slides in.
-    for _ in range(3):
-        yield
-    yield from click_sidebar(TAB)
+    yield from open_sidebar()
 
 
 def suggest_by_panel():

@@ -41,6 +41,11 @@ def open_grid():
     view.view_distance *= 1.7
     view.view_location.x += 0.9 if drive.LAYOUT.is_wide else 0.6
     bpy.context.scene.tool_settings.use_uv_select_sync = True
+    yield from open_sidebar()
+
+
+def open_sidebar():
+    """Open the viewport's sidebar by its key, and the add-on's tab."""
     yield
     point_at("VIEW_3D", 0.3, 0.3)
     xdotool("key", "n")
