@@ -180,6 +180,19 @@ def flags(mesh: bpy.types.Mesh, elements: str, name: str) -> np.ndarray:
     return values
 
 
+def face_values(mesh: bpy.types.Mesh, name: str) -> np.ndarray | None:
+    """Return a number per face, (F,) float32, of `mesh`, which is not in edit mode; None without such an attribute."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.domain != "FACE":
+        return None
+    found = _attribute(mesh, name, "FLOAT", len(mesh.polygons))
+    if found is None:
+        return None
+    values = np.empty(len(mesh.polygons), dtype=np.float32)
+    found.foreach_get("value", values)
+    return values
+
+
 def _attribute(mesh: bpy.types.Mesh, name: str, data_type: str, count: int) -> bpy.types.bpy_prop_collection | None:
     """Return the values of an attribute of `mesh`; None if it has no such attribute, or another number of values."""
     attribute = mesh.attributes.get(name)

@@ -32,6 +32,15 @@ SEAM_WISH_OPERATOR = "mesh.spectral_seam_wish"
 # Integer attribute of edges: 1 for "cut here", 2 for "never here".
 SEAM_WISH_ATTRIBUTE = "spectral_seam_wish"
 
+GET_DENSITY_OPERATOR = "uv.spectral_get_density"
+SET_DENSITY_OPERATOR = "uv.spectral_set_density"
+EQUALIZE_DENSITY_OPERATOR = "uv.spectral_equalize_density"
+DENSITY_FACTOR_OPERATOR = "uv.spectral_density_factor"
+# Attribute of faces, numbers: how many times the texel density of others; 0, the default of new faces, means 1.
+DENSITY_FACTOR_ATTRIBUTE = "spectral_density_factor"
+# Property of materials: pixels along a side of the texture; 0 for those of its image.
+TEXTURE_SIZE_PROPERTY = "spectral_texture_size"
+
 SUGGEST_SEAMS_OPERATOR = "uv.spectral_suggest_seams"
 
 LIVE_UNWRAP_PROPERTY = "spectral_unwrap_live"

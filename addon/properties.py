@@ -16,7 +16,7 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
-from bpy.types import Context, Mesh, PropertyGroup, Scene, WindowManager
+from bpy.types import Context, Material, Mesh, PropertyGroup, Scene, WindowManager
 from bpy.utils import register_class, unregister_class
 
 from . import editors, names
@@ -105,6 +105,10 @@ def register() -> None:
     setattr(Mesh, names.EXTENDERS_PROPERTY, CollectionProperty(type=SpectralExtender, name=texts.EXTENDERS_LABEL))
     active = IntProperty(**texts.ACTIVE_EXTENDER_PROPERTY, min=0)
     setattr(Mesh, names.ACTIVE_EXTENDER_PROPERTY, active)
+    texture_size = IntProperty(
+        **texts.TEXTURE_SIZE_PROPERTY, default=0, min=0, max=65536, subtype="PIXEL", update=_on_map_change
+    )
+    setattr(Material, names.TEXTURE_SIZE_PROPERTY, texture_size)
     live = BoolProperty(name=texts.LIVE_UNWRAP_LABEL, description=texts.LIVE_UNWRAP_DESCRIPTION, update=_on_toggle)
     setattr(Scene, names.LIVE_UNWRAP_PROPERTY, live)
 
@@ -112,6 +116,7 @@ def register() -> None:
 def unregister() -> None:
     """Remove the properties; their values stay in the file."""
     delattr(Scene, names.LIVE_UNWRAP_PROPERTY)
+    delattr(Material, names.TEXTURE_SIZE_PROPERTY)
     for name in (names.ACTIVE_EXTENDER_PROPERTY, names.EXTENDERS_PROPERTY):
         delattr(Mesh, name)
     unregister_class(SpectralExtender)

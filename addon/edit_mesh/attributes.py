@@ -18,6 +18,16 @@ def store_face_values(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> No
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
+def set_face_values(mesh: bpy.types.Mesh, name: str, faces: np.ndarray, value: float) -> None:
+    """Set a number on some `faces`, (F,) bool, of a mesh in edit mode; in a new attribute others have 0."""
+    bm = bmesh.from_edit_mesh(mesh)
+    layer = bm.faces.layers.float.get(name) or bm.faces.layers.float.new(name)
+    for face, is_set in zip(bm.faces, faces.tolist()):
+        if is_set:
+            face[layer] = value
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
 def store_corner_colors(mesh: bpy.types.Mesh, name: str, colors: np.ndarray) -> None:
     """Write a linear color per face, (F, 4), to its corners in the color attribute of this name, replacing it."""
     sizes = np.empty(len(mesh.polygons), dtype=np.int32)

@@ -26,7 +26,7 @@ def _of_slot(shown: bpy.types.Object, index: int) -> float:
     if index >= len(slots) or slots[index].material is None:
         return 1.0
     tree = slots[index].material.node_tree
-    image = _active_image(tree) if tree else None
+    image = active_image(tree) if tree else None
     if image is None or min(image.size) < 1:
         return 1.0
     width, height = (size * stretch for size, stretch in zip(image.size, image.display_aspect))
@@ -41,7 +41,7 @@ def _active_face(bm: BMesh) -> BMFace | None:
     return history[-1] if history else next((face for face in bm.faces if face.select), None)
 
 
-def _active_image(tree: bpy.types.NodeTree) -> bpy.types.Image | None:
+def active_image(tree: bpy.types.NodeTree) -> bpy.types.Image | None:
     """Return the image of the active texture node, else of the displayed one, else of any."""
     nodes = [node for node in tree.nodes if node.type in _IMAGE_NODES]
     active = [node for node in nodes if node == tree.nodes.active]

@@ -13,6 +13,7 @@ from bmesh.types import BMEdge, BMesh, BMLayerItem
 
 from .. import compatibility, names
 from ..core.mesh.polygon_mesh import PolygonMesh
+from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
 from ..extenders import storage
 from . import image_aspect, subsurf
@@ -88,6 +89,7 @@ def _read(
         aspect=image_aspect.aspect(edit_object, bm) if correct_aspect else 1.0,
         extenders=tuple(forces),
         stretch_direction=_active_edge(bm),
+        world_metric=metric_of(edit_object.matrix_world),
     )
     if has_map and by_uv_selection:
         _restrict_to_selected_uvs(polygons, polygons.pinned_corners, compatibility.selected_uv_corners(bm, layer))
@@ -154,6 +156,7 @@ def read_arrays(
         seam_edges=compatibility.edge_vertices(mesh)[seams] if seams.any() else np.empty((0, 2), dtype=np.int32),
         selected_faces=visible if all_visible else compatibility.flags(mesh, "polygons", "select") & visible,
         uv=None if mesh.uv_layers.active is None else compatibility.corner_uv(mesh).astype(np.float64),
+        density_factors=compatibility.face_values(mesh, names.DENSITY_FACTOR_ATTRIBUTE),
         **others,
     )
 

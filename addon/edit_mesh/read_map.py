@@ -9,7 +9,8 @@ import numpy as np
 
 from .. import compatibility
 from ..core.mesh.polygon_mesh import PolygonMesh
-from . import image_aspect
+from ..core.mesh.world_scale import metric_of
+from . import image_aspect, texture_size
 from .read import read_arrays, temporary_mesh
 
 
@@ -28,17 +29,29 @@ def read_map(
         evaluated = shown.evaluated_get(context.evaluated_depsgraph_get()).data
         if not isinstance(evaluated, bpy.types.Mesh):
             return None
-        return _with_map(read_arrays(evaluated, True, before, aspect=image_aspect.aspect_in_object_mode(shown)))
+        return _with_map(_read(evaluated, shown, before, image_aspect.aspect_in_object_mode(shown)))
     with temporary_mesh() as copy:
         bm = bmesh.from_edit_mesh(shown.data)
         bm.to_mesh(copy)
-        found = read_arrays(copy, True, before, aspect=image_aspect.aspect(shown, bm))
+        found = _read(copy, shown, before, image_aspect.aspect(shown, bm))
         if not context.scene.tool_settings.use_uv_select_sync:
             found = replace(found, uv_faces=found.selected_faces & compatibility.flags(copy, "polygons", "select"))
     if other_uv is not None and len(other_uv) == len(found.corner_vertices):
         # As Blender would store it.
         found = replace(found, uv=other_uv.astype(np.float32).astype(np.float64))
     return _with_map(found)
+
+
+def _read(mesh: bpy.types.Mesh, shown: bpy.types.Object, before: PolygonMesh | None, aspect: float) -> PolygonMesh:
+    """Read all visible faces of a `mesh` of an object, at its scale in the world and with its textures."""
+    return read_arrays(
+        mesh,
+        True,
+        before,
+        aspect=aspect,
+        world_metric=metric_of(shown.matrix_world),
+        texture_sides=texture_size.sides(mesh, shown),
+    )
 
 
 def _with_map(found: PolygonMesh) -> PolygonMesh | None:
@@ -58,7 +71,7 @@ def read_own_map(context: bpy.types.Context, shown: bpy.types.Object) -> Polygon
     if shown.mode == "EDIT":
         found = read_map(context, shown)
     else:
-        found = _with_map(read_arrays(shown.data, True, aspect=image_aspect.aspect_in_object_mode(shown)))
+        found = _with_map(_read(shown.data, shown, None, image_aspect.aspect_in_object_mode(shown)))
     return found and replace(found, selected_faces=np.ones_like(found.selected_faces))
 
 

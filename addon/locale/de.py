@@ -100,6 +100,46 @@ TEXTS = {
     "Click: Select island   Shift click: Add it   Esc or right click: End": (
         "Klick: Insel auswählen   Umschalt+Klick: Hinzufügen   Esc oder Rechtsklick: Beenden"
     ),
+    "Get": "Messen",
+    "Set": "Setzen",
+    "Equalize": "Angleichen",
+    "Get Texel Density": "Texeldichte messen",
+    "Show how many pixels of the texture the selected islands have per unit of length, and take that for Set Texel "
+    "Density": (
+        "Zeigen, wie viele Pixel der Textur die ausgewählten Inseln je Längeneinheit haben, und das für „Texeldichte "
+        "setzen“ übernehmen"
+    ),
+    "Set Texel Density": "Texeldichte setzen",
+    "Scale every selected island about its center to a number of pixels per unit of length": (
+        "Jede ausgewählte Insel um ihre Mitte auf eine Anzahl Pixel je Längeneinheit skalieren"
+    ),
+    "Equalize Texel Density": "Texeldichte angleichen",
+    "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
+    "objects and the sizes of their textures count": (
+        "Die ausgewählten Inseln aller Meshes auf die gleiche Texeldichte mal ihre Faktoren skalieren; die Skalierung "
+        "der Objekte und die Größen ihrer Texturen zählen mit"
+    ),
+    "Density Factor": "Dichtefaktor",
+    "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
+    "Spectral Unwrap and Equalize Texel Density": (
+        "Den ausgewählten Inseln mehr oder weniger Pixel geben als anderen, etwa 1,5 für einen Kopf; bleibt beim Mesh, "
+        "für „Spektral abwickeln“ und „Texeldichte angleichen“"
+    ),
+    "Density": "Dichte",
+    "Pixels of the texture per unit of length, as the scene displays lengths": (
+        "Pixel der Textur je Längeneinheit, wie die Szene Längen anzeigt"
+    ),
+    "Factor": "Faktor",
+    "How many times the texel density of other islands; 1 for the same": (
+        "Das Wievielfache der Texeldichte anderer Inseln; 1 für die gleiche"
+    ),
+    "Texture Size": "Texturgröße",
+    "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image": (
+        "Pixel entlang einer Seite der Textur dieses Materials, für die Texeldichte; 0 nimmt die Größe seines Bildes"
+    ),
+    "The selected islands have no size; unwrap them first": (
+        "Die ausgewählten Inseln haben keine Größe; zuerst abwickeln"
+    ),
     "Store as Attribute": "Als Attribut speichern",
     "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts": (
         "Die Verzerrung jeder Fläche als Attribut des Meshs speichern, für Rendering, Geometry Nodes und Skripte"
@@ -276,8 +316,8 @@ TEXTS = {
     "Opacity": "Deckkraft",
     "Opacity of the colors": "Deckkraft der Farben",
     "Image Size": "Bildgröße",
-    "Pixels along one side of the image, for the texel density": (
-        "Pixel entlang einer Seite des Bildes, für die Texeldichte"
+    "Pixels along one side of the texture, for the texel density of faces whose material has no image": (
+        "Pixel entlang einer Seite der Textur, für die Texeldichte von Flächen, deren Material kein Bild hat"
     ),
     "Squares": "Quadrate",
     "Checker squares along one side of a UV tile": ("Quadrate des Schachbretts entlang einer Seite einer UV-Kachel"),
@@ -365,11 +405,11 @@ TEXTS = {
     "Fraction": "Bruchteil",
     "Specify a precise fraction of final UV output": "Einen genauen Bruchteil des fertigen UV-Layouts angeben",
     "How far angles are off; 0 % where they are kept": ("Wie weit Winkel abweichen; 0 %, wo sie erhalten bleiben"),
-    "Size in the map relative to the surface, compared with the median": (
-        "Größe in der UV-Map im Verhältnis zur Oberfläche, verglichen mit dem Median"
+    "Size in the map relative to the surface in the world, compared with the median": (
+        "Größe in der UV-Map im Verhältnis zur Oberfläche in der Welt, verglichen mit dem Median"
     ),
     "Texel Density": "Texeldichte",
-    "Image pixels per unit of length on the surface": ("Bildpixel je Längeneinheit auf der Oberfläche"),
+    "Pixels of the texture per unit of length in the world": "Pixel der Textur je Längeneinheit in der Welt",
     "Flipped and Overlapping": "Umgedreht und überlappend",
     "Faces that are flipped or overlap others of their island": (
         "Flächen, die umgedreht sind oder andere ihrer Insel überlappen"
@@ -503,7 +543,23 @@ TEXTS = {
     ),
     "Selected {faces}": "{faces} ausgewählt",
     "{name}: angles off by {qc}": "{name}: Winkel weichen um {qc} ab",
-    "Size {size}, {density} px per unit": "Größe {size}, {density} px je Einheit",
+    "Size {size}, {density}": "Größe {size}, {density}",
+    "{density} px/{unit}": "{density} px/{unit}",
+    "{name} (px/{unit})": "{name} (px/{unit})",
+    "unit": "Einheit",
+    "{islands}: {density}": "{islands}: {density}",
+    "{islands}: {density} together, from {low} to {high}": "{islands}: zusammen {density}, von {low} bis {high}",
+    "Scaled {islands} to {density}; pack them if they overlap now": (
+        "{islands} auf {density} skaliert; bei Überlappungen neu packen"
+    ),
+    "{n} island has a factor of its own": "{n} Insel hat einen eigenen Faktor",
+    "{n} islands have factors of their own": "{n} Inseln haben eigene Faktoren",
+    "{islands}: factor {factor}; {unwrap} and {equalize} use it": (
+        "{islands}: Faktor {factor}; {unwrap} und {equalize} verwenden ihn"
+    ),
+    "{objects}: scaled unevenly, so every island has an average texel density; apply the scale": (
+        "{objects}: ungleichmäßig skaliert, darum hat jede Insel eine mittlere Texeldichte; die Skalierung anwenden"
+    ),
     "Flipped and overlapping": "Umgedreht und überlappend",
     "Stored as {name}": "Als {name} gespeichert",
     "{percent} %": "{percent} %",

@@ -18,6 +18,12 @@ from .select import (
 )
 from .store_distortion import MESH_OT_spectral_store_distortion
 from .suggest_seams import UV_OT_spectral_suggest_seams
+from .texel_density import (
+    UV_OT_spectral_density_factor,
+    UV_OT_spectral_equalize_density,
+    UV_OT_spectral_get_density,
+    UV_OT_spectral_set_density,
+)
 from .unwrap import UV_OT_spectral_unwrap
 
 _CLASSES = (
@@ -27,6 +33,10 @@ _CLASSES = (
     UV_OT_spectral_select_distorted,
     UV_OT_spectral_select_stretched,
     UV_OT_spectral_inspect,
+    UV_OT_spectral_get_density,
+    UV_OT_spectral_set_density,
+    UV_OT_spectral_equalize_density,
+    UV_OT_spectral_density_factor,
     UV_OT_spectral_suggest_seams,
     MESH_OT_spectral_seam_wish,
     MESH_OT_spectral_store_distortion,

@@ -6,10 +6,11 @@ from bpy.props import BoolProperty, EnumProperty
 
 from .. import names
 from ..core.drawing import color_ramp
-from ..core.measure.map_view import MapView, automatic_range
+from ..core.measure.map_view import MapView, automatic_range, median_log2_scale
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import attributes, read_map
+from ..edit_mesh.texture_size import texels
 from ..overlay import legend, map_overlay
 from .reporting_operator import ReportingOperator
 
@@ -47,14 +48,15 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
         if not views:
             self.report({"WARNING"}, translate(texts.NO_UV_MAP))
             return {"CANCELLED"}
-        name, size = names.ATTRIBUTES[self.kind], map_overlay.settings().image_size
+        name, measured = names.ATTRIBUTES[self.kind], texels(context)
+        median = median_log2_scale(list(views.values()))
         if self.as_colors:
             name += names.COLORS_SUFFIX
-            low, high = automatic_range(list(views.values()), self.kind, size)
+            low, high = automatic_range(list(views.values()), self.kind, measured)
             colors = legend.colors_of(self.kind, 1.0)
             ramp = (colors.low, colors.middle, colors.high)
         for mesh, view in views.items():
-            values = view.values(self.kind, size)
+            values = view.values(self.kind, measured, median)
             if self.as_colors:
                 attributes.store_corner_colors(mesh, name, color_ramp.colors_of(values, low, high, ramp))
             else:

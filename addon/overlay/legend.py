@@ -9,6 +9,7 @@ from .. import user_preferences
 from ..core import choices
 from ..core.drawing import color_ramp, free_room
 from ..core.words import texts
+from ..edit_mesh.texture_size import texels
 from . import covers
 from .colored_triangles import Colors
 from .screen_text import LINE, draw_line, fill_box, text_width
@@ -49,7 +50,7 @@ def draw(
     """
     low, high = low_high
     labels = () if kind == choices.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
-    lines = (texts.look(kind), *lines)
+    lines = (texts.look(kind, texels(context).symbol), *lines)
     scale = context.preferences.system.ui_scale
     width, height = _size(lines, labels, scale)
     area, region = context.area, context.region

@@ -15,9 +15,12 @@ import numpy as np
 
 from .. import editors, names, session
 from ..core import choices
-from ..core.measure.map_view import IslandNumbers, MapView, automatic_range, joined_numbers
+from ..core.measure.map_view import IslandNumbers, MapView, automatic_range, joined_numbers, median_log2_scale
+from ..core.measure.texels import Texels
+from ..core.mesh.world_scale import metric_of
 from ..core.words import texts
 from ..edit_mesh import read_map
+from ..edit_mesh.texture_size import texels
 from ..session import Remembered
 from ..session.problems import print_once
 from . import colored_triangles, draw_handlers, legend
@@ -39,6 +42,7 @@ class Overlay(Remembered):
         meshes: by the full names of their objects.
         range: the automatic range, kept while the mesh is edited, so that colors stay comparable.
         numbers: of all shown maps together.
+        medians: of the binary logarithm of the scale, of all shown maps together.
         preview: UVs, (C, 2), shown instead of those of objects, by their full names.
         pointed_at: the face in the legend, by the name of its object and its index.
         edited_at: time of the last edit of a shown mesh.
@@ -49,6 +53,7 @@ class Overlay(Remembered):
         self.meshes: dict[str, ShownMesh] = {}
         self.range: dict[tuple, tuple[float, float]] = {}
         self.numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
+        self.medians: dict[tuple[MapView, ...], float] = {}
         self.preview: dict[str, np.ndarray] = {}
         self.pointed_at: tuple[str, int] | None = None
         self.edited_at = 0.0
@@ -78,9 +83,16 @@ def edited() -> None:
 
 
 def on_update(depsgraph: bpy.types.Depsgraph) -> None:
-    """Read the shown meshes again if Blender has updated a geometry."""
-    if is_on() and any(update.is_updated_geometry for update in depsgraph.updates):
+    """Read the shown meshes again if Blender has updated a geometry, a material, or the scale of a shown object."""
+    if is_on() and any(_concerns_maps(update) for update in depsgraph.updates):
         edited()
+
+
+def _concerns_maps(update: bpy.types.DepsgraphUpdate) -> bool:
+    if update.is_updated_geometry or isinstance(update.id, bpy.types.Material):
+        return True
+    shown = session.of(Overlay).meshes.get(update.id.name_full) if isinstance(update.id, bpy.types.Object) else None
+    return shown is not None and update.is_updated_transform and not shown.has_scale(metric_of(update.id.matrix_world))
 
 
 def preview(context: bpy.types.Context, maps: Mapping[str, np.ndarray]) -> None:
@@ -126,11 +138,11 @@ def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh,
 def automatic(context: bpy.types.Context) -> tuple[float, float]:
     """Return the automatic range of the shown maps."""
     found, chosen = views(context), settings()
-    key = (chosen.kind, chosen.image_size, *(each.name_full for each, *_ in found))
+    key = (chosen.kind, texels(context), *(each.name_full for each, *_ in found))
     known = session.of(Overlay).range
     if found and key not in known:
         known.clear()
-        known[key] = automatic_range([view for *_, view in found], chosen.kind, chosen.image_size)
+        known[key] = automatic_range([view for *_, view in found], chosen.kind, texels(context))
     return known[key] if found else (0.0, 1.0)
 
 
@@ -160,13 +172,14 @@ def _draw_in_viewport(context: bpy.types.Context) -> None:
     shader = colored_triangles.shader(is_flat=False)
     with in_front_of_faces(context.region_data, _NEARER):
         gpu.state.depth_test_set("NONE" if is_through else "LESS_EQUAL")
-        for each, shown, _view in ready:
-            triangles = shown.batch(chosen.kind, chosen.image_size, in_editor=False)
+        for each, shown, view in ready:
+            triangles = shown.batch(chosen.kind, texels(context), in_editor=False)
             if triangles is None or not each.visible_in_viewport_get(space):
                 continue
             with gpu.matrix.push_pop():
                 gpu.matrix.multiply_matrix(each.matrix_world)
-                colored_triangles.draw(triangles, shader, colors(), *low_high, _checks(chosen))
+                ends = _ends_of(view, ready, low_high)
+                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen))
 
 
 def _draw_in_uv_editor(context: bpy.types.Context) -> None:
@@ -180,11 +193,11 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     chosen, low_high = settings(), shown_range(context)
     gpu.state.blend_set("ALPHA")
     try:
-        for _each, shown, _view in ready:
-            triangles = shown.batch(chosen.kind, chosen.image_size, in_editor=True)
+        for _each, shown, view in ready:
+            triangles = shown.batch(chosen.kind, texels(context), in_editor=True)
             if triangles is not None:
-                shader = colored_triangles.shader(is_flat=True)
-                colored_triangles.draw(triangles, shader, colors(), *low_high, _checks(chosen))
+                shader, ends = colored_triangles.shader(is_flat=True), _ends_of(view, ready, low_high)
+                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen))
     finally:
         gpu.state.blend_set("NONE")
 
@@ -221,8 +234,29 @@ def _draw_legend(context: bpy.types.Context) -> None:
     for each, shown, view in found:
         name, face = overlay.pointed_at or ("", -1)
         if each.name_full == name and face < len(view.qc):
-            lines.extend(_face_lines(shown, view, face, chosen.image_size))
+            lines.extend(_face_lines(shown, view, face, median_of_all([view for *_, view in found]), texels(context)))
     legend.draw(context, chosen.kind, colors(), shown_range(context), lines)
+
+
+def median_of_all(shown: Sequence[MapView]) -> float:
+    """Return the median of the binary logarithm of the scale of all these maps, with which sizes are compared."""
+    known, key = session.of(Overlay).medians, tuple(shown)
+    if key not in known:
+        known.clear()
+        known[key] = median_log2_scale(shown)
+    return known[key]
+
+
+def _ends_of(view: MapView, ready: Sequence[tuple], low_high: tuple[float, float]) -> tuple[float, float]:
+    """Return the values at the two ends of the colors for the triangles of one map.
+
+    Their sizes are relative to the median of their own map, those of the legend to the median of all maps.
+    """
+    low, high = low_high
+    shift = 0.0
+    if settings().kind == choices.LOOK_SIZE:
+        shift = median_of_all([each for *_, each in ready]) - view.median_log2_scale
+    return low + shift, high + shift
 
 
 def _joined_numbers(shown: Sequence[MapView]) -> IslandNumbers:
@@ -248,9 +282,9 @@ def _active_island_lines(
     return ()
 
 
-def _face_lines(shown: ShownMesh, view: MapView, face: int, image_size: int) -> tuple[str, ...]:
-    values = [float(view.values(kind, image_size)[face]) for kind in (choices.LOOK_ANGLE, choices.LOOK_SIZE)]
-    density = float(view.values(choices.LOOK_DENSITY, image_size)[face])
+def _face_lines(shown: ShownMesh, view: MapView, face: int, median: float, measured: Texels) -> tuple[str, ...]:
+    values = [float(each[face]) for each in (view.qc, view.values(choices.LOOK_SIZE, measured, median))]
+    density = texts.density(float(view.densities(measured)[face]), measured.symbol)
     defects = [bool(each[face]) for each in (view.flipped, view.overlapping)] if shown.islands_known else [False] * 2
     return texts.face_numbers(*values, density, *defects)
 

@@ -8,6 +8,7 @@ from mathutils.bvhtree import BVHTree
 
 from .. import user_preferences
 from ..core.measure.map_view import MapView
+from ..core.measure.texels import Texels
 from ..core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
 from ..edit_mesh import read_map
 from . import colored_triangles
@@ -26,8 +27,8 @@ class ShownMesh:
         self._view: MapView | None = None
         self._is_stale = True
         self._trusts_faces = False
-        self._batches: dict[tuple[str, float], gpu.types.GPUBatch] = {}
-        self._in_editor: dict[tuple[str, float], gpu.types.GPUBatch] = {}
+        self._batches: dict[tuple[str, Texels], gpu.types.GPUBatch] = {}
+        self._in_editor: dict[tuple[str, Texels], gpu.types.GPUBatch] = {}
         self._places: gpu.types.GPUVertBuf | None = None
         self._tree: BVHTree | None = None
         self.is_too_large = False
@@ -36,6 +37,11 @@ class ShownMesh:
     def edited(self) -> None:
         """Read again when asked next."""
         self._is_stale = True
+
+    def has_scale(self, metric: np.ndarray | None) -> bool:
+        """Return whether the object had this metric in the world when it was read; True before."""
+        known = None if self._view is None else self._view.mesh.world_metric
+        return self._view is None or np.allclose(*(np.eye(3) if each is None else each for each in (known, metric)))
 
     def view(
         self, context: bpy.types.Context, shown: bpy.types.Object, other_uv: np.ndarray | None = None
@@ -83,12 +89,12 @@ class ShownMesh:
         if not has_mesh:
             self._places = self._tree = None
 
-    def batch(self, kind: str, density: float, in_editor: bool) -> gpu.types.GPUBatch | None:
+    def batch(self, kind: str, texels: Texels, in_editor: bool) -> gpu.types.GPUBatch | None:
         """Return the triangles to draw for the last view; None for none."""
-        known, key = (self._in_editor if in_editor else self._batches), (kind, density)
+        known, key = (self._in_editor if in_editor else self._batches), (kind, texels)
         if key not in known:
             known.clear()
-            uv, values = self._view.triangle_map(kind, density)
+            uv, values = self._view.triangle_map(kind, texels)
             chosen = np.repeat(self._view.is_in_uv_editor(), 3) if in_editor else np.ones(1, dtype=bool)
             if not chosen.all():
                 places = colored_triangles.places(self._view.triangle_positions()[chosen]) if chosen.any() else None

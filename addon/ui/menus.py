@@ -27,6 +27,14 @@ class UV_MT_spectral(bpy.types.Menu):
         layout.operator_context = "EXEC_REGION_WIN"
         _draw_wishes(layout)
         layout.separator()
+        for operator in (
+            names.GET_DENSITY_OPERATOR,
+            names.SET_DENSITY_OPERATOR,
+            names.EQUALIZE_DENSITY_OPERATOR,
+            names.DENSITY_FACTOR_OPERATOR,
+        ):
+            draw_operator(layout, operator)
+        layout.separator()
         draw_operator(layout, names.ADD_EXTENDER_OPERATOR)
         layout.operator_context = "INVOKE_REGION_WIN"
         draw_operator(layout, names.ADJUST_EXTENDER_OPERATOR).index = -1

@@ -283,6 +283,37 @@ class _MapOverlayPanel(_Panel):
         draw_operator(self.layout, names.STORE_OPERATOR)
 
 
+class _DensityPanel(_Panel):
+    """The texel density of the selected islands."""
+
+    bl_label = texts.TEXEL_DENSITY_LABEL
+    bl_options = {"DEFAULT_CLOSED"}
+    part = "density"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the sizes of textures, the density and the factor, each with its operators."""
+        layout = self.layout
+        last = context.window_manager.operator_properties_last
+        material = context.edit_object.active_material
+        if material is not None:
+            layout.prop(material, names.TEXTURE_SIZE_PROPERTY)
+        layout.prop(getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY), "image_size")
+        column = layout.column(align=True)
+        # Executed: the fields show what the operators take.
+        column.operator_context = "EXEC_REGION_WIN"
+        settings = last(names.SET_DENSITY_OPERATOR)
+        column.prop(settings, "density")
+        row = column.row(align=True)
+        draw_operator(row, names.GET_DENSITY_OPERATOR, text=texts.GET_LABEL)
+        draw_operator(row, names.SET_DENSITY_OPERATOR, text=texts.SET_LABEL).density = settings.density
+        draw_operator(column, names.EQUALIZE_DENSITY_OPERATOR, text=texts.EQUALIZE_LABEL)
+        row = layout.row(align=True)
+        row.operator_context = "EXEC_REGION_WIN"
+        settings = last(names.DENSITY_FACTOR_OPERATOR)
+        row.prop(settings, "factor")
+        draw_operator(row, names.DENSITY_FACTOR_OPERATOR, text=texts.SET_LABEL).factor = settings.factor
+
+
 def _panels() -> list[type]:
     """Return all panels, in the order of work, those with parents after these."""
     parts = (
@@ -294,6 +325,7 @@ def _panels() -> list[type]:
         _ResultPanel,
         _MapOverlayPanel,
         _ExtendersPanel,
+        _DensityPanel,
     )
     made = []
     for prefix, space in zip(names.PANEL_PREFIXES, ("VIEW_3D", "IMAGE_EDITOR")):

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..core.measure.summary import Strain, strain, summarize
+from ..core.mesh.world_scale import is_uneven
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
 from ..core.words import texts
@@ -46,6 +47,7 @@ def finish(written: Written, seconds: float, all_visible: bool = False, others_s
         ("INFO", texts.unfolded(summary)),
         ("INFO", texts.pinned(summary)),
         ("INFO", texts.information(summary, seconds, texts.SELECT_DEFECTS_LABEL) if summary.solved else ""),
+        ("INFO", _average_density(written)),
         *(("INFO", note) for note in _notes(edit_meshes, written.settings)),
         *(("WARNING", warning) for warning in _warnings(edit_meshes, written.settings, solutions)),
         ("WARNING", translate(texts.PACKED_BESIDE_FAILED) if written.placement.left_tile else ""),
@@ -69,6 +71,14 @@ def _warnings(edit_meshes: Sequence[EditMesh], settings: Settings, solutions: Se
     if settings.options.stretch != 1.0 and all(m.polygons.stretch_direction is None for m in edit_meshes):
         warnings.append(translate(texts.NO_ACTIVE_EDGE))
     return tuple(filter(None, warnings))
+
+
+def _average_density(written: Written) -> str:
+    """Return the note on objects whose scale is uneven, if their islands were scaled to those of others."""
+    if written.settings.keep_in_place or sum(len(solution.charts) for solution in written.solutions) < 2:
+        return ""
+    uneven = [each.edit_object.name for each in written.edit_meshes if is_uneven(each.polygons.world_metric)]
+    return texts.average_density(uneven)
 
 
 def _notes(edit_meshes: Sequence[EditMesh], settings: Settings) -> tuple[str, ...]:

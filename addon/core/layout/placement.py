@@ -17,6 +17,7 @@ from ..mesh.polygon_mesh import PolygonMesh
 from ..solve.joined import numbered_together
 from ..solve.options import Margin
 from ..solve.solution import Solution
+from .density import at_equal_density
 from .obstacles import face_boxes, place_beside
 from .packing import pack
 
@@ -294,14 +295,16 @@ def place(
 
     Charts with pins stay where the solver put them; a single-pin chart is scaled about its pin to its former area. With
     `keep_in_place` every other chart goes into its bounding box in `PolygonMesh.uv`. Otherwise, and for charts without
-    a former extent, the charts are packed into the unit square at a common scale, upright; with `may_turn` tall ones
-    lie on their side. Without a `margin` there are gaps between them; with one they avoid the faces of failed charts.
+    a former extent, the charts are packed into the unit square, upright, at a common scale in the world times their own
+    factors (`density.py`); with `may_turn` tall ones lie on their side. Without a `margin` there are gaps between them;
+    with one they avoid the faces of failed charts.
 
     Raises:
         MarginError: the margin is not finite.
     """
     corner_counts = [len(mesh.corner_vertices) for mesh in meshes]
     uv = np.concatenate([_single_pins_at_former_area(mesh, solution) for mesh, solution in zip(meshes, solutions)])
+    uv = at_equal_density(meshes, [_without_pins(solution) for solution in solutions], uv)
     chart = numbered_together([solution.chart_of_corner for solution in solutions], [len(s.charts) for s in solutions])
     if any(solution.column("n_pins").any() for solution in solutions):
         chart[np.concatenate([solution.pinned_corners for solution in solutions])] = -1
@@ -321,6 +324,13 @@ def place(
     maps = _split(side_by_side(uv, chart, margin), corner_counts)
     left_tile = margin is not None and _keep_off_failed(meshes, solutions, maps)
     return Placement(maps, without_bounds, left_tile)
+
+
+def _without_pins(solution: Solution) -> np.ndarray:
+    """Return the chart of every corner, (C,), -1 for none and for charts with pins."""
+    if not solution.column("n_pins").any():
+        return solution.chart_of_corner
+    return np.where(solution.pinned_corners, -1, solution.chart_of_corner)
 
 
 def _keep_off_failed(meshes: Sequence[PolygonMesh], solutions: Sequence[Solution], maps: Sequence[np.ndarray]) -> bool:

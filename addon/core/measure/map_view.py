@@ -11,7 +11,9 @@ import numpy as np
 
 from .. import choices, native
 from ..mesh.polygon_mesh import PolygonMesh
+from ..mesh.world_scale import area_growth
 from . import defects
+from .texels import Texels
 
 # Percentiles of the surface that an automatic range spans; outliers would dominate it.
 _PERCENTILES = (2.0, 98.0)
@@ -46,6 +48,8 @@ class IslandNumbers:
 class MapView:
     """Measures of the UV map of one mesh, over its selected faces; computed on first use.
 
+    Angles are compared with those in object space, as the unwrap does, sizes with those in the world.
+
     Every measure raises NativeModuleError if `spectral_conformal` cannot be imported.
     """
 
@@ -66,15 +70,19 @@ class MapView:
         """Quasi-conformal distortion of every face, (F,) float64, as `spectral_conformal.face_distortion` has it."""
         return self._distortion.qc
 
-    @property
+    @functools.cached_property
     def log2_scale(self) -> np.ndarray:
-        """Binary logarithm of the linear scale of every face, (F,) float64, UVs over object space."""
-        return self._distortion.log2_scale
+        """Binary logarithm of the linear scale of every face, (F,) float64, UVs over the world."""
+        if self.mesh.world_metric is None:
+            return self._distortion.log2_scale
+        return self._distortion.log2_scale - 0.5 * np.log2(area_growth(self.mesh))
 
-    @property
+    @functools.cached_property
     def area(self) -> np.ndarray:
-        """Area of every face in object space, (F,) float64; 0 where it is not selected or cannot be measured."""
-        return self._distortion.area
+        """Area of every face in the world, (F,) float64; 0 where it is not selected or cannot be measured."""
+        if self.mesh.world_metric is None:
+            return self._distortion.area
+        return self._distortion.area * area_growth(self.mesh)
 
     @functools.cached_property
     def triangles(self) -> tuple[np.ndarray, np.ndarray]:
@@ -104,28 +112,36 @@ class MapView:
     @functools.cached_property
     def median_log2_scale(self) -> float:
         """The median of `log2_scale` over the surface; 0 where nothing is mapped."""
-        return _median_log2_scale([self])
+        return median_log2_scale([self])
 
     @property
     def is_measured(self) -> np.ndarray:
         """Which faces have a surface and a finite size in the map, (F,) bool."""
         return (self.area > 0.0) & np.isfinite(self.log2_scale)
 
-    def values(self, kind: str, density: float = 1.0) -> np.ndarray:
+    def densities(self, texels: Texels | None = None) -> np.ndarray:
+        """Return the texel density of every face, (F,) float64: pixels along the unit of `texels`."""
+        texels = texels or Texels()
+        known = self.mesh.texture_sides
+        sides = texels.side if known is None else np.where(known > 0.0, known, texels.side)
+        return sides * texels.length * np.exp2(self.log2_scale)
+
+    def values(self, kind: str, texels: Texels | None = None, median: float | None = None) -> np.ndarray:
         """Return the value to show for every face, (F,) float64.
 
         Args:
             kind: one of `choices.LOOK_ANGLE` (quasi-conformal distortion), `LOOK_SIZE` (binary logarithm of the scale
-                over its median), `LOOK_DENSITY` (pixels per unit of length), `LOOK_DEFECTS` (1 flipped, 0.5
-                overlapping, 0 neither) and `LOOK_CHECKER`, which has no values.
-            density: side of a UV tile in pixels.
+                over its median), `LOOK_DENSITY` (`densities`), `LOOK_DEFECTS` (1 flipped, 0.5 overlapping, 0 neither)
+                and `LOOK_CHECKER`, which has no values.
+            texels: how densities are measured; by default textures have one pixel.
+            median: of the binary logarithm of the scale, of all maps shown together; of this map by default.
         """
         if kind == choices.LOOK_ANGLE:
             return self.qc
         if kind == choices.LOOK_SIZE:
-            return self.log2_scale - self.median_log2_scale
+            return self.log2_scale - (self.median_log2_scale if median is None else median)
         if kind == choices.LOOK_DENSITY:
-            return density * np.exp2(self.log2_scale)
+            return self.densities(texels)
         if kind == choices.LOOK_DEFECTS:
             return np.where(self.flipped, 1.0, np.where(self.overlapping, 0.5, 0.0))
         return np.zeros(len(self.mesh.selected_faces))
@@ -136,11 +152,11 @@ class MapView:
         vertices = self.mesh.corner_vertices.take(self.triangles[0].ravel())
         return self.mesh.vertices.astype(np.float32).take(vertices, axis=0)
 
-    def triangle_map(self, kind: str, density: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    def triangle_map(self, kind: str, texels: Texels | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Return UVs (3 T, 2) and values (3 T,) of the corners of the triangles, float32."""
         corners, face = self.triangles
         with np.errstate(over="ignore"):
-            values = np.nan_to_num(self.values(kind, density), nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
+            values = np.nan_to_num(self.values(kind, texels), nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
         uv = self.mesh.uv.astype(np.float32).take(corners.ravel(), axis=0)
         return uv, values.astype(np.float32).take(face).repeat(3)
 
@@ -176,7 +192,7 @@ def _joined(views: Sequence[MapView], name: str) -> np.ndarray:
     return np.concatenate([getattr(view, name) for view in views])
 
 
-def _median_log2_scale(views: Sequence[MapView]) -> float:
+def median_log2_scale(views: Sequence[MapView]) -> float:
     """Return the median over the surface of all maps; 0 where nothing is mapped."""
     percentiles = native.measuring().area_percentiles(_joined(views, "log2_scale"), _joined(views, "area"), (50.0,))
     return float(np.nan_to_num(percentiles[0]))
@@ -204,14 +220,15 @@ def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
     )
 
 
-def automatic_range(views: Sequence[MapView], kind: str, density: float = 1.0) -> tuple[float, float]:
+def automatic_range(views: Sequence[MapView], kind: str, texels: Texels | None = None) -> tuple[float, float]:
     """Return the values at the two ends of the colors: the range of most of the surface of all meshes.
 
     Sizes are centered at the median, angles begin at 1. Ranges have a minimal width, so that a good map looks good.
     """
     if kind in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
         return 0.0, 1.0
-    values = np.concatenate([view.values(kind, density) for view in views])
+    median = median_log2_scale(views) if kind == choices.LOOK_SIZE else None
+    values = np.concatenate([view.values(kind, texels, median) for view in views])
     low, high = native.measuring().area_percentiles(values, _joined(views, "area"), _PERCENTILES)
     if np.isnan(low):
         return (1.0, 1.0 + _MIN_QC_RANGE) if kind == choices.LOOK_ANGLE else (-1.0, 1.0)
@@ -242,7 +259,7 @@ def worst(
             which faces or islands are chosen.
     """
     if measure == choices.LOOK_SIZE:
-        median = _median_log2_scale(views)
+        median = median_log2_scale(views)
         badness = [np.abs(view.log2_scale - median) for view in views]
         limit = None if limit is None else float(np.log2(max(limit, 1.0)))
     else:

@@ -10,8 +10,8 @@ import numpy as np
 from .. import native
 
 # Fields of the surface, and of its map.
-SURFACE = ("vertices", "face_offsets", "corner_vertices", "selected_faces")
-MAP = ("uv", "uv_faces", "aspect")
+SURFACE = ("vertices", "face_offsets", "corner_vertices", "selected_faces", "world_metric")
+MAP = ("uv", "uv_faces", "aspect", "texture_sides")
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,9 @@ class PolygonMesh:
         extenders: (vertex, vertex, strength) of every soft force between two vertices.
         stretch_direction: (3,) float64, of length 1, the direction along which the map may be stretched; None for none.
         uv_faces: (F,) bool, the faces whose UVs the UV editor shows; None for all selected ones.
+        world_metric: (3, 3) float64, lengths in the world (`world_scale.metric_of`); None for those of object space.
+        density_factors: (F,) float32, how many times the texel density of others a face gets; None for 1.
+        texture_sides: (F,) float64, pixels along a side of every face's texture, 0 where unknown; None for all unknown.
     """
 
     vertices: np.ndarray
@@ -43,6 +46,9 @@ class PolygonMesh:
     extenders: tuple[tuple[int, int, float], ...] = ()
     stretch_direction: np.ndarray | None = None
     uv_faces: np.ndarray | None = None
+    world_metric: np.ndarray | None = None
+    density_factors: np.ndarray | None = None
+    texture_sides: np.ndarray | None = None
 
     @functools.cached_property
     def topology(self) -> int:

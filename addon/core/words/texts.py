@@ -76,6 +76,27 @@ INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to se
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
 STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
+TEXEL_DENSITY_LABEL = "Texel Density"
+GET_LABEL = "Get"
+SET_LABEL = "Set"
+EQUALIZE_LABEL = "Equalize"
+GET_DENSITY_LABEL = "Get Texel Density"
+GET_DENSITY_DESCRIPTION = (
+    "Show how many pixels of the texture the selected islands have per unit of length, and take that for Set Texel "
+    "Density"
+)
+SET_DENSITY_LABEL = "Set Texel Density"
+SET_DENSITY_DESCRIPTION = "Scale every selected island about its center to a number of pixels per unit of length"
+EQUALIZE_DENSITY_LABEL = "Equalize Texel Density"
+EQUALIZE_DENSITY_DESCRIPTION = (
+    "Scale the selected islands of all meshes to an equal texel density, times their factors; the scale of the "
+    "objects and the sizes of their textures count"
+)
+DENSITY_FACTOR_LABEL = "Density Factor"
+DENSITY_FACTOR_DESCRIPTION = (
+    "Give the selected islands more or fewer pixels than others, such as 1.5 for a head; kept with the mesh, for "
+    "Spectral Unwrap and Equalize Texel Density"
+)
 SUBMENU_LABEL = "Spectral"
 EXTENDERS_LABEL = "Extenders"
 VERTEX_GONE_LABEL = "Vertex gone"
@@ -219,6 +240,20 @@ AS_COLORS_PROPERTY = {
     "name": "As Colors",
     "description": "Store the colors of the overlay at face corners instead of one number per face",
 }
+DENSITY_PROPERTY = {
+    "name": "Density",
+    "description": "Pixels of the texture per unit of length, as the scene displays lengths",
+}
+FACTOR_PROPERTY = {
+    "name": "Factor",
+    "description": "How many times the texel density of other islands; 1 for the same",
+}
+TEXTURE_SIZE_PROPERTY = {
+    "name": "Texture Size",
+    "description": (
+        "Pixels along one side of this material's texture, for the texel density; 0 takes the size of its image"
+    ),
+}
 # The properties of the overlay that shows the map.
 MAP_OVERLAY_LABEL = "UV Map Overlay"
 SHOW_MAP_PROPERTY = {
@@ -241,7 +276,7 @@ RANGE_HIGH_PROPERTY = {
 OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
 IMAGE_SIZE_PROPERTY = {
     "name": "Image Size",
-    "description": "Pixels along one side of the image, for the texel density",
+    "description": "Pixels along one side of the texture, for the texel density of faces whose material has no image",
 }
 CHECKS_PROPERTY = {"name": "Squares", "description": "Checker squares along one side of a UV tile"}
 LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colors mean, and the numbers of the map"}
@@ -307,9 +342,9 @@ LOOK_ITEMS = (
     (
         choices.LOOK_SIZE,
         "Size",
-        "Size in the map relative to the surface, compared with the median",
+        "Size in the map relative to the surface in the world, compared with the median",
     ),
-    (choices.LOOK_DENSITY, "Texel Density", "Image pixels per unit of length on the surface"),
+    (choices.LOOK_DENSITY, TEXEL_DENSITY_LABEL, "Pixels of the texture per unit of length in the world"),
     (
         choices.LOOK_DEFECTS,
         "Flipped and Overlapping",
@@ -353,6 +388,7 @@ PACKED_BESIDE_FAILED = "Failed islands leave too little room in the UV tile, so 
 NO_RESULT_REMEMBERED = "These meshes have not been unwrapped since the file was opened; unwrap first"
 NO_DEFECT_CHOSEN = "Nothing to look for: turn on Flipped or Overlapping"
 NO_UV_MAP = "There is no UV map; unwrap first"
+NO_DENSITY = "The selected islands have no size; unwrap them first"
 # Differences of scale that Blender's own Unwrap ignores.
 _EVEN_SCALE = 1e-4
 _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spectral method with soft pins"}
@@ -429,9 +465,12 @@ def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:
     return translate("{faces} (see {operator})").format(faces=", ".join(kinds), operator=translate(where_to_see))
 
 
-def look(kind: str) -> str:
-    """Return the label of a kind that the overlay shows."""
-    return translate(next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind))
+def look(kind: str, unit: str) -> str:
+    """Return the heading of the legend for a kind that the overlay shows; `unit` as in `density`."""
+    label = translate(next(label for identifier, label, _ in LOOK_ITEMS if identifier == kind))
+    if kind != choices.LOOK_DENSITY:
+        return label
+    return translate("{name} (px/{unit})").format(name=label, unit=unit or translate("unit"))
 
 
 def look_value(kind: str, value: float) -> str:
@@ -440,7 +479,53 @@ def look_value(kind: str, value: float) -> str:
         return _angles(value)
     if kind == choices.LOOK_SIZE:
         return translate("{factor} x").format(factor=format(2.0**value, ".2f"))
-    return format(value, ".3g")
+    return _digits(value)
+
+
+def density(value: float, unit: str) -> str:
+    """Return a texel density with its unit, given the symbol of the unit of length, empty for Blender's unit."""
+    return translate("{density} px/{unit}").format(density=_digits(value), unit=unit or translate("unit"))
+
+
+def _digits(value: float) -> str:
+    # Three digits are what an artist compares; never in powers of ten.
+    return format(value, ".0f") if value >= 100.0 else format(value, ".3g")
+
+
+def densities(mean: float, low: float, high: float, islands: int, unit: str) -> str:
+    """Return what Get Texel Density says of so many islands; `unit` as in `density`."""
+    counted = _count(islands, _ISLANDS)
+    # Equal to the digits shown.
+    if high - low <= 0.005 * high:
+        return translate("{islands}: {density}").format(islands=counted, density=density(mean, unit))
+    sentence = translate("{islands}: {density} together, from {low} to {high}")
+    return sentence.format(islands=counted, density=density(mean, unit), low=_digits(low), high=_digits(high))
+
+
+def density_set(value: float, islands: int, unit: str) -> str:
+    """Return what Set Texel Density says; `unit` as in `density`."""
+    sentence = translate("Scaled {islands} to {density}; pack them if they overlap now")
+    return sentence.format(islands=_count(islands, _ISLANDS), density=density(value, unit))
+
+
+def density_equalized(common: float, islands: int, with_factor: int, unit: str) -> str:
+    """Return what Equalize Texel Density says; `common` is the density of islands without a factor."""
+    text = density_set(common, islands, unit)
+    if with_factor:
+        forms = ("{n} island has a factor of its own", "{n} islands have factors of their own")
+        text = ". ".join((text, _count(with_factor, forms)))
+    return text
+
+
+def density_factor(factor: float, islands: int) -> str:
+    """Return what Density Factor says."""
+    sentence = translate("{islands}: factor {factor}; {unwrap} and {equalize} use it")
+    return sentence.format(
+        islands=_count(islands, _ISLANDS),
+        factor=_digits(factor),
+        unwrap=translate(UNWRAP_LABEL),
+        equalize=translate(EQUALIZE_DENSITY_LABEL),
+    )
 
 
 def legend_ends(kind: str, low: float, middle: float, high: float) -> tuple[str, ...]:
@@ -508,12 +593,12 @@ def selected_worst(faces: int) -> str:
     return translate("Selected {faces}").format(faces=_count(faces, _FACES))
 
 
-def face_numbers(qc: float, log2_size: float, density: float, flipped: bool, overlapping: bool) -> tuple[str, ...]:
-    """Return the legend's lines about the face under the mouse; `density` is in pixels per unit of length."""
-    size = translate("Size {size}, {density} px per unit")
+def face_numbers(qc: float, log2_size: float, density: str, flipped: bool, overlapping: bool) -> tuple[str, ...]:
+    """Return the legend's lines about the face under the mouse, given its `density` with the unit."""
+    size = translate("Size {size}, {density}")
     lines = [
         translate("{name}: angles off by {qc}").format(name=translate(LEGEND_FACE), qc=_angles(qc)),
-        size.format(size=look_value(choices.LOOK_SIZE, log2_size), density=look_value(choices.LOOK_DENSITY, density)),
+        size.format(size=look_value(choices.LOOK_SIZE, log2_size), density=density),
     ]
     if flipped and overlapping:
         lines.append(translate("Flipped and overlapping"))
@@ -613,6 +698,14 @@ def pinned(summary: Summary) -> str:
     ways = Counter({translate(_PINNED_METHODS.get(method, method)): count for method, count in summary.pinned.items()})
     forms = ("{n} island with pins: solved by {ways}", "{n} islands with pins: solved by {ways}")
     return _count(sum(summary.pinned.values()), forms, ways=_grouped(ways))
+
+
+def average_density(objects: Sequence[str]) -> str:
+    """Return the note on these objects, by name, whose scale is uneven; empty for none."""
+    if not objects:
+        return ""
+    sentence = translate("{objects}: scaled unevenly, so every island has an average texel density; apply the scale")
+    return sentence.format(objects=", ".join(objects))
 
 
 def object_scale(scales: Sequence[tuple[float, float, float]], negative: Sequence[bool]) -> str:

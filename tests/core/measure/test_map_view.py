@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from spectral_unwrap.core import choices
 from spectral_unwrap.core.measure.map_view import MapView, automatic_range, joined_numbers
+from spectral_unwrap.core.measure.texels import Texels
 from spectral_unwrap.core.mesh.polygon_mesh import MAP, SURFACE, PolygonMesh
 from spectral_unwrap.core.words import texts
 
@@ -31,7 +32,7 @@ def test_values_of_every_kind():
     view = MapView(grid(scale=(0.5, 0.25)))
     assert view.values(choices.LOOK_ANGLE) == pytest.approx(2.0)
     assert view.values(choices.LOOK_SIZE) == pytest.approx(0.0)
-    assert view.values(choices.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.125**0.5)
+    assert view.values(choices.LOOK_DENSITY, Texels(1024)) == pytest.approx(1024 * 0.125**0.5)
     assert not view.values(choices.LOOK_DEFECTS).any()
 
 
@@ -90,7 +91,7 @@ def test_a_good_map_looks_good():
     view = MapView(grid())
     assert automatic_range([view], choices.LOOK_ANGLE) == pytest.approx((1.0, 1.2))
     assert automatic_range([view], choices.LOOK_SIZE) == pytest.approx((-0.25, 0.25))
-    low, high = automatic_range([view], choices.LOOK_DENSITY, 1024)
+    low, high = automatic_range([view], choices.LOOK_DENSITY, Texels(1024))
     assert low < 1024 < high
 
 
@@ -138,7 +139,7 @@ def test_what_an_image_stretches_back_is_not_distorted():
     # On an image of twice the width.
     view = MapView(changed(grid(scale=(0.5, 1.0)), aspect=2.0))
     assert view.qc == pytest.approx(1.0)
-    assert view.values(choices.LOOK_DENSITY, 1024) == pytest.approx(1024 * 0.5**0.5)
+    assert view.values(choices.LOOK_DENSITY, Texels(1024)) == pytest.approx(1024 * 0.5**0.5)
     assert not view.mesh.equals(changed(view.mesh, aspect=1.0), MAP)
 
 

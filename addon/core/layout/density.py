@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scale charts to an equal texel density in the world, times their own factors.
+
+With the area A_k of chart k in the world, its area a_k in the map and its factor c_k, which an artist sets, the density
+per pixel of the texture is sqrt(a_k / A_k); densities are equal if all sqrt(a_k / A_k) / c_k are.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..mesh.density_factors import chart_factors, chart_sums, ratios
+from ..mesh.polygon_mesh import PolygonMesh
+from ..mesh.world_scale import area_growth, area_vectors, is_uneven
+
+
+def chart_scales(mesh: PolygonMesh, chart: np.ndarray, n_charts: int) -> np.ndarray:
+    """Return by which factor charts that have their area in object space are scaled, (n_charts,).
+
+    That is c_k sqrt(A_k / a_k). `chart` (F,) is the chart of every face, -1 for none.
+    """
+    scales = chart_factors(mesh, chart, n_charts)
+    if mesh.world_metric is None:
+        return scales
+    if not is_uneven(mesh.world_metric):
+        return scales * np.sqrt(mesh.world_metric[0, 0])
+    area = np.linalg.norm(area_vectors(mesh), axis=1)
+    growth = ratios(chart_sums(area * area_growth(mesh), chart, n_charts), chart_sums(area, chart, n_charts))
+    return scales * np.sqrt(growth)
+
+
+def at_equal_density(meshes: Sequence[PolygonMesh], charts: Sequence[np.ndarray], uv: np.ndarray) -> np.ndarray:
+    """Scale the charts of all meshes from their area in object space to an equal density in the world.
+
+    Args:
+        meshes: the meshes.
+        charts: for each mesh the chart of every corner, (C,), -1 for none.
+        uv: the maps of all meshes, one below the other, (sum of C, 2) float64, each chart with its area in object
+            space.
+
+    Returns:
+        `uv` itself if all charts would be scaled alike, else a scaled copy.
+    """
+    if all(mesh.world_metric is None and mesh.density_factors is None for mesh in meshes):
+        return uv
+    scales = []
+    for mesh, chart in zip(meshes, charts):
+        n_charts = int(chart.max(initial=-1)) + 1
+        # The last entry is that of corners without a chart.
+        of_charts = np.append(chart_scales(mesh, chart[mesh.face_offsets[:-1]], n_charts), 1.0)
+        scales.append(of_charts[chart])
+    scale, is_in_chart = np.concatenate(scales), np.concatenate(charts) >= 0
+    inside = scale[is_in_chart]
+    return uv if not len(inside) or (inside == inside[0]).all() else uv * scale[:, None]
+
+
+def scaled_about_centers(uv: np.ndarray, island: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Scale every island about the center of its bounding box; returns a copy of `uv`, (C, 2) float64.
+
+    Corners of islands with the factor 1, and those of none, keep their UVs bit by bit.
+
+    Args:
+        uv: (C, 2).
+        island: (C,) the island of every corner, -1 for none.
+        scale: (K,) the factor of each island.
+    """
+    result = np.array(uv, dtype=np.float64)
+    corners = np.flatnonzero((island >= 0) & (np.append(scale, 1.0)[island] != 1.0))
+    number = island[corners]
+    low, high = np.full((len(scale), 2), np.inf), np.full((len(scale), 2), -np.inf)
+    np.minimum.at(low, number, result[corners])
+    np.maximum.at(high, number, result[corners])
+    with np.errstate(invalid="ignore"):
+        center = ((low + high) / 2.0)[number]
+    result[corners] = center + (result[corners] - center) * scale[number, None]
+    return result

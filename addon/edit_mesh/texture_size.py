@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The size of the texture on every face, for texel densities: as its material states it, or of the material's image."""
+
+import bpy
+import numpy as np
+
+from .. import names
+from ..core.measure.texels import Texels, texels_of
+from .image_aspect import active_image
+
+
+def texels(context: bpy.types.Context) -> Texels:
+    """Return how densities are measured: in the scene's units; unknown textures have the size that the overlay has."""
+    units, overlay = context.scene.unit_settings, getattr(context.window_manager, names.MAP_OVERLAY_PROPERTY)
+    return texels_of(overlay.image_size, units.system, units.length_unit, units.scale_length)
+
+
+def sides(mesh: bpy.types.Mesh, shown: bpy.types.Object) -> np.ndarray | None:
+    """Return the side in pixels of the texture on every face of `mesh`, which is not in edit mode, (F,) float64.
+
+    The mesh has the material slots of the object `shown`. A texture that is no square has the side of a square with as
+    many pixels; 0 stands for unknown. None if all are unknown.
+    """
+    of_slots = [side_of(slot.material) for slot in shown.material_slots]
+    if not any(of_slots):
+        return None
+    slot = np.zeros(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("material_index", slot)
+    # Blender shows faces of a slot that does not exist with the last one.
+    return np.array(of_slots)[np.clip(slot, 0, len(of_slots) - 1)]
+
+
+def side_of(material: bpy.types.Material | None) -> float:
+    """Return the side in pixels of a material's texture, 0 where it is not known."""
+    if material is None:
+        return 0.0
+    stated = getattr(material, names.TEXTURE_SIZE_PROPERTY)
+    image = active_image(material.node_tree) if not stated and material.node_tree else None
+    return float(stated) if image is None else float(image.size[0] * image.size[1]) ** 0.5

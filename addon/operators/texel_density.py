@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators on the texel density of the selected islands."""
+
+import bpy
+import numpy as np
+from bpy.props import FloatProperty
+
+from .. import names
+from ..core.mesh.density_factors import MAX_FACTOR, MIN_FACTOR
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..unwrapping import texel_density
+from ..unwrapping.texel_density import SelectedIslands
+from .reporting_operator import ReportingOperator
+
+
+class _DensityOperator(ReportingOperator):
+    """An operator on the selected islands; without a UV map it warns."""
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Measure the islands and do the work on them."""
+        islands = texel_density.selected_islands(context)
+        if islands is None or not np.isfinite(islands.densities.density).any():
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP if islands is None else texts.NO_DENSITY))
+            return {"CANCELLED"}
+        self.run_on(context, islands)
+        return {"FINISHED"}
+
+    def run_on(self, context: bpy.types.Context, islands: SelectedIslands) -> None:
+        """Do the work on islands of which at least one has a density."""
+        raise NotImplementedError
+
+
+class UV_OT_spectral_get_density(_DensityOperator, bpy.types.Operator):
+    """Report the texel density of the selected islands, and make it the one that Set Texel Density sets."""
+
+    bl_idname = names.GET_DENSITY_OPERATOR
+    bl_label = texts.GET_DENSITY_LABEL
+    bl_description = texts.GET_DENSITY_DESCRIPTION
+    bl_options = {"REGISTER"}
+
+    def run_on(self, context: bpy.types.Context, islands: SelectedIslands) -> None:
+        """Report the density, and the range if islands differ."""
+        found = islands.densities.density[np.isfinite(islands.densities.density)]
+        mean = islands.densities.mean()
+        context.window_manager.operator_properties_last(names.SET_DENSITY_OPERATOR).density = mean
+        self.report({"INFO"}, texts.densities(mean, found.min(), found.max(), len(found), islands.texels.symbol))
+
+
+class UV_OT_spectral_set_density(_DensityOperator, bpy.types.Operator):
+    """Scale the selected islands to a texel density."""
+
+    bl_idname = names.SET_DENSITY_OPERATOR
+    bl_label = texts.SET_DENSITY_LABEL
+    bl_description = texts.SET_DENSITY_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    density: FloatProperty(**texts.DENSITY_PROPERTY, default=512.0, min=1e-3, max=1e9, soft_max=1e5)
+
+    def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
+        """Scale every island about its center."""
+        texel_density.scale(islands, islands.densities.scales_to(self.density))
+        count = int(np.isfinite(islands.densities.density).sum())
+        self.report({"INFO"}, texts.density_set(self.density, count, islands.texels.symbol))
+
+
+class UV_OT_spectral_equalize_density(_DensityOperator, bpy.types.Operator):
+    """Give the selected islands an equal texel density, times their factors."""
+
+    bl_idname = names.EQUALIZE_DENSITY_OPERATOR
+    bl_label = texts.EQUALIZE_DENSITY_LABEL
+    bl_description = texts.EQUALIZE_DENSITY_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    def run_on(self, _context: bpy.types.Context, islands: SelectedIslands) -> None:
+        """Scale every island about its center; together they keep their pixels."""
+        found, scales = islands.densities, islands.densities.equalizing_scales()
+        texel_density.scale(islands, scales)
+        counted = np.isfinite(found.density)
+        common = float((found.density * scales / found.factor)[counted][0])
+        has_factors = int((found.factor[counted] != 1.0).sum())
+        self.report({"INFO"}, texts.density_equalized(common, int(counted.sum()), has_factors, islands.texels.symbol))
+
+
+class UV_OT_spectral_density_factor(ReportingOperator, bpy.types.Operator):
+    """Store a density factor on the selected islands."""
+
+    bl_idname = names.DENSITY_FACTOR_OPERATOR
+    bl_label = texts.DENSITY_FACTOR_LABEL
+    bl_description = texts.DENSITY_FACTOR_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    factor: FloatProperty(**texts.FACTOR_PROPERTY, default=1.5, min=MIN_FACTOR, max=MAX_FACTOR, soft_max=4.0)
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Store the factor on all faces of the islands."""
+        count = texel_density.store_factor(context, names.DENSITY_FACTOR_ATTRIBUTE, self.factor)
+        if not count:
+            self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
+            return {"CANCELLED"}
+        self.report({"INFO"}, texts.density_factor(self.factor, count))
+        return {"FINISHED"}
