@@ -51,6 +51,8 @@ def test_json_comes_back_as_the_same_settings():
         ({"front": [1.0, 2.0]}, "front must be three finite numbers"),
         ({"texture_size": 0}, "texture_size must be at least 1"),
         ({"texture_size": "2048x"}, "texture_size must be at least 1"),
+        ({"texel_density": 512.0, "pack": False}, "texel_density must be 0 without"),
+        ({"texel_density": -1.0}, "texel_density must be at least 0"),
         ({"margin_pixels": 64.0, "texture_size": "128x64"}, "margin_pixels must be"),
         ({"picture_size": 3}, "picture_size must be"),
         ({"weld_distance": 1.0}, "weld_distance must be"),

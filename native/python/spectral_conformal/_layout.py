@@ -71,6 +71,21 @@ def packed(
     return result
 
 
+def scale_between(uv: npt.NDArray[np.float64], moved: npt.NDArray[np.float64], chart: npt.NDArray[np.int64]) -> float:
+    """Return the common factor by which charts have grown from `uv` to `moved`, (C, 2) each; 1 for none with extent.
+
+    Rotations and mirrors do not count. Chart numbers are in `chart` (C,), -1 for corners that do not count.
+    """
+    corners, starts, counts = _by_chart(chart)
+    if not len(corners):
+        return 1.0
+    squares = []
+    for points in (moved[corners], uv[corners]):
+        centers = np.add.reduceat(points, starts) / counts[:, None]
+        squares.append(float(((points - np.repeat(centers, counts, axis=0)) ** 2).sum()))
+    return (squares[0] / squares[1]) ** 0.5 if squares[1] > 0.0 else 1.0
+
+
 def _by_chart(
     chart: npt.NDArray[np.int64],
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:

@@ -11,6 +11,7 @@ from tests.blender.inside import scenes
 
 names = importlib.import_module("spectral_unwrap.names")
 map_view = importlib.import_module("spectral_unwrap.core.measure.map_view")
+texels = importlib.import_module("spectral_unwrap.core.measure.texels")
 read_map = importlib.import_module("spectral_unwrap.edit_mesh.read_map")
 
 
@@ -38,7 +39,7 @@ def test_values_are_those_that_are_shown(kind, mode):
     assert bpy.ops.mesh.spectral_store_distortion(kind=kind) == {"FINISHED"}
     attribute, values = stored(edited, names.ATTRIBUTES[kind], "value", 1)
     assert (attribute.domain, attribute.data_type) == ("FACE", "FLOAT")
-    expected = map_view.MapView(read_map.read_own_map(bpy.context, edited)).values(kind, 1024)
+    expected = map_view.MapView(read_map.read_own_map(bpy.context, edited)).values(kind, texels.Texels(1024))
     np.testing.assert_allclose(values[:, 0], expected, rtol=1e-6, atol=1e-6)
 
 

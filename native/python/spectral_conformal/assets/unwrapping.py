@@ -78,12 +78,14 @@ class Layout:
         margin: in pixels, between islands, and between them and the border of the texture.
         width: of the texture, in pixels.
         height: of the texture, in pixels.
+        density: pixels per unit of length in the scene for packed islands; 0 for as many as the texture has room for.
     """
 
     pack: bool = True
     margin: float = 4.0
     width: int = 1024
     height: int = 1024
+    density: float = 0.0
 
 
 def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
@@ -133,7 +135,7 @@ def laid_out(meshes: Sequence[AssetMesh], results: Sequence[Unwrap | None], layo
     more pins stay at their pins.
 
     Raises:
-        ValueError: the margin leaves no room for this many islands.
+        ValueError: the margin leaves no room for this many islands, or the texture none for the layout's density.
     """
     new, packed, found = [], [], []
     for mesh, result in zip(meshes, results):
@@ -184,7 +186,31 @@ def _placed(
         there, placed = _layout.onto_former(uv, former * isotropy, chart)
         uv = np.where(placed[:, None], there / isotropy, uv)
         chart = np.where(placed, -1, chart)
+    if layout.density:
+        return _at_density(uv, chart, layout)
     return _layout.packed(uv, chart, _margin(layout), aspect)
+
+
+def _at_density(uv: npt.NDArray[np.float64], chart: Integers, layout: Layout) -> npt.NDArray[np.float64]:
+    """Pack charts, whose `uv` are lengths in the scene, so that a unit of length has `layout.density` pixels.
+
+    The packed layout, which fills the texture, shrinks by r = wanted / found density toward the corner of the texture.
+    So charts are packed with the margin m / r; that lowers the found density, and the margin r' (m / r) is at least m.
+    """
+    margin = layout.margin
+    for _ in range(2):
+        result = _layout.packed(
+            uv, chart, (margin / layout.width, margin / layout.height), layout.width / layout.height
+        )
+        found = _layout.scale_between(uv, result * [layout.width, layout.height], chart)
+        shrink = layout.density / found
+        if shrink > 1.0:
+            raise ValueError(
+                f"a density of {layout.density:g} pixels per unit needs about {shrink:.3g} times the texture size "
+                f"{layout.width}x{layout.height}; the texture has room for {found:.3g}."
+            )
+        margin = layout.margin / shrink
+    return np.where((chart >= 0)[:, None], result * shrink, result)
 
 
 def _margin(layout: Layout) -> tuple[float, float]:

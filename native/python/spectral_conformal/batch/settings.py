@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import re
 from dataclasses import dataclass, fields
 from typing import Any
@@ -43,6 +44,8 @@ class BatchSettings:
         pack: pack all islands together, or leave them in their positions.
         margin_pixels: between packed islands, and between them and the border of the texture, in pixels.
         texture_size: of one side in pixels, or width and height, such as 2048x1024.
+        texel_density: pixels per unit of length in the scene, the same for all islands; an asset whose islands do not
+            fit then fails. 0 fills the texture, at one density for each asset.
         uv_map: name of the UV map to write, created if missing; by default the map that the format's programs use
             first. For glTF the n of TEXCOORD_n, or any other name for a set that no mesh has.
         usd_over: write a USD layer over the untouched source instead of a whole file.
@@ -59,6 +62,7 @@ class BatchSettings:
     pack: bool = True
     margin_pixels: float = 4.0
     texture_size: str = "1024"
+    texel_density: float = 0.0
     uv_map: str = ""
     usd_over: bool = False
     picture_size: int = 512
@@ -91,6 +95,8 @@ class BatchSettings:
             ("weld_distance", not self.weld_distance or low <= self.weld_distance <= high,
              f"0, or from {low:g} to {high:g}"),
             ("margin_pixels", 0.0 <= self.margin_pixels < smallest, "from 0 to less than texture_size"),
+            ("texel_density", 0.0 <= self.texel_density < math.inf, "at least 0"),
+            ("texel_density", not self.texel_density or (self.pack and self.unwrap), "0 without unwrap or pack"),
             ("picture_size", not self.picture_size or 64 <= self.picture_size <= 8192, "0, or from 64 to 8192"),
         ):  # fmt: skip
             if not holds:
@@ -109,7 +115,7 @@ class BatchSettings:
     @property
     def layout(self) -> Layout:
         """How to lay out islands."""
-        return Layout(self.pack, self.margin_pixels, *self.texture)
+        return Layout(self.pack, self.margin_pixels, *self.texture, self.texel_density)
 
     @property
     def cutting(self) -> Cutting:
