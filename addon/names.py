@@ -17,6 +17,8 @@ SELECT_STRETCHED_OPERATOR = "uv.spectral_select_stretched"
 
 INSPECT_OPERATOR = "uv.spectral_inspect"
 
+FIT_RANGE_OPERATOR = "uv.spectral_fit_range"
+
 STORE_OPERATOR = "mesh.spectral_store_distortion"
 
 # Names of stored attributes, by the kind that the overlay shows; colors add a suffix.

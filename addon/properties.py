@@ -60,7 +60,7 @@ def _on_kind(overlay: PropertyGroup, context: Context) -> None:
 
 def _on_own_range(overlay: PropertyGroup, context: Context) -> None:
     if overlay.use_range:
-        overlay.range_low, overlay.range_high = map_overlay.automatic(context)
+        map_overlay.set_range(map_overlay.fixed(context))
     editors.redraw(context)
 
 
@@ -71,7 +71,7 @@ class SpectralMapOverlay(PropertyGroup):
     kind: EnumProperty(**texts.LOOK_PROPERTY, items=texts.LOOK_ITEMS, update=_on_kind)
     use_range: BoolProperty(**texts.USE_RANGE_PROPERTY, update=_on_own_range)
     range_low: FloatProperty(**texts.RANGE_LOW_PROPERTY, default=1.0, update=_on_map_change)
-    range_high: FloatProperty(**texts.RANGE_HIGH_PROPERTY, default=2.0, update=_on_map_change)
+    range_high: FloatProperty(**texts.RANGE_HIGH_PROPERTY, default=1.5, update=_on_map_change)
     opacity: FloatProperty(
         **texts.OPACITY_PROPERTY, default=0.7, min=0.0, max=1.0, subtype="FACTOR", update=_on_map_change
     )

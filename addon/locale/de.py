@@ -302,16 +302,30 @@ TEXTS = {
     "Show": "Anzeigen",
     "What the colors show": "Was die Farben zeigen",
     "Custom Range": "Eigener Bereich",
-    "Set the values at both ends of the colors; otherwise they follow the map": (
-        "Die Werte an beiden Enden der Farbskala festlegen; sonst richten sie sich nach der UV-Map"
+    "Set the values at both ends of the colors; otherwise they are the same on all maps: angles off by 0 to 50 %, "
+    "sizes of half to double the median": (
+        "Die Werte an beiden Enden der Farbskala festlegen; sonst sind sie für alle UV-Maps gleich: Winkel weichen um "
+        "0 bis 50 % ab, Größen reichen von der Hälfte bis zum Doppelten des Medians"
     ),
+    "Auto": "Auto",
+    "Fit Colors to Map": "Farben an UV-Map anpassen",
+    "Make the range of most of the surface the custom range; it stays while the map changes": (
+        "Den Bereich des größten Teils der Oberfläche zum eigenen Bereich machen; er bleibt bei Änderungen der UV-Map"
+    ),
+    "{name}: {mean}, {density}": "{name}: {mean}, {density}",
+    "{name}: nothing to measure": "{name}: nichts zu messen",
+    "and {n} more": "und {n} weitere",
     "Low": "Niedrig",
-    "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %": (
-        "Wert am unteren Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % abweichen"
+    "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
+    "factor, 1 for the median": (
+        "Wert am unteren Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % "
+        "abweichen, und Größe ein Faktor, 1 für den Median"
     ),
     "High": "Hoch",
-    "Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %": (
-        "Wert am oberen Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % abweichen"
+    "Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
+    "factor, 1 for the median": (
+        "Wert am oberen Ende der Farbskala; Winkelverzerrung ist ein Verhältnis, 1.1 für Winkel, die um 10 % "
+        "abweichen, und Größe ein Faktor, 1 für den Median"
     ),
     "Opacity": "Deckkraft",
     "Opacity of the colors": "Deckkraft der Farben",

@@ -8,6 +8,7 @@ from .extenders import (
     MESH_OT_spectral_extender_adjust,
     MESH_OT_spectral_extender_remove,
 )
+from .fit_range import UV_OT_spectral_fit_range
 from .inspect_map import UV_OT_spectral_inspect
 from .seam_wish import MESH_OT_spectral_seam_wish
 from .select import (
@@ -33,6 +34,7 @@ _CLASSES = (
     UV_OT_spectral_select_distorted,
     UV_OT_spectral_select_stretched,
     UV_OT_spectral_inspect,
+    UV_OT_spectral_fit_range,
     UV_OT_spectral_get_density,
     UV_OT_spectral_set_density,
     UV_OT_spectral_equalize_density,

@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, EnumProperty
 
 from .. import names
 from ..core.drawing import color_ramp
-from ..core.measure.map_view import MapView, automatic_range, median_log2_scale
+from ..core.measure.map_view import MapView, fixed_range, median_log2_scale
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import attributes, read_map
@@ -52,7 +52,9 @@ class MESH_OT_spectral_store_distortion(ReportingOperator, bpy.types.Operator):
         median = median_log2_scale(list(views.values()))
         if self.as_colors:
             name += names.COLORS_SUFFIX
-            low, high = automatic_range(list(views.values()), self.kind, measured)
+            low, high = fixed_range(list(views.values()), self.kind, measured)
+            if map_overlay.settings().kind == self.kind:
+                low, high = map_overlay.shown_range(context)
             colors = legend.colors_of(self.kind, 1.0)
             ramp = (colors.low, colors.middle, colors.high)
         for mesh, view in views.items():

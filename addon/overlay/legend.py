@@ -46,20 +46,23 @@ def draw(
 ) -> None:
     """Draw the legend in the lower right corner that other regions leave free, scaled down if necessary.
 
-    If it would be illegible, it may cover the sidebar, and then everything.
+    If it would be illegible, it may cover the sidebar; then it has no numbers; then it is as small as need be. Adjust
+    Last Operation would cover it, so it is never there.
     """
     low, high = low_high
     labels = () if kind == choices.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
     lines = (texts.look(kind, texels(context).symbol), *lines)
     scale = context.preferences.system.ui_scale
-    width, height = _size(lines, labels, scale)
     area, region = context.area, context.region
-    size = (float(region.width), float(region.height))
-    for covered in (covers.of(area, region), covers.of(area, region, with_sidebar=False), ()):
-        room = free_room.lower_right(size, covered, width, height)
+    beside, over_sidebar = covers.of(area, region), covers.of(area, region, with_sidebar=False)
+    for shown, covered in ((lines, beside), (lines, over_sidebar), (lines[:1], beside), (lines[:1], over_sidebar)):
+        width, height = _size(shown, labels, scale)
+        room = free_room.lower_right((float(region.width), float(region.height)), covered, width, height)
         if room is not None and scale * (room[2] - room[0]) / width >= _LEAST_SCALE:
             break
-    scale *= (room[2] - room[0]) / width
+    if room is None:
+        return
+    lines, scale = shown, scale * (room[2] - room[0]) / width
     distance, padding = _DISTANCE * scale, _PADDING * scale
     left, bottom, right, top = room[0] + distance, room[1] + distance, room[2] - distance, room[3] - distance
     fill_box((left, bottom, right, top), (_BACKGROUND,) * 4)

@@ -15,7 +15,14 @@ import numpy as np
 
 from .. import editors, names, session
 from ..core import choices
-from ..core.measure.map_view import IslandNumbers, MapView, automatic_range, joined_numbers, median_log2_scale
+from ..core.measure.map_view import (
+    IslandNumbers,
+    MapView,
+    automatic_range,
+    fixed_range,
+    joined_numbers,
+    median_log2_scale,
+)
 from ..core.measure.texels import Texels
 from ..core.mesh.world_scale import metric_of
 from ..core.words import texts
@@ -32,6 +39,10 @@ from .shown_mesh import ShownMesh
 _NEARER = 0.0003
 # Seconds without an edit after which islands are computed.
 _QUIET_SECONDS = 0.3
+# The smallest factor of sizes at the end of a custom range: its logarithm must be finite.
+_MIN_SIZE = 1e-3
+# More objects than these have their numbers in the legend together only.
+_MAX_OBJECTS = 6
 _NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS})
 
 
@@ -40,7 +51,7 @@ class Overlay(Remembered):
 
     Attributes:
         meshes: by the full names of their objects.
-        range: the automatic range, kept while the mesh is edited, so that colors stay comparable.
+        range: the default range, kept while the mesh is edited, so that colors stay comparable.
         numbers: of all shown maps together.
         medians: of the binary logarithm of the scale, of all shown maps together.
         preview: UVs, (C, 2), shown instead of those of objects, by their full names.
@@ -135,23 +146,38 @@ def views(context: bpy.types.Context) -> list[tuple[bpy.types.Object, ShownMesh,
     return found
 
 
-def automatic(context: bpy.types.Context) -> tuple[float, float]:
-    """Return the automatic range of the shown maps."""
+def fixed(context: bpy.types.Context) -> tuple[float, float]:
+    """Return the default range for the shown maps."""
     found, chosen = views(context), settings()
     key = (chosen.kind, texels(context), *(each.name_full for each, *_ in found))
     known = session.of(Overlay).range
     if found and key not in known:
         known.clear()
-        known[key] = automatic_range([view for *_, view in found], chosen.kind, texels(context))
+        known[key] = fixed_range([view for *_, view in found], chosen.kind, texels(context))
     return known[key] if found else (0.0, 1.0)
+
+
+def automatic(context: bpy.types.Context) -> tuple[float, float]:
+    """Return the range of most of the surface of the shown maps."""
+    found = [view for *_, view in views(context)]
+    return automatic_range(found, settings().kind, texels(context)) if found else fixed(context)
+
+
+def set_range(low_high: tuple[float, float]) -> None:
+    """Make these values the custom range; sizes are factors there."""
+    chosen = settings()
+    chosen.range_low, chosen.range_high = np.exp2(low_high) if chosen.kind == choices.LOOK_SIZE else low_high
 
 
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
     """Return the values at the two ends of the colors."""
     chosen = settings()
-    if chosen.use_range and chosen.kind not in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
-        return chosen.range_low, max(chosen.range_high, chosen.range_low + 1e-6)
-    return automatic(context)
+    if not chosen.use_range or chosen.kind in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
+        return fixed(context)
+    low, high = chosen.range_low, chosen.range_high
+    if chosen.kind == choices.LOOK_SIZE:
+        low, high = np.log2(np.maximum((low, high), _MIN_SIZE)).tolist()
+    return low, max(high, low + 1e-6)
 
 
 def colors() -> Colors:
@@ -230,6 +256,7 @@ def _draw_legend(context: bpy.types.Context) -> None:
     lines = texts.too_many_faces(too_large)
     if found and all(shown.islands_known for _, shown, _ in found):
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
+        lines.extend(_object_lines(found, texels(context)))
         lines.extend(_active_island_lines(context, found))
     for each, shown, view in found:
         name, face = overlay.pointed_at or ("", -1)
@@ -263,9 +290,21 @@ def _joined_numbers(shown: Sequence[MapView]) -> IslandNumbers:
     """Return the numbers of all shown maps together."""
     known, key = session.of(Overlay).numbers, tuple(shown)
     if key not in known:
-        known.clear()
+        if len(known) > 2 * _MAX_OBJECTS:
+            known.clear()
         known[key] = joined_numbers(shown)
     return known[key]
+
+
+def _object_lines(found: Sequence[tuple[bpy.types.Object, ShownMesh, MapView]], measured: Texels) -> list[str]:
+    """Return a line for each of several objects."""
+    if len(found) < 2:
+        return []
+    lines = []
+    for each, _, view in found[:_MAX_OBJECTS]:
+        numbers = _joined_numbers([view])
+        lines.append(texts.legend_object(each.name, numbers, view.mean_density(measured), measured.symbol))
+    return [*lines, *texts.legend_more(len(found) - _MAX_OBJECTS)]
 
 
 def _active_island_lines(

@@ -265,7 +265,9 @@ class _MapOverlayPanel(_Panel):
         if overlay.kind == choices.LOOK_DENSITY:
             layout.prop(overlay, "image_size")
         if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS):
-            layout.prop(overlay, "use_range")
+            row = layout.row(align=True)
+            row.prop(overlay, "use_range")
+            row.operator(names.FIT_RANGE_OPERATOR, text=texts.AUTO_LABEL)
             column = layout.column(align=True)
             column.active = overlay.use_range
             column.prop(overlay, "range_low")

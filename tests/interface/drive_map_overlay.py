@@ -20,8 +20,17 @@ from tests.interface.session import override, screenshot
 
 COLORS = {"low": (0.16, 0.38, 0.85), "middle": (0.98, 0.86, 0.25), "high": (0.86, 0.12, 0.10)}
 SMALL, MEDIAN, LARGE = (0.13, 0.40, 0.80), (0.93, 0.93, 0.93), (0.85, 0.25, 0.14)
-# Of a face in the first and of one in the last column: where these are two times as wide on the map.
-LOOKS = {"SIZE": (MEDIAN, LARGE), "DENSITY": (SMALL, LARGE), "DEFECTS": ((0.45,) * 3,) * 2}
+
+
+def toward_large(factor):
+    """Return the color between those of the median and of large faces."""
+    return tuple(middle + factor * (high - middle) for middle, high in zip(MEDIAN, LARGE))
+
+
+# Of a face in the first and of one in the last column: where these are two times as wide on the map, so that they have
+# 1.41 times the size, half of the way to two times, and to 1.5 times the density 0.83 of it.
+LOOKS = {"SIZE": (MEDIAN, toward_large(0.5)), "DENSITY": (MEDIAN, toward_large(0.83)), "DEFECTS": ((0.45,) * 3,) * 2}
+FITTED = {"SIZE": (MEDIAN, LARGE), "DENSITY": (SMALL, LARGE)}
 # Of a displayed colour, out of 1: Blender mixes its editors in eight bits of linear colours, coarse where dark.
 NEARLY = 0.04
 
@@ -115,7 +124,7 @@ def steps():
     # Angles are kept on the left; on the right they are beyond the end of the range.
     check_colors("map_overlay_angle", COLORS["low"], COLORS["high"])
     shown.use_range = True
-    assert np.allclose((shown.range_low, shown.range_high), overlay.automatic(bpy.context)), "begins as it was"
+    assert np.allclose((shown.range_low, shown.range_high), overlay.fixed(bpy.context)), "begins as it was"
     shown.range_low, shown.range_high = 1.0, 3.0
     yield
     yield
@@ -143,6 +152,12 @@ def steps():
         yield
         yield
         check_colors(f"map_overlay_{kind.lower()}", *colors)
+        if kind in FITTED:
+            with override("VIEW_3D"):
+                assert bpy.ops.uv.spectral_fit_range() == {"FINISHED"}
+            yield
+            yield
+            check_colors(f"map_overlay_{kind.lower()}_fitted", *FITTED[kind])
     shown.kind = "CHECKER"
     yield
     yield

@@ -15,6 +15,11 @@ from ..mesh.world_scale import area_growth
 from . import defects
 from .texels import Texels
 
+# Fixed ranges, so that a good map looks good and colors mean the same on all maps: angles off by 50 %, and half and
+# double the median size, are seen at once on a checker.
+_ANGLE_RANGE, _LOG2_SIZE_RANGE = (1.0, 1.5), (-1.0, 1.0)
+# Densities have the median in the middle, too; there is no density that is right everywhere.
+_DENSITY_RANGE = (0.5, 1.5)
 # Percentiles of the surface that an automatic range spans; outliers would dominate it.
 _PERCENTILES = (2.0, 98.0)
 # Minimal widths of an automatic range: smaller differences are invisible in a texture.
@@ -126,6 +131,11 @@ class MapView:
         sides = texels.side if known is None else np.where(known > 0.0, known, texels.side)
         return sides * texels.length * np.exp2(self.log2_scale)
 
+    def mean_density(self, texels: Texels | None = None) -> float:
+        """Return the texel density of all selected faces together; NaN without a surface."""
+        squares = native.measuring().area_mean(np.nan_to_num(self.densities(texels)) ** 2, self.area)
+        return float(squares**0.5)
+
     def values(self, kind: str, texels: Texels | None = None, median: float | None = None) -> np.ndarray:
         """Return the value to show for every face, (F,) float64.
 
@@ -218,6 +228,20 @@ def _numbers(parts: Sequence[tuple[MapView, np.ndarray]]) -> IslandNumbers:
         flipped=sum(int(view.flipped[chosen].sum()) for view, chosen in parts),
         overlapping=sum(int(view.overlapping[chosen].sum()) for view, chosen in parts),
     )
+
+
+def fixed_range(views: Sequence[MapView], kind: str, texels: Texels | None = None) -> tuple[float, float]:
+    """Return the values at the two ends of the colors by default: always the same, for densities around the median."""
+    if kind == choices.LOOK_ANGLE:
+        return _ANGLE_RANGE
+    if kind == choices.LOOK_SIZE:
+        return _LOG2_SIZE_RANGE
+    if kind != choices.LOOK_DENSITY:
+        return 0.0, 1.0
+    densities, area = np.concatenate([view.densities(texels) for view in views]), _joined(views, "area")
+    (median,) = native.measuring().area_percentiles(densities, area, (50.0,))
+    median = median if np.isfinite(median) and median > 0.0 else 1.0
+    return _DENSITY_RANGE[0] * median, _DENSITY_RANGE[1] * median
 
 
 def automatic_range(views: Sequence[MapView], kind: str, texels: Texels | None = None) -> tuple[float, float]:

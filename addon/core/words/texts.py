@@ -74,6 +74,9 @@ SELECT_DISTORTED_DESCRIPTION = "Select the visible faces that the active UV map 
 INSPECT_LABEL = "Inspect Map"
 INSPECT_DESCRIPTION = "Show the numbers of the face under the mouse; click to select its island"
 INSPECT_KEYS = "Click: Select island   Shift click: Add it   Esc or right click: End"
+FIT_RANGE_LABEL = "Fit Colors to Map"
+FIT_RANGE_DESCRIPTION = "Make the range of most of the surface the custom range; it stays while the map changes"
+AUTO_LABEL = "Auto"
 STORE_LABEL = "Store as Attribute"
 STORE_DESCRIPTION = "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts"
 TEXEL_DENSITY_LABEL = "Texel Density"
@@ -263,15 +266,24 @@ SHOW_MAP_PROPERTY = {
 LOOK_PROPERTY = {"name": "Show", "description": "What the colors show"}
 USE_RANGE_PROPERTY = {
     "name": "Custom Range",
-    "description": "Set the values at both ends of the colors; otherwise they follow the map",
+    "description": (
+        "Set the values at both ends of the colors; otherwise they are the same on all maps: angles off by 0 to 50 %, "
+        "sizes of half to double the median"
+    ),
 }
 RANGE_LOW_PROPERTY = {
     "name": "Low",
-    "description": ("Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %"),
+    "description": (
+        "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
+        "factor, 1 for the median"
+    ),
 }
 RANGE_HIGH_PROPERTY = {
     "name": "High",
-    "description": ("Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %"),
+    "description": (
+        "Value at the upper end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
+        "factor, 1 for the median"
+    ),
 }
 OPACITY_PROPERTY = {"name": "Opacity", "description": "Opacity of the colors"}
 IMAGE_SIZE_PROPERTY = {
@@ -556,6 +568,19 @@ def legend_numbers(label: str, numbers: IslandNumbers) -> tuple[str, ...]:
         defects = translate("{flipped} flipped, {overlapping} overlapping")
         lines.append(defects.format(flipped=numbers.flipped, overlapping=numbers.overlapping))
     return tuple(lines)
+
+
+def legend_object(name: str, numbers: IslandNumbers, mean_density: float, unit: str) -> str:
+    """Return the legend's line about one of several objects; `unit` as in `density`."""
+    if math.isnan(numbers.mean_qc):
+        return translate("{name}: nothing to measure").format(name=name)
+    sentence = translate("{name}: {mean}, {density}")
+    return sentence.format(name=name, mean=_angles(numbers.mean_qc), density=density(mean_density, unit))
+
+
+def legend_more(objects: int) -> list[str]:
+    """Return the legend's line about objects without a line; none for none."""
+    return [_count(objects, ("and {n} more", "and {n} more"))] if objects > 0 else []
 
 
 def _spread(numbers: IslandNumbers) -> str:
