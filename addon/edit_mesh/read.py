@@ -12,6 +12,7 @@ import numpy as np
 from bmesh.types import BMEdge, BMesh, BMLayerItem
 
 from .. import compatibility, names
+from ..core.mesh.island_parts import shared_corners
 from ..core.mesh.polygon_mesh import PolygonMesh
 from ..core.mesh.world_scale import metric_of
 from ..core.solve.subdivision import Subdivision, subdivision
@@ -19,11 +20,27 @@ from ..extenders import storage
 from . import image_aspect, subsurf
 
 
+@dataclass(frozen=True)
+class InPlace:
+    """How to read for work in place.
+
+    Attributes:
+        whole_faces: with a UV selection, take only faces whose UVs are all selected, as the UV editor's face selection
+            shows them; else the selected UVs are free, and all others of their faces are pins.
+        cut_at_seams: whether UVs on both sides of a seam are two, even at the same point; if not, other faces share
+            them.
+    """
+
+    whole_faces: bool = False
+    cut_at_seams: bool = True
+
+
 @dataclass
 class EditMesh:
     """A mesh in edit mode and its arrays; with `subdivision`, the subdivided mesh is solved instead.
 
-    `broken_extenders` are the names of those that lost a vertex.
+    `broken_extenders` are the names of those that lost a vertex. `shared` (C,) bool are the corners of the faces to
+    solve whose UV another face shares (`island_parts`); None unless read for work in place.
     """
 
     edit_object: bpy.types.Object
@@ -31,6 +48,7 @@ class EditMesh:
     polygons: PolygonMesh
     subdivision: Subdivision | None = None
     broken_extenders: tuple[str, ...] = ()
+    shared: np.ndarray | None = None
 
 
 def read_mesh(
@@ -50,6 +68,7 @@ def read_meshes(
     all_visible: bool = False,
     correct_aspect: bool = False,
     use_subsurf: bool = False,
+    in_place: InPlace | None = None,
 ) -> list[EditMesh]:
     """Read the meshes of objects in edit mode. The faces to unwrap are the selected visible ones.
 
@@ -59,10 +78,11 @@ def read_meshes(
         all_visible: unwrap all visible faces, selected or not.
         correct_aspect: use the aspect of the image that the active face shows.
         use_subsurf: subdivide as the object's first modifier does, if that is a Subdivision Surface modifier.
+        in_place: for work on the map that is there, find the UVs to hold; they are not pins in the result.
     """
     with temporary_mesh() as copy:
         return [
-            _read(edit_object, copy, by_uv_selection, all_visible, correct_aspect, use_subsurf)
+            _read(edit_object, copy, by_uv_selection, all_visible, correct_aspect, use_subsurf, in_place)
             for edit_object in edit_objects
         ]
 
@@ -74,6 +94,7 @@ def _read(
     all_visible: bool,
     correct_aspect: bool,
     use_subsurf: bool,
+    in_place: InPlace | None,
 ) -> EditMesh:
     """Read one of `read_meshes`; `copy` is overwritten."""
     mesh = edit_object.data
@@ -92,9 +113,14 @@ def _read(
         world_metric=metric_of(edit_object.matrix_world),
     )
     if has_map and by_uv_selection:
-        _restrict_to_selected_uvs(polygons, polygons.pinned_corners, compatibility.selected_uv_corners(bm, layer))
+        selected = compatibility.selected_uv_corners(bm, layer)
+        whole_faces = in_place is not None and in_place.whole_faces
+        _restrict_to_selected_uvs(polygons, polygons.pinned_corners, selected, whole_faces)
+    shared = None
+    if has_map and in_place is not None:
+        shared = shared_corners(polygons, polygons.selected_faces, in_place.cut_at_seams)
     subdivided = _subdivide(bm, edit_object, polygons) if use_subsurf else None
-    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken))
+    return EditMesh(edit_object, mesh, polygons, subdivided, tuple(broken), shared)
 
 
 @contextmanager
@@ -114,10 +140,14 @@ def _active_edge(bm: BMesh) -> np.ndarray | None:
     return direction / length if np.isfinite(length) and length > 0.0 else None
 
 
-def _restrict_to_selected_uvs(polygons: PolygonMesh, pinned: np.ndarray, selected_corners: np.ndarray) -> None:
-    """Select only faces with a selected UV, and pin their unselected UVs."""
-    polygons.selected_faces[:] &= np.logical_or.reduceat(selected_corners, polygons.face_offsets[:-1])
-    pinned |= ~selected_corners
+def _restrict_to_selected_uvs(
+    polygons: PolygonMesh, pinned: np.ndarray, selected_corners: np.ndarray, whole_faces: bool
+) -> None:
+    """Select only faces with a selected UV, and pin their unselected UVs; or only `whole_faces`."""
+    combined = np.logical_and if whole_faces else np.logical_or
+    polygons.selected_faces[:] &= combined.reduceat(selected_corners, polygons.face_offsets[:-1])
+    if not whole_faces:
+        pinned |= ~selected_corners
 
 
 def _subdivide(bm: BMesh, edit_object: bpy.types.Object, polygons: PolygonMesh) -> Subdivision | None:

@@ -10,6 +10,7 @@ import numpy as np
 from bmesh.types import BMesh, BMLayerItem, BMLoop, BMVert
 
 from .. import compatibility
+from .read import InPlace
 
 
 def select_only(context: bpy.types.Context, faces: Mapping[bpy.types.Mesh, np.ndarray], extend: bool = False) -> None:
@@ -98,3 +99,9 @@ def selects_uvs(context: bpy.types.Context) -> bool:
         and context.area.type == "IMAGE_EDITOR"
         and not context.scene.tool_settings.use_uv_select_sync
     )
+
+
+def in_place(context: bpy.types.Context, cut_at_seams: bool = True) -> InPlace:
+    """Return how `read_meshes` is to read for work in place in this context."""
+    whole_faces = context.scene.tool_settings.uv_select_mode in {"FACE", "ISLAND"}
+    return InPlace(whole_faces, cut_at_seams)

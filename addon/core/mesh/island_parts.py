@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces of an island whose UVs change while the rest of the island stays.
+
+The islands are those of the present map: faces are connected where an edge has the same UVs on both sides and, unless a
+caller says otherwise, is no seam. A corner of one of the faces is *shared* if such edges around its vertex lead to
+another face: its UV belongs to both, so it must not change.
+"""
+
+import numpy as np
+
+from .polygon_mesh import PolygonMesh
+
+
+def shared_corners(mesh: PolygonMesh, faces: np.ndarray, cut_at_seams: bool = True) -> np.ndarray:
+    """Return the corners of `faces` (F,) bool that share their UV with another face, (C,) bool.
+
+    Other faces count whether visible or not. The mesh has a map. Without `cut_at_seams` seams connect, too.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    inside = faces[mesh.face_of_corner()]
+    # Only vertices with corners of both kinds matter, which are few.
+    at_both = np.zeros(len(mesh.vertices), dtype=bool)
+    at_both[mesh.corner_vertices[~inside]] = True
+    at_inside = np.zeros_like(at_both)
+    at_inside[mesh.corner_vertices[inside]] = True
+    at_both &= at_inside
+    first, second, is_seam = _ends_of_edges(mesh, at_both)
+    is_joined = (mesh.uv[first] == mesh.uv[second]).all(axis=1)
+    if cut_at_seams:
+        is_joined &= ~is_seam
+    first, second = first[is_joined], second[is_joined]
+    reached, n_reached = ~inside, -1
+    # Each pass goes on by one face around the vertices.
+    while n_reached != (n_reached := np.count_nonzero(reached)):
+        reached[first[reached[second]]] = True
+        reached[second[reached[first]]] = True
+    return reached & inside
+
+
+def map_cuts(mesh: PolygonMesh, faces: np.ndarray) -> np.ndarray:
+    """Return the edges, (N, 2) vertex pairs, where the present map is cut between two of the `faces` (F,) bool.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+    """
+    inside = faces[mesh.face_of_corner()]
+    at_inside = np.zeros(len(mesh.vertices), dtype=bool)
+    at_inside[mesh.corner_vertices[inside]] = True
+    first, second, _ = _ends_of_edges(mesh, at_inside, inside)
+    differs = (mesh.uv[first] != mesh.uv[second]).any(axis=1)
+    # Both ends of every edge, in turn.
+    half = len(first) // 2
+    cut = differs[:half] | differs[half:]
+    ends = np.stack([mesh.corner_vertices[first[:half]], mesh.corner_vertices[first[half:]]], axis=1)
+    return np.unique(np.sort(ends[cut], axis=1), axis=0)
+
+
+def _ends_of_edges(
+    mesh: PolygonMesh, vertices: np.ndarray, corners: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return pairs of corners, (N,) each, that an edge between two faces connects, and whether it is a seam, (N,) bool.
+
+    The first half are the lower-numbered ends of the edges, the second half the others. Only edges with an end at one
+    of the `vertices` (V,) bool count, and with `corners` (C,) bool only sides of faces with these.
+    """
+    following = mesh.next_corner()
+    counted = vertices[mesh.corner_vertices] | vertices[mesh.corner_vertices[following]]
+    if corners is not None:
+        counted &= corners
+    start = np.flatnonzero(counted)
+    end = following[start]
+    swapped = mesh.corner_vertices[start] > mesh.corner_vertices[end]
+    low, high = np.where(swapped, end, start), np.where(swapped, start, end)
+    key = mesh.corner_vertices[low].astype(np.int64) * len(mesh.vertices) + mesh.corner_vertices[high]
+    order = np.argsort(key, kind="stable")
+    low, high, key = low[order], high[order], key[order]
+    same = np.flatnonzero(key[1:] == key[:-1])
+    seams = np.sort(mesh.seam_edges.astype(np.int64).reshape(-1, 2), axis=1)
+    is_seam = np.isin(key[same], seams[:, 0] * len(mesh.vertices) + seams[:, 1])
+    first, second = np.append(low[same], high[same]), np.append(low[same + 1], high[same + 1])
+    return first, second, np.append(is_seam, is_seam)
