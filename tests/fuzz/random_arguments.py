@@ -77,6 +77,11 @@ def pinned_corners(rng, mesh):
     return rng.random(len(mesh.corners)) < 10 ** rng.uniform(-3, 0.1)
 
 
+def fixed(rng, mesh):
+    flags = rng.random(len(mesh.vertices)) < 10 ** rng.uniform(-3, 0.1)
+    return flags if rng.random() < 0.5 else np.flatnonzero(flags)
+
+
 def corner_uv(rng, mesh):
     by_vertex = rng.normal(size=(len(mesh.vertices), 2))
     if rng.random() < 0.3:
@@ -138,6 +143,7 @@ PARAMETERS = {
     "boundary": one_of("length", "vertex"),
     "factorization": one_of("auto", "cholmod", "eigen", "eigen"),
     "pins": pins,
+    "fixed": fixed,
     "pinned_corners": pinned_corners,
     "corner_uv": corner_uv,
     "soft_pins": power_of_ten(-4, 4),
@@ -189,6 +195,8 @@ def random_arguments(rng, mesh, function):
     arguments = {name: makers[name](rng, mesh) for name, needed in names.items() if needed or rng.random() < share}
     if "pinned_corners" in arguments:
         arguments.setdefault("corner_uv", corner_uv(rng, mesh))
+    if "fixed" in arguments and "uv" in names:
+        arguments.setdefault("uv", uv(rng, mesh))
     if rng.random() < 0.85:
         make_compatible(arguments, names)
     return arguments
@@ -199,14 +207,15 @@ def make_compatible(arguments, names):
     if "method" not in names:
         return
     if "constraints" in arguments:
-        for name in ("pins", "soft_pins", "extenders", "hole_rigidity", "fold_free", "method"):
+        for name in ("pins", "fixed", "soft_pins", "extenders", "hole_rigidity", "fold_free", "method"):
             arguments.pop(name, None)
     forces = {"extenders", "hole_rigidity"} & set(arguments)
     if forces or "soft_pins" in arguments:
         arguments["method"] = "spectral"
         if "soft_pins" not in arguments:
-            arguments.pop("pins", None)  # hard ones hold the map against any force
-    elif arguments.get("pins") and arguments.get("method") in ("fiedler", "area"):
+            for name in ("pins", "fixed"):
+                arguments.pop(name, None)  # hard ones hold the map against any force
+    elif (arguments.get("pins") or "fixed" in arguments) and arguments.get("method") in ("fiedler", "area"):
         arguments["method"] = "lscm"
 
 

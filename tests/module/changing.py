@@ -112,6 +112,9 @@ CALLS = {
         a.vertices, a.triangles, extenders=a.extenders, metric=a.triangle_metric, progress=p
     ),
     "parameterize with pins": lambda a, p: sc.parameterize(a.vertices, a.triangles, pins=a.pins, progress=p),
+    "parameterize with fixed": lambda a, p: sc.parameterize(
+        a.vertices, a.triangles, fixed=a.triangles[0], uv=a.uv, progress=p
+    ),
     "Solver": lambda a, p: sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric, progress=p).solve(),
     "Solver.solve": lambda a, p: changed_after(
         sc.Solver(a.vertices, a.triangles, metric=a.triangle_metric), a, p

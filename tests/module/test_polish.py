@@ -88,7 +88,7 @@ def test_a_flat_patch_is_left_alone():
     [
         {"extenders": [(3, 900, 1.0)]},
         {"hole_rigidity": 1.0},
-        {"pins": {3: (0, 0), 700: (1, 0), 200: (0, 1)}},
+        {"pins": {3: (0, 0), 700: (1, 0), 200: (0, 1)}, "method": "lscm"},
         {"pins": {3: (0, 0), 700: (1, 0), 200: (0, 1)}, "soft_pins": 0.1},
         {"area_blend": 0.5},
         {"method": "lscm"},

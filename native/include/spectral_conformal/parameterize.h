@@ -67,8 +67,8 @@ struct SolveOptions {
   /// Whether to unfold flipped triangles and separate overlapping parts, or replace the map by an embedding, at some
   /// cost in distortion; remaining flips and overlaps are reported. See fold_free_map.h.
   bool fold_free = false;
-  /// Whether maps of Method::spectral without pins, soft constraints or a metric continue from the eigenvector to a
-  /// lower mean QC (polish.h), if there is one.
+  /// Whether maps of Method::spectral without soft constraints or a metric continue from the eigenvector, or with
+  /// three or more hard pins from the pinned map, to a lower mean QC (polish.h), if there is one. Pins stay held.
   bool polish = false;
   /// Whether a problem whose map fails the checks is solved once more, from another start and with a larger shift
   /// unless it was raised already.

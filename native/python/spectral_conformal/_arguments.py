@@ -377,3 +377,33 @@ def checked_pins(pins: Pins | None, n_vertices: int) -> list[tuple[int, float, f
             raise ValueError(f"The pin of vertex {index} is not finite: ({u}, {v}).")
         result.append((index, u, v))
     return result
+
+
+def checked_held(
+    pins: Pins | None,
+    fixed: npt.ArrayLike | None,
+    uv: npt.ArrayLike | None,
+    n_vertices: int,
+    used: npt.NDArray[np.integer],
+) -> list[tuple[int, float, float]]:
+    """Return the pins, and the fixed vertices that are `used`, at their `uv`, as one list; `pins` take precedence."""
+    pin_list = checked_pins(pins, n_vertices)
+    if fixed is None:
+        return pin_list
+    held = checked_array(fixed, "fixed")
+    if held.dtype == np.bool_:
+        held = np.flatnonzero(checked_flags(held, "fixed", n_vertices, "vertex"))
+    else:
+        held = np.unique(checked_indices(held.ravel() if held.size == 0 else held, "fixed", None, n_vertices))
+    if uv is None:
+        raise ValueError("fixed needs uv, the positions at which the vertices are held.")
+    positions = checked_floats(uv, "uv", 2)
+    if len(positions) != n_vertices:
+        raise ValueError(f"uv has {len(positions)} rows, but there are {n_vertices} vertices.")
+    held = held[np.isin(held, used)]
+    wrong = held[~np.isfinite(positions[held]).all(axis=1)]
+    if len(wrong):
+        raise ValueError(f"The position of the fixed vertex {wrong[0]} is not finite.")
+    pinned = {vertex for vertex, _, _ in pin_list}
+    u, v = positions[held].T.tolist()
+    return pin_list + [point for point in zip(held.tolist(), u, v) if point[0] not in pinned]

@@ -57,12 +57,14 @@ class Options:
             Flipped triangles are unfolded locally. If some remain, the map winds round more than once, or there is no
             map, an embedding (one-to-one by theorem) replaces it and is relaxed without flipping a triangle. Without
             pins, parts that cover each other are moved apart, as a last resort in an embedding whose border does not
-            touch itself. `message` says what was done, what it cost, and where several pins leave no room. Triangles
+            touch itself. Two or more hard pins stay exactly where they are: only local unfolding is possible then.
+            `message` says what was done, what it cost, and where pins leave no room: faces still flipped, or parts that
+            still cover each other. Triangles
             without area in 3D cannot flip; of a quad's two splits, the first stays unfolded.
-        polish: bool, lower the mean QC of the "spectral" map by a few steps that reuse the factor (not with pins, soft
-            constraints, `metric` or `area_blend`). The conformal energy weights a triangle by its area in the map, mean
-            QC by its area on the surface. No step flips a triangle. `polish_steps` counts them; if there are any,
-            `eigenvalue` is the quotient of the map.
+        polish: bool, lower the mean QC of the "spectral" map by a few steps that reuse the factor (not with soft
+            constraints, `metric` or `area_blend`). Three or more hard pins stay exactly where they are. The conformal
+            energy weights a triangle by its area in the map, mean QC by its area on the surface. No step flips a
+            triangle. `polish_steps` counts them; if there are any, `eigenvalue` is the quotient of the map.
         fallbacks: bool, whether "spectral" may return another map if its own fails the checks. The candidates are the
             failed map unfolded (or an embedding, if that leaves no room) and the maps with thin triangles clamped, with
             the other boundary and with the other weights; the one with the lowest mean QC and no flipped triangles

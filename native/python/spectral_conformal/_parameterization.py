@@ -23,6 +23,8 @@ def parameterize(
     *,
     options: Options | None = None,
     pins: Pins | None = None,
+    fixed: npt.ArrayLike | None = None,
+    uv: npt.ArrayLike | None = None,
     extenders: Extenders | None = None,
     constraints: Constraints | None = None,
     metric: npt.ArrayLike | None = None,
@@ -36,9 +38,13 @@ def parameterize(
         triangles: (F, 3) vertex indices. Faces wound against the majority are reoriented.
         options: how the map is made; single fields may be given as keywords, which take precedence.
         pins: vertex -> (u, v), met exactly. One pin moves the map; two apply a similarity, which bends nothing. Three
-            or more bend the map: pinned LSCM replaces the spectral problem, its map is returned as solved, and `method`
-            is "lscm". With `soft_pins` they attract the spectral map instead. "lscm" meets two pins exactly as well,
-            and without pins holds the two farthest boundary vertices.
+            or more bend the map: of all maps through the pins it has the least conformal energy (pinned LSCM: Levy et
+            al., Least Squares Conformal Maps, 2002), `method` is "lscm", and the map is not placed. With `polish` and
+            `fold_free` the pins stay. With `soft_pins` they attract the spectral map instead. "lscm" meets two pins
+            exactly as well, and without pins holds the two farthest boundary vertices.
+        fixed: further pins, any number and set of vertices: (V,) bool, or an array of their indices. Each keeps its
+            `uv` to the last bit; `pins` take precedence. Vertices that no triangle uses have no effect.
+        uv: (V, 2) the positions of the `fixed` vertices; the others are not read.
         extenders: for "spectral" without hard pins, (vertex, vertex, strength) triples: soft constraints of section 4.2
             that push two vertices apart or, with a negative strength, pull them together. The strength, at most 1e4 in
             size, is a fraction of the boundary's total mass.
@@ -70,7 +76,7 @@ def parameterize(
     """
     used = with_fallbacks(changed(options, Options(), changes, OptionChanges, parameterize), False)
     solver = Solver._of(vertices, triangles, metric, used, progress)
-    return solver._solved(solver._options, pins, extenders, constraints, progress)
+    return solver._solved(solver._options, pins, fixed, uv, extenders, constraints, progress)
 
 
 class Solver:
@@ -103,12 +109,17 @@ class Solver:
         self,
         *,
         pins: Pins | None = None,
+        fixed: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
         extenders: Extenders | None = None,
         constraints: Constraints | None = None,
         progress: Progress | None = None,
         **changes: Unpack[SolveChanges],
     ) -> Parameterization:
-        """Solve with the kept factor ("lscm" makes its own, "fiedler" replaces it). See `parameterize`.
+        """Solve with the kept factor ("fiedler" replaces it). See `parameterize`.
+
+        Three or more pins, fixed vertices included, and "lscm" have a factor of their own, kept until other vertices
+        are pinned: while the same ones move, each solve is one substitution.
 
         The options are those of the solver, with the changes given here. The map is that of a fresh solver, to the last
         bit, whatever was solved before. The exception is for drafts: extenders and hole rigidity change the form B
@@ -116,7 +127,7 @@ class Solver:
         then costs a few solves, and the map agrees with a fresh one to the tolerance.
         """
         used = with_fallbacks(changed(self._options, self._options, changes, SolveChanges, Solver.solve), False)
-        return self._solved(used, pins, extenders, constraints, progress)
+        return self._solved(used, pins, fixed, uv, extenders, constraints, progress)
 
     @classmethod
     def _of(
@@ -152,18 +163,21 @@ class Solver:
         self,
         options: Options,
         pins: Pins | None,
+        fixed: npt.ArrayLike | None,
+        uv: npt.ArrayLike | None,
         extenders: Extenders | None,
         constraints: Constraints | None,
         progress: Progress | None,
     ) -> Parameterization:
+        held = _arguments.checked_held(pins, fixed, uv, self._n_vertices, self._triangles)
         unknowns = shared_unknowns(constraints, self._n_vertices, self._triangles)
-        if unknowns and (pins or extenders or options.fold_free or options.method != "spectral"):
+        if unknowns and (held or extenders or options.fold_free or options.method != "spectral"):
             raise ValueError(
                 "constraints need the method 'spectral' without pins, extenders and fold_free; leave these out."
             )
         solution = self._native.solve(
             options,
-            _arguments.checked_pins(pins, self._n_vertices),
+            held,
             _arguments.checked_extenders(extenders, options.method, self._n_vertices),
             unknowns,
             _arguments.checked_progress(progress),

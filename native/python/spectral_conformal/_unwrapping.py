@@ -29,6 +29,8 @@ def unwrap(
     seam_edges: npt.ArrayLike | Literal["suggested"] | None = None,
     selected_faces: npt.ArrayLike | None = None,
     pins: Pins | None = None,
+    fixed: npt.ArrayLike | None = None,
+    uv: npt.ArrayLike | None = None,
     pinned_corners: npt.ArrayLike | None = None,
     corner_uv: npt.ArrayLike | None = None,
     extenders: Extenders | None = None,
@@ -54,9 +56,12 @@ def unwrap(
         selected_faces: (faces,) bool; by default all faces.
         pins: mesh vertex -> (u, v), for all copies of the vertex, as in `parameterize`; pins outside the selection have
             no effect.
-        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin. A mesh vertex with different pins is split, and
-            each of its corners takes the nearest. The pin of a chart's vertex is the mean over its pinned corners, and
-            overrides `pins`.
+        fixed: further pins: (V,) bool or vertex indices, as in `parameterize`. For vertices on a seam, whose copies
+            have different UVs, use `pinned_corners`.
+        uv: (V, 2) the positions of the `fixed` vertices; the others are not read.
+        pinned_corners: (C,) bool, corners whose `corner_uv` is a pin, any number. A mesh vertex with different pins is
+            split, and each of its corners takes the nearest. The pin of a chart's vertex is the mean over its pinned
+            corners, and overrides `pins`.
         corner_uv: (C, 2) the current map, finite where pinned; needed with `pinned_corners`.
         extenders: as in `parameterize`, between mesh vertices. An extender acts in every chart that has copies of both
             vertices; if a seam gives a vertex several copies in one chart, it acts on their barycenter. An extender has
@@ -96,6 +101,8 @@ def unwrap(
         seam_edges,
         selected_faces,
         pins,
+        fixed,
+        uv,
         pinned_corners,
         corner_uv,
         metric,
@@ -136,6 +143,8 @@ class Unwrapper:
         seam_edges: npt.ArrayLike | None = None,
         selected_faces: npt.ArrayLike | None = None,
         pins: Pins | None = None,
+        fixed: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
         pinned_corners: npt.ArrayLike | None = None,
         corner_uv: npt.ArrayLike | None = None,
         metric: npt.ArrayLike | None = None,
@@ -154,6 +163,8 @@ class Unwrapper:
             seam_edges,
             selected_faces,
             pins,
+            fixed,
+            uv,
             pinned_corners,
             corner_uv,
             metric,
@@ -187,6 +198,8 @@ def _checked_mesh(
     seam_edges: npt.ArrayLike | None,
     selected_faces: npt.ArrayLike | None,
     pins: Pins | None,
+    fixed: npt.ArrayLike | None,
+    fixed_uv: npt.ArrayLike | None,
     pinned_corners: npt.ArrayLike | None,
     corner_uv: npt.ArrayLike | None,
     metric: npt.ArrayLike | None,
@@ -197,7 +210,7 @@ def _checked_mesh(
     pinned, uv = _arguments.checked_corner_pins(pinned_corners, corner_uv, len(corners))
     all_triangles = bool((np.diff(offsets) == 3).all())
     tensors = _arguments.checked_metric(metric, len(offsets) - 1, (2, 3) if all_triangles else (3,))
-    pin_list = _arguments.checked_pins(pins, len(vertices))
+    pin_list = _arguments.checked_held(pins, fixed, fixed_uv, len(vertices), corners)
     return _native.UnwrapArguments(*polygons, pin_list, pinned, uv, tensors, options), polygons[:3]
 
 

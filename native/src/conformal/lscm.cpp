@@ -31,14 +31,13 @@ HermitianMatrix free_block(const HermitianMatrix& matrix, const std::vector<int>
 /// A solution in progress: L z = 0 at the free vertices.
 class PinnedSystem {
  public:
-  PinnedSystem(const ConformalEnergy& energy, const std::vector<int>& free_index, int n_free, Factorization& factor,
-               ComplexVector& z, const Progress& progress)
+  PinnedSystem(const ConformalEnergy& energy, PinnedFactor& factor, ComplexVector& z, const Progress& progress)
       : energy_(energy),
-        free_index_(free_index),
-        n_free_(n_free),
+        free_index_(factor.free_index()),
+        n_free_(factor.n_free()),
         factor_(factor),
         z_(z),
-        centre_(z.mean()),
+        center_(z.mean()),
         progress_(progress) {}
 
   /// Takes whole steps (the factor's solution for the residual) while they halve the residual.
@@ -128,7 +127,7 @@ class PinnedSystem {
       if (free_index_[v] >= 0) whole[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
     }
   }
-  double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - centre_).matrix().norm(); }
+  double relative(const ComplexVector& step) const { return step.norm() / (z_.array() - center_).matrix().norm(); }
   static double least_eigenvalue(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
     solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
@@ -138,9 +137,9 @@ class PinnedSystem {
   const ConformalEnergy& energy_;
   const std::vector<int>& free_index_;
   int n_free_;
-  Factorization& factor_;
+  PinnedFactor& factor_;
   ComplexVector& z_;
-  Complex centre_;
+  Complex center_;
   const Progress& progress_;
   ComplexVector gradient_;
   double change_ = std::numeric_limits<double>::infinity();
@@ -148,56 +147,70 @@ class PinnedSystem {
 
 }  // namespace
 
-PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
+PinnedFactor::PinnedFactor(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
+                           const Progress& progress)
+    : free_index_(static_cast<std::size_t>(energy.n_vertices()), 0) {
+  for (const auto& pin : pins) free_index_[pin.first] = -1;
+  for (int& index : free_index_) index = index < 0 ? -1 : n_free_++;
+  if (n_free_ == 0) return;
+  report(progress, 0.1, "factorization");
+  HermitianMatrix block = free_block(energy.matrix(), free_index_, n_free_);
+  factorization_ = make_factorization(backend, n_free_);
+  factorization_->analyze(block);
+  is_definite_ = factorization_->factorize(block);
+  if (is_definite_) return;
+  // The smallest eigenvalues of a long strip are below the rounding of the factor: use the least shift that makes it
+  // definite.
+  double given = 0;
+  for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {
+    for (int v = 0; v < n_free_; ++v) {
+      Complex& diagonal = block.valuePtr()[block.outerIndexPtr()[v]];
+      diagonal *= (1 + relative_shift) / (1 + given);
+    }
+    given = relative_shift;
+    is_factorized_ = factorization_->factorize(block);
+    if (is_factorized_) return;
+  }
+}
+
+bool PinnedFactor::holds(const Pins& pins) const {
+  const auto n_pinned = free_index_.size() - static_cast<std::size_t>(n_free_);
+  return pins.size() == n_pinned &&
+         std::all_of(pins.begin(), pins.end(), [this](const auto& pin) { return free_index_[pin.first] < 0; });
+}
+
+void PinnedFactor::solve_on_all(const ComplexVector& b, ComplexVector& x) {
+  x.setZero(static_cast<Eigen::Index>(free_index_.size()));
+  if (n_free_ == 0) return;
+  ComplexVector free(n_free_);
+  for (std::size_t v = 0; v < free_index_.size(); ++v) {
+    if (free_index_[v] >= 0) free[free_index_[v]] = b[static_cast<Eigen::Index>(v)];
+  }
+  factorization_->solve(free, free);
+  for (std::size_t v = 0; v < free_index_.size(); ++v) {
+    if (free_index_[v] >= 0) x[static_cast<Eigen::Index>(v)] = free[free_index_[v]];
+  }
+}
+
+PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
                           const Progress& progress) {
   const HermitianMatrix& matrix = energy.matrix();
   const int n = energy.n_vertices();
   PinnedSolution result;
-  result.vector = ComplexVector::Zero(n);
-  std::vector<int> free_index(static_cast<std::size_t>(n), 0);
   Complex mean = 0;
-  for (const auto& [vertex, position] : pins) {
-    free_index[vertex] = -1;
-    mean += position / static_cast<double>(pins.size());
-  }
-  int n_free = 0;
-  for (int& index : free_index) index = index < 0 ? -1 : n_free++;
+  for (const auto& pin : pins) mean += pin.second / static_cast<double>(pins.size());
   // Starting from the mean of the pins keeps the numbers small wherever the pins lie, since L 1 = 0.
-  result.vector.setConstant(mean);
+  result.vector = ComplexVector::Constant(n, mean);
   double extent = 0;
   for (const auto& [vertex, position] : pins) {
     result.vector[vertex] = position;
     extent = std::max(extent, std::abs(position - mean));
   }
-  if (n_free == 0) return result;
+  if (factor.n_free() == 0) return result;
 
-  report(progress, 0.1, "factorization");
-  HermitianMatrix block = free_block(matrix, free_index, n_free);
-  const auto factorization = make_factorization(backend, n_free);
-  factorization->analyze(block);
-  const bool is_definite = factorization->factorize(block);
-  if (!is_definite) {
-    // The smallest eigenvalues of a long strip are below the rounding of the factor: use the least shift that makes it
-    // definite.
-    bool is_factorized = false;
-    double given = 0;
-    for (const double relative_shift : {1e-15, 1e-14, 1e-13, 1e-12}) {
-      for (int v = 0; v < n_free; ++v) {
-        Complex& diagonal = block.valuePtr()[block.outerIndexPtr()[v]];
-        diagonal *= (1 + relative_shift) / (1 + given);
-      }
-      given = relative_shift;
-      is_factorized = factorization->factorize(block);
-      if (is_factorized) break;
-    }
-    if (!is_factorized) {
-      result.is_factorized = false;
-      return result;
-    }
-  }
   report(progress, 0.8, "solve");
-  PinnedSystem equations(energy, free_index, n_free, *factorization, result.vector, progress);
-  if (is_definite) equations.refine();
+  PinnedSystem equations(energy, factor, result.vector, progress);
+  if (factor.is_definite()) equations.refine();
   if (!(equations.change() < resolved_change)) equations.conjugate_gradients();
   result.change = equations.change();
   ComplexVector gradient;
@@ -205,7 +218,7 @@ PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, Facto
   double largest_diagonal = 0;
   double square = 0;
   for (int v = 0; v < n; ++v) {
-    if (free_index[v] < 0) continue;
+    if (factor.free_index()[v] < 0) continue;
     square += std::norm(gradient[v]);
     largest_diagonal = std::max(largest_diagonal, matrix.valuePtr()[matrix.outerIndexPtr()[v]].real());
     extent = std::max(extent, std::abs(result.vector[v] - mean));

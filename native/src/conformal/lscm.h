@@ -1,22 +1,54 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "conformal/conformal_energy.h"
 #include "linear_algebra/factorization.h"
 #include "spectral_conformal/progress.h"
 
 namespace spectral_conformal {
 
-struct PinnedSolution {
-  bool is_factorized = true;  ///< false if the free part of L is not positive definite in double precision
-  ComplexVector vector;       ///< (V,), pinned entries exactly as given
-  double change = 0;          ///< remaining error, relative to the extent of z
-  double residual = 0;        ///< |L z| over the free vertices / (largest diagonal entry x extent of the map)
+/// L on the free vertices, those that are not pinned, factored: solves for any positions of the pinned vertices.
+class PinnedFactor {
+ public:
+  /// pins: at least two; only their vertices matter. Throws Cancelled, and as Factorization does.
+  PinnedFactor(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend, const Progress& progress);
+
+  /// Whether the pinned vertices are those of `pins`.
+  bool holds(const Pins& pins) const;
+  /// Whether the free part of L is positive definite in double precision, if necessary with a shift of rounding's size.
+  bool is_factorized() const { return is_factorized_; }
+  /// Whether it is so without a shift.
+  bool is_definite() const { return is_definite_; }
+  /// (V,) the index of each vertex among the free ones, -1 for pinned ones.
+  const std::vector<int>& free_index() const { return free_index_; }
+  int n_free() const { return n_free_; }
+  /// x = L_ff^-1 b on the free vertices, both (n_free,).
+  void solve(const ComplexVector& b, ComplexVector& x) { factorization_->solve(b, x); }
+  /// The same for vectors on all vertices, (V,): x is 0 at pinned vertices.
+  void solve_on_all(const ComplexVector& b, ComplexVector& x);
+
+ private:
+  std::vector<int> free_index_;
+  int n_free_ = 0;
+  bool is_factorized_ = true;
+  bool is_definite_ = true;
+  std::unique_ptr<Factorization> factorization_;
 };
 
-/// Pinned LSCM, which is DCP (section 2.2): minimizes E_C with the pinned vertices held, L_ff z_f = -L_fp z_p, followed
-/// by iterative refinement, or, if that does not resolve z, as on long strips, by conjugate gradients preconditioned by
-/// the factor. Precondition: at least two pins. Throws Cancelled, and as Factorization does.
-PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, FactorizationBackend backend,
+struct PinnedSolution {
+  ComplexVector vector;  ///< (V,), pinned entries exactly as given
+  double change = 0;     ///< remaining error, relative to the extent of z
+  double residual = 0;   ///< |L z| over the free vertices / (largest diagonal entry x extent of the map)
+};
+
+/// Pinned LSCM (Levy et al., Least Squares Conformal Maps, 2002), which is DCP (section 2.2): minimizes E_C with any
+/// number of vertices held, L_ff z_f = -L_fp z_p, followed by iterative refinement, or, if that does not resolve z, as
+/// on long strips, by conjugate gradients preconditioned by the factor. If the pins are the image of vertices in the
+/// plane under a similarity, z is that similarity. Precondition: a factor of the energy, factorized, that holds the
+/// pins. Throws Cancelled.
+PinnedSolution solve_lscm(const ConformalEnergy& energy, const Pins& pins, PinnedFactor& factor,
                           const Progress& progress);
 
 }  // namespace spectral_conformal

@@ -45,7 +45,13 @@ class FoldFree {
 
   FoldFreeMap run(ComplexVector given) {
     FoldFreeMap result = without_folds(std::move(given));
-    if (patch_.moves_apart && result.is_locally_injective && patch_.held.empty()) move_apart(result);
+    if (patch_.moves_apart && result.is_locally_injective) {
+      if (patch_.held.empty()) {
+        move_apart(result);
+      } else {
+        result.covers_itself = result.covered_itself = covers_itself(result.z);
+      }
+    }
     result.turning_number = turning_number_of(result.z);
     return result;
   }

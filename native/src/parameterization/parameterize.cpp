@@ -83,6 +83,8 @@ SolveTask task_of(PreparedPatch& patch, const SolveOptions& options, const Pins&
   // With fewer than three pins a similarity always fits. A single hard pin only moves the map.
   if (is_attracted(task.options) && pins.size() > 2) task.attractors = pins;
   if (task.options.method == Method::lscm && pins.size() > 1) task.held = pins;
+  // Whoever asks for LSCM gets its map.
+  if (options.method != Method::spectral) task.options.polish = false;
   // With a metric, the map is not judged by the distortion that would choose the rigidity.
   const bool is_chosen = task.is_free() && !patch.has_metric && !(patch.options.area_blend > 0);
   std::optional<double>& rigidity = task.options.hole_rigidity;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "conformal/correction.h"
@@ -52,20 +53,25 @@ Pins farthest_pins(const SpectralProblem& problem) {
 
 }  // namespace
 
-SpectralMap pinned_map(const SpectralProblem& problem, const Pins& pins, const Progress& progress, Timings& timings) {
+SpectralMap pinned_map(SpectralProblem& problem, const Pins& pins, const Progress& progress, Timings& timings) {
   Stopwatch watch(timings);
-  const NormalizedPatch& patch = *problem.patch;
   const ConformalEnergy& energy = problem.energy;
   const bool hold = pins.size() >= 2;
   const ScaledPins scaled_pins = hold ? scaled(pins) : ScaledPins{farthest_pins(problem), 0, 1};
   SpectralMap map;
   map.solves = 1;
-  PinnedSolution solution = solve_lscm(energy, scaled_pins.held, problem.backend, progress);
-  watch.lap("solve");
-  if (!solution.is_factorized) {
+  std::unique_ptr<PinnedFactor>& factor = problem.pinned_factor;
+  if (!factor || !factor->holds(scaled_pins.held)) {
+    factor.reset();  // before the next one takes memory
+    factor = std::make_unique<PinnedFactor>(energy, scaled_pins.held, problem.backend, progress);
+    watch.lap("factorization");
+  }
+  if (!factor->is_factorized()) {
     map.rejection = Rejection::not_factorized;
     return map;
   }
+  PinnedSolution solution = solve_lscm(energy, scaled_pins.held, *factor, progress);
+  watch.lap("solve");
   const ComplexVector& z = solution.vector;
   map.residual = solution.residual;
   map.eigenvalue = energy.value(z) / problem.form.value(z) * eigenvalue_unit(problem, Method::lscm);
@@ -78,15 +84,22 @@ SpectralMap pinned_map(const SpectralProblem& problem, const Pins& pins, const P
   map.rejection = check_map(z, check);
   if (map.rejection == Rejection::none && !(solution.change < resolved_change)) map.rejection = Rejection::unresolved;
   if (map.rejection != Rejection::none) return map;
-  map.z = z.head(patch.n_vertices);
+  map.whole = std::move(solution.vector);
   if (hold) {
-    for (Complex& point : map.z) point = scaled_pins.origin + scaled_pins.unit * point;
-    for (const auto& [vertex, position] : pins) map.z[vertex] = position;
+    set_on_pins(problem, pins, map);
   } else {
+    map.z = map.whole.head(problem.patch->n_vertices);
     place(problem, map.z);
   }
   watch.lap("placement");
   return map;
+}
+
+void set_on_pins(const SpectralProblem& problem, const Pins& pins, SpectralMap& map) {
+  const ScaledPins scaled_pins = scaled(pins);
+  map.z = map.whole.head(problem.patch->n_vertices);
+  for (Complex& point : map.z) point = scaled_pins.origin + scaled_pins.unit * point;
+  for (const auto& [vertex, position] : pins) map.z[vertex] = position;
 }
 
 PatchMap pinned(const SolveTask& task, PatchMap map, const Progress& progress) {

@@ -4,18 +4,28 @@
 #include <utility>
 
 #include "layout/placement.h"
+#include "parameterization/pinned_map.h"
 #include "relaxation/polish.h"
 #include "spectral_conformal/distortion.h"
 
 namespace spectral_conformal {
 
-SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const Progress& progress, Timings& timings) {
-  if (!problem.is_factored()) return map;
+SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, bool is_held, const Progress& progress,
+                         Timings& timings) {
+  if (is_held ? problem.pinned_factor == nullptr : !problem.is_factored()) return map;
   Stopwatch watch(timings);
   const NormalizedPatch& patch = *problem.patch;
   const ConformalEnergy& energy = problem.energy;
   ComplexVector end = map.whole;
-  const int steps = polish(energy, *problem.factor.factorization, end, {}, progress);
+  if (is_held && !(signed_area(energy, end) > 0)) return map;
+  const auto free_inverse = [&problem](const ComplexVector& b, ComplexVector& x) {
+    problem.factor.factorization->solve(b, x);
+    x.array() -= x.mean();  // the shifted energy hardly controls the constant
+  };
+  const auto held_inverse = [&problem](const ComplexVector& b, ComplexVector& x) {
+    problem.pinned_factor->solve_on_all(b, x);
+  };
+  const int steps = polish(energy, is_held ? Lbfgs::Inverse(held_inverse) : free_inverse, end, {}, progress);
   watch.lap("polish");
   if (steps == 0 || !end.allFinite()) return map;
   const auto mean_qc = [&](const ComplexVector& z) {
@@ -41,7 +51,7 @@ SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const 
       continue;
     }
     moved.eigenvalue = numbers.eigenvalue;
-    moved.residual = numbers.residual;
+    if (!is_held) moved.residual = numbers.residual;
     moved.polish_steps = steps;
     map = std::move(moved);
     break;
@@ -55,11 +65,13 @@ PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress)
   const NormalizedPatch& patch = *prepared.problem.patch;
   // Do not polish away a requested shape.
   const bool is_shaped = prepared.blend || prepared.has_metric || task.options.hole_rigidity.value_or(0) != 0;
-  if (map.rejection || !task.options.polish || !task.is_free() || is_shaped) return map;
+  const bool is_held = !task.held.empty();
+  if (map.rejection || !task.options.polish || !(task.is_free() || is_held) || is_shaped) return map;
   Parameterization& result = map.result;
-  map.found = polished_map(prepared.problem, std::move(map.found), progress, result.timings);
+  map.found = polished_map(prepared.problem, std::move(map.found), is_held, progress, result.timings);
+  if (is_held && map.found.polish_steps > 0) set_on_pins(prepared.problem, task.held, map.found);
   if (map.with_free_holes.whole.size() > 0) {
-    SpectralMap free = polished_map(prepared.problem, std::move(map.with_free_holes), progress, result.timings);
+    SpectralMap free = polished_map(prepared.problem, std::move(map.with_free_holes), false, progress, result.timings);
     const ComplexVector rigid_z = map.found.whole.head(patch.n_vertices);
     const ComplexVector free_z = free.whole.head(patch.n_vertices);
     const Distortion of_rigid = chart_distortion(patch, rigid_z);

@@ -7,11 +7,13 @@
 namespace spectral_conformal {
 
 /// A map of lower mean QC (polish.h), with its number of steps; fewer steps, or none, where the map would otherwise
-/// overlap itself more than before. The given map if no step lowers the mean QC. Needs the factor of the map.
-SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, const Progress& progress, Timings& timings);
+/// overlap itself more than before. The given map if no step lowers the mean QC, or if it is mirrored. Needs the factor
+/// of the map: that of the free vertices if pins held some, which stay, or else that of L + s M.
+SpectralMap polished_map(const SpectralProblem& problem, SpectralMap map, bool is_held, const Progress& progress,
+                         Timings& timings);
 
-/// Stage: polishes the map if SolveOptions::polish requests it and nothing else is requested of its shape. With rigid
-/// holes it also polishes the map with free holes, and takes it if its mean QC is then lower.
+/// Stage: polishes the map if SolveOptions::polish requests it and nothing but held vertices is requested of its shape.
+/// With rigid holes it also polishes the map with free holes, and takes it if its mean QC is then lower.
 PatchMap polished(const SolveTask& task, PatchMap map, const Progress& progress);
 
 }  // namespace spectral_conformal

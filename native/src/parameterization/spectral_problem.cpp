@@ -30,6 +30,7 @@ void SpectralProblem::factorize(Method method, double asked_shift, const Progres
 void SpectralProblem::drop_factor() {
   factor = {};
   earlier = {};
+  pinned_factor = {};
 }
 
 void SpectralProblem::stretch(const std::vector<TriangleMetric>& metric) {

@@ -7,6 +7,7 @@
 #include "conformal/boundary_form.h"
 #include "conformal/conformal_energy.h"
 #include "conformal/extended_form.h"
+#include "conformal/lscm.h"
 #include "conformal/shifted_factor.h"
 #include "conformal/smallest_eigenvector.h"
 #include "parameterization/map_check.h"
@@ -28,6 +29,8 @@ struct SpectralProblem {
   double relative_shift = 0;          ///< as requested for the factor
   bool is_factor_of_fiedler = false;  ///< whether M of the factor is the identity
   EarlierMaps earlier = {};           ///< maps of solves with this factor
+  /// Of the last solve with held vertices, for the next one that holds the same; or empty.
+  std::unique_ptr<PinnedFactor> pinned_factor = {};
 
   bool is_factored() const { return factor.factorization != nullptr; }
   /// M of L + s M: the mass of the boundary, or for Method::fiedler the identity.
@@ -35,7 +38,7 @@ struct SpectralProblem {
   /// Factors L + s M, unless already factored. The factor stays empty if L + s M is not positive definite in double
   /// precision.
   void factorize(Method method, double asked_shift, const Progress& progress);
-  /// Frees the factor and the maps that belong to it.
+  /// Frees the factors and the maps that belong to them.
   void drop_factor();
   /// Changes the metric of the energy (ConformalEnergy::stretch) and drops the factor. All or nothing: if memory runs
   /// out, the problem is unchanged.

@@ -145,7 +145,7 @@ class ChartUnwrapper {
       options_ = options.solve;
       options_.extenders.clear();
       options_.hole_rigidity = 0;
-      report_.method = options_.method = method_with_pins(options.solve, pins_.size());
+      report_.method = method_with_pins(options.solve, pins_.size());
       is_possible_ = true;
     } catch (const InvalidMesh& problem) {
       report_.steps = {problem.step()};
@@ -170,7 +170,7 @@ class ChartUnwrapper {
     if (!is_possible_) return result;
     SolveOptions options = options_;
     options.tolerance = tolerance;
-    if (options.method == Method::spectral) {
+    if (report_.method == Method::spectral) {
       options.hole_rigidity = hole_rigidity;
       options.extenders = own(extenders, result.acting);
     }

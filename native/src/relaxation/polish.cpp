@@ -4,12 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "relaxation/lbfgs.h"
 #include "relaxation/mean_distortion.h"
 
 namespace spectral_conformal {
 
-int polish(const ConformalEnergy& energy, Factorization& factor, ComplexVector& z, const PolishOptions& options,
+int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z, const PolishOptions& options,
            const Progress& progress) {
   constexpr double fraction_of_max_step = 0.9;  // leaves each triangle a tenth of its way to a flip
   constexpr double sufficient = 1e-4;           // Armijo's condition
@@ -29,9 +28,8 @@ int polish(const ConformalEnergy& energy, Factorization& factor, ComplexVector& 
   double value = distortion.value_and_gradient(z, gradient);
   if (!std::isfinite(value)) return 0;
   double scale = 0;  // of the inverse, chosen in the first step
-  const auto inverse = [&](const ComplexVector& b, ComplexVector& x) {
-    factor.solve(b, x);
-    x.array() -= x.mean();  // the shifted energy hardly controls the constant
+  const auto scaled_inverse = [&](const ComplexVector& b, ComplexVector& x) {
+    inverse(b, x);
     if (scale > 0) x *= scale;
   };
   Lbfgs lbfgs;
@@ -40,7 +38,7 @@ int polish(const ConformalEnergy& energy, Factorization& factor, ComplexVector& 
   int steps = 0;
   while (steps < options.max_steps) {
     report(progress, static_cast<double>(steps) / options.max_steps, "polish");
-    const ComplexVector direction = lbfgs.descent(inverse, gradient);
+    const ComplexVector direction = lbfgs.descent(scaled_inverse, gradient);
     const double slope = real_dot(gradient, direction);
     if (!(slope < 0)) break;
     double length = 1;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "conformal/conformal_energy.h"
-#include "linear_algebra/factorization.h"
+#include "relaxation/lbfgs.h"
 #include "spectral_conformal/progress.h"
 #include "spectral_conformal/types.h"
 
@@ -18,9 +18,10 @@ struct PolishOptions {
 /// factor is available, approximates the inverse Hessian. No step flips a triangle; triangles already flipped or
 /// slivers in the map, and those without area in 3D, do not count.
 ///
-/// factor: of L, or of L with a small shift. z: (V,), finite, including virtual vertices. Returns the number of steps;
-/// if 0, z is unchanged. Throws Cancelled, and as Factorization does.
-int polish(const ConformalEnergy& energy, Factorization& factor, ComplexVector& z, const PolishOptions& options = {},
-           const Progress& progress = {});
+/// inverse: of L, of L with a small shift, or of the part of L on the vertices that may move: those at which it returns
+/// 0, whatever it gets, stay exactly. z: (V,), finite, including virtual vertices. Returns the number of steps; if 0, z
+/// is unchanged. Throws Cancelled, and as the inverse does.
+int polish(const ConformalEnergy& energy, const Lbfgs::Inverse& inverse, ComplexVector& z,
+           const PolishOptions& options = {}, const Progress& progress = {});
 
 }  // namespace spectral_conformal

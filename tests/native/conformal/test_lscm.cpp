@@ -7,6 +7,15 @@
 #include "spectral_conformal/errors.h"
 
 namespace spectral_conformal::test {
+namespace {
+
+PinnedSolution solved_lscm(const ConformalEnergy& energy, const Pins& pins,
+                           FactorizationBackend backend = FactorizationBackend::automatic) {
+  PinnedFactor factor(energy, pins, backend, {});
+  return solve_lscm(energy, pins, factor, {});
+}
+
+}  // namespace
 
 TEST_SUITE_BEGIN("lscm");
 
@@ -29,7 +38,7 @@ TEST_CASE("pins are exact, the gradient vanishes at the free vertices, and a den
       const Eigen::MatrixXcd outer = matrix(others, pinned);
       const ComplexVector expected = -inner.llt().solve(outer * positions);
       for (const auto backend : backends()) {
-        const PinnedSolution solution = solve_lscm(energy, pins, backend, {});
+        const PinnedSolution solution = solved_lscm(energy, pins, backend);
         for (const auto& [vertex, position] : pins) CHECK(solution.vector[vertex] == position);
         const ComplexVector gradient = (matrix * solution.vector)(others);
         CHECK(gradient.norm() < 1e-13 * matrix.norm() * solution.vector.norm());
@@ -48,7 +57,7 @@ TEST_CASE("pins of a flat patch that agree with it give the patch back, however 
     for (const Complex factor : {Complex(0, 1e-6), Complex(2, 1), Complex(-1e6, 3e5)}) {
       const ComplexVector expected = (factor * flat).array() + std::abs(factor) * origin;
       const Pins pins{{3, expected[3]}, {50, expected[50]}};
-      const ComplexVector solved = solve_lscm(energy, pins, FactorizationBackend::automatic, {}).vector;
+      const ComplexVector solved = solved_lscm(energy, pins).vector;
       CHECK((solved - expected).norm() < 1e-8 * std::abs(factor) * flat.norm());
     }
   }
@@ -57,9 +66,21 @@ TEST_CASE("pins of a flat patch that agree with it give the patch back, however 
 TEST_CASE("all vertices pinned: nothing to solve") {
   const Mesh triangle({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   const Pins pins{{0, 1.0}, {1, {2, 1}}, {2, {0, 5}}};
-  const PinnedSolution solution =
-      solve_lscm(Patch(triangle).energy(Weights::uniform), pins, FactorizationBackend::automatic, {});
+  const PinnedSolution solution = solved_lscm(Patch(triangle).energy(Weights::uniform), pins);
   for (const auto& [vertex, position] : pins) CHECK(solution.vector[vertex] == position);
+}
+
+TEST_CASE("a factor serves all positions of its pinned vertices, with the map of a fresh one") {
+  const Patch patch(bumpy_grid(8, 6));
+  const ConformalEnergy energy = patch.energy(Weights::uniform);
+  const Pins first{{0, 0.0}, {5, {1, 2}}, {20, {3, 1}}};
+  const Pins moved{{0, 1.0}, {5, {2, 2}}, {20, {-3, 1}}};
+  PinnedFactor factor(energy, first, FactorizationBackend::automatic, {});
+  CHECK(factor.holds(moved));
+  CHECK_FALSE(factor.holds({{0, 0.0}, {5, {1, 2}}}));
+  CHECK_FALSE(factor.holds({{0, 0.0}, {5, {1, 2}}, {21, {3, 1}}}));
+  solve_lscm(energy, first, factor, {});
+  CHECK(solve_lscm(energy, moved, factor, {}).vector == solved_lscm(energy, moved).vector);
 }
 
 TEST_CASE("a free part that is singular is a failure, not a result") {
@@ -69,7 +90,7 @@ TEST_CASE("a free part that is singular is a failure, not a result") {
   const ConformalEnergy energy(with_stray_vertex, patch.chart.triangles, patch.chart.triangle_weights,
                                Weights::uniform);
   for (const auto backend : backends()) {
-    CHECK_FALSE(solve_lscm(energy, {{0, 0.0}, {1, 1.0}}, backend, {}).is_factorized);
+    CHECK_FALSE(PinnedFactor(energy, {{0, 0.0}, {1, 1.0}}, backend, {}).is_factorized());
   }
 }
 

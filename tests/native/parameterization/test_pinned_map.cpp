@@ -10,7 +10,7 @@ TEST_SUITE_BEGIN("pinned_map");
 
 TEST_CASE("pins are held exactly in any unit, fewer than two leave the map to be placed") {
   const Patch patch(bumpy_grid(6, 5));
-  const SpectralProblem problem = problem_of(patch);
+  SpectralProblem problem = problem_of(patch);
   Timings timings;
   const Pins pins{{0, {1, 2}}, {6, {7, 2}}, {41, {7, 8}}};
   const SpectralMap map = pinned_map(problem, pins, {}, timings);
@@ -19,6 +19,7 @@ TEST_CASE("pins are held exactly in any unit, fewer than two leave the map to be
   Pins large;
   for (const auto& [vertex, position] : pins) large[vertex] = 1e200 * position;
   CHECK(difference(pinned_map(problem, large, {}, timings).z / 1e200, map.z) < 1e-12);
+  CHECK(problem.pinned_factor->holds(pins));
   const ComplexVector free = pinned_map(problem, {}, {}, timings).z;
   CHECK(std::abs(free.mean()) < 1e-12);
   CHECK(pinned_map(problem, {{3, 5.0}}, {}, timings).z == free);

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "parameterization/pinned_map.h"
 #include "parameterization/polishing.h"
 #include "problems.h"
 
@@ -12,12 +13,12 @@ TEST_CASE("a polished map has a lower mean QC; without a factor nothing is polis
   SpectralProblem problem = problem_of(patch);
   Timings timings;
   const SpectralMap map = attempted_map(problem, {}, {}, {}, timings);
-  const SpectralMap polished = polished_map(problem, map, {}, timings);
+  const SpectralMap polished = polished_map(problem, map, false, {}, timings);
   REQUIRE(polished.polish_steps > 0);
   CHECK(chart_distortion(*problem.patch, polished.whole).mean_qc < chart_distortion(*problem.patch, map.whole).mean_qc);
   CHECK(polished.eigenvalue >= map.eigenvalue);
   problem.drop_factor();
-  CHECK(polished_map(problem, map, {}, timings).polish_steps == 0);
+  CHECK(polished_map(problem, map, false, {}, timings).polish_steps == 0);
 }
 
 TEST_CASE("the stage polishes where it was asked for, and not what has a metric of its own") {
@@ -29,6 +30,23 @@ TEST_CASE("the stage polishes where it was asked for, and not what has a metric 
   CHECK((map.result.polish_steps > 0 && map.result.eigenvalue_of == EigenvalueOf::map));
   patch.has_metric = true;
   CHECK(polished(task, spectral(task, {}, {}), {}).result.polish_steps == 0);
+}
+
+TEST_CASE("a pinned map is polished with its pins held to the bit, unless LSCM was asked for") {
+  const Patch grid(bumpy_grid(12, 9));
+  PreparedPatch patch = prepared(problem_of(grid));
+  const ComplexVector flat = flat_map(grid.positions);
+  Pins pins;
+  for (const int v : grid.outer()) pins[v] = Complex(1e3, -7) + 1.5 * flat[v];
+  SolveTask task{patch, {Method::lscm}, pins, {}, pins};
+  task.options.hole_rigidity = 0;
+  const PatchMap plain = pinned(task, {}, {});
+  task.options.polish = true;
+  const PatchMap map = polished(task, pinned(task, {}, {}), {});
+  REQUIRE(map.result.polish_steps > 0);
+  for (const auto& [vertex, position] : pins) CHECK(map.result.z[vertex] == position);
+  const NormalizedPatch& of = *patch.problem.patch;
+  CHECK(chart_distortion(of, map.result.z).mean_qc < chart_distortion(of, plain.result.z).mean_qc);
 }
 
 TEST_SUITE_END();

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fixed vertices, any number: they hold to the bit, and the rest follows."""
+
+import numpy as np
+import pytest
+import spectral_conformal as sc
+
+from tests.module import meshes
+
+
+def similar(uv):
+    return uv @ [[1.6, 1.2], [-1.2, 1.6]] + [300.0, -7.0]
+
+
+def border_of(triangles, n):
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    distinct, counts = np.unique(edges, axis=0, return_counts=True)
+    border = np.zeros(n, bool)
+    border[distinct[counts == 1]] = True
+    return border
+
+
+@pytest.fixture(scope="module")
+def bumpy():
+    vertices, triangles = meshes.bumpy_disk(900, 3)
+    return vertices, triangles, border_of(triangles, len(vertices))
+
+
+def test_a_border_that_is_a_similarity_gives_the_similarity_back(bumpy):
+    vertices, triangles, border = bumpy
+    free = sc.parameterize(vertices, triangles)
+    target = similar(free.uv)
+    held = sc.parameterize(vertices, triangles, fixed=border, uv=target)
+    # Inside, the eigenvector has L z = 0, as the held map.
+    assert np.abs(held.uv - target).max() < 1e-9 * np.ptp(target)
+    assert (held.uv[border] == target[border]).all()
+    assert (held.method, held.steps) == ("lscm", ())
+    # On a flat patch any three vertices suffice.
+    flat = vertices * [1.0, 1.0, 0.0]
+    for fixed in ([0, 5, 800], np.array([5, 800, 0], np.int16), np.arange(len(flat)) % 7 == 0):
+        mapped = sc.parameterize(flat, triangles, fixed=fixed, uv=similar(flat[:, :2]), polish=True)
+        assert np.abs(mapped.uv - similar(flat[:, :2])).max() < 1e-9 * np.ptp(target)
+
+
+@pytest.mark.parametrize("options", [{}, {"polish": True}, {"fold_free": True}, {"polish": True, "fold_free": True}])
+def test_fixed_vertices_keep_every_bit_and_any_call_gives_the_same_map(bumpy, options):
+    vertices, triangles, border = bumpy
+    uv = similar(sc.parameterize(vertices, triangles).uv) * [1.3, 1.0]
+    uv[~border] = np.nan
+    fixed = border & (uv[:, 0] < np.median(uv[border, 0]))
+    held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, **options)
+    assert 3 < fixed.sum() < border.sum()
+    assert (held.uv[fixed] == uv[fixed]).all()
+    assert np.isfinite(held.uv).all()
+    assert (held.polish_steps > 0) == ("polish" in options)
+    pins = dict(zip(np.flatnonzero(fixed).tolist(), uv[fixed].tolist()))
+    assert (sc.parameterize(vertices, triangles, pins=pins, **options).uv == held.uv).all()
+    solver = sc.Solver(vertices, triangles)
+    solver.solve(fixed=border, uv=np.where(border[:, None], uv, 0.0))
+    for _ in range(2):
+        assert (solver.solve(fixed=fixed, uv=uv, **options).uv == held.uv).all()
+    whole = sc.unwrap(vertices, triangles, fixed=fixed, uv=uv, **options)
+    assert (whole.uv == held.uv[triangles.ravel()]).all()
+    assert whole.charts[0].n_pins == fixed.sum()
+
+
+def test_polish_lowers_the_distortion_between_fixed_vertices(bumpy):
+    vertices, triangles, border = bumpy
+    uv = similar(sc.parameterize(vertices, triangles).uv) * [1.3, 1.0]
+    maps = [sc.parameterize(vertices, triangles, fixed=border, uv=uv, polish=polish) for polish in (False, True)]
+    plain, polished = (sc.distortion(vertices, triangles, found.uv) for found in maps)
+    assert polished.mean_qc < plain.mean_qc
+    assert not polished.flipped.any()
+    # Who asks for LSCM gets it.
+    lscm = sc.parameterize(vertices, triangles, method="lscm", fixed=border, uv=uv, polish=True)
+    assert (lscm.uv == maps[0].uv).all()
+
+
+def test_flips_between_fixed_vertices_go_or_are_reported(bumpy):
+    vertices, triangles, border = bumpy
+    uv = sc.parameterize(vertices, triangles).uv.copy()
+    inside = np.flatnonzero(~border)
+    # One inner vertex pulled far out of the ring of its neighbors.
+    fixed = border.copy()
+    fixed[inside[0]] = True
+    uv[inside[0]] += 0.6 * np.ptp(uv)
+    held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, fold_free=True)
+    assert (held.uv[fixed] == uv[fixed]).all()
+    assert sc.distortion(vertices, triangles, held.uv).flipped.any()
+    assert "still_flipped" in [step.kind for step in held.steps]
+    # A border that covers itself cannot come apart while it is held.
+    turn = np.exp(1j * np.linspace(0.0, 2.2 * np.pi, 60))
+    strip = np.concatenate([np.c_[2 * turn.real, 2 * turn.imag], np.c_[3 * turn.real, 3 * turn.imag]])
+    points = np.array([[x, y, 0.0] for y in (0.0, 1.0) for x in np.linspace(0, 2.2 * np.pi * 2.5, 60)])
+    k = np.arange(59)
+    faces = np.concatenate([np.c_[k, k + 61, k + 1], np.c_[k, k + 60, k + 61]])
+    over = sc.parameterize(points, faces, fixed=np.arange(120), uv=strip, fold_free=True)
+    assert "covers_itself" in [step.kind for step in over.steps]
+
+
+def test_one_fixed_vertex_moves_the_spectral_map_and_two_turn_and_scale_it(bumpy):
+    vertices, triangles, _ = bumpy
+    free = sc.parameterize(vertices, triangles, polish=True)
+    for fixed in ([7], [7, 600]):
+        uv = np.full((len(vertices), 2), np.nan)
+        uv[fixed] = [(3.0, 4.0), (5.0, 9.0)][: len(fixed)]
+        held = sc.parameterize(vertices, triangles, fixed=fixed, uv=uv, polish=True)
+        assert held.method == "spectral"
+        assert meshes.similarity_deviation(held.uv, free.uv) < 1e-12
+        assert (held.uv[fixed] == uv[fixed]).all()
+    assert np.abs(np.ptp(free.uv, axis=0)).max() > 0
+
+
+def test_what_is_no_set_of_fixed_vertices_is_named(bumpy):
+    vertices, triangles, border = bumpy
+    uv = vertices[:, :2]
+    for wrong, error, words in (
+        ({"fixed": border}, ValueError, "fixed needs uv"),
+        ({"fixed": border[:-1], "uv": uv}, ValueError, "booleans, one per vertex"),
+        ({"fixed": [0.5], "uv": uv}, TypeError, "integers"),
+        ({"fixed": [len(uv)], "uv": uv}, ValueError, "vertices"),
+        ({"fixed": border, "uv": uv[:-1]}, ValueError, "rows"),
+        ({"fixed": border, "uv": uv * np.nan}, ValueError, "not finite"),
+    ):
+        for function in (sc.parameterize, sc.unwrap):
+            with pytest.raises(error, match=words):
+                function(vertices, triangles, **wrong)
+    # A vertex of no triangle has no effect.
+    stray = np.r_[vertices, [[0.0, 0.0, 9.0]]]
+    mapped = sc.parameterize(stray, triangles, fixed=[len(uv)], uv=np.zeros((len(stray), 2)))
+    assert mapped.method == "spectral"
