@@ -76,6 +76,7 @@ constexpr Name<Rejection> rejections[] = {{"not_factorized", Rejection::not_fact
                                           {"no_embedding", Rejection::no_embedding},
                                           {"too_large", Rejection::too_large},
                                           {"library_failed", Rejection::library_failed},
+                                          {"no_cholmod", Rejection::no_cholmod},
                                           {"vertex_not_finite", Rejection::vertex_not_finite},
                                           {"not_orientable", Rejection::not_orientable},
                                           {"closed", Rejection::closed},

@@ -19,7 +19,7 @@ GUIDE = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
 # Templates, and what loops need in line.
 TEMPLATES = {("graph", "grouped"), ("geometry", "plane_triangle")}
 # Numbers that several units share.
-SHARED_CONSTANTS = {("geometry", "tolerances"), ("conformal", "subspace")}
+SHARED_CONSTANTS = {("geometry", "tolerances"), ("conformal", "subspace"), ("relaxation", "line_search")}
 HEADER_ONLY = {"errors", "options", "progress", "relaxation_status", "shared_vector", "step", "types"}
 # Library -> the files that may include it; its headers begin with the given names.
 PLACES = {

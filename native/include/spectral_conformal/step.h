@@ -19,6 +19,7 @@ enum class Rejection {
   no_embedding,    ///< no embedding into a circle was found
   too_large,       ///< the factor has more entries than int can number
   library_failed,  ///< the factorization library reported an error
+  no_cholmod,      ///< asked for, but not in this build
   // Conditions that a chart violates (chart_checks.h).
   vertex_not_finite,  ///< count: the vertex
   not_orientable,

@@ -47,6 +47,7 @@ Reason = Optional[
         "no_embedding",
         "too_large",
         "library_failed",
+        "no_cholmod",
         "vertex_not_finite",
         "not_orientable",
         "closed",
@@ -307,6 +308,7 @@ _VIOLATIONS = {
     "method_without_pins": (
         "The methods 'fiedler' and 'area' hold no three pins; use 'spectral' or 'lscm', or remove all pins but two."
     ),
+    "no_cholmod": "This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.",
     "method_without_extenders": (
         "Extenders and hole rigidity need the method 'spectral', and pins that are soft, if any."
     ),

@@ -70,14 +70,14 @@ class CanonicalOrder {
         left_(static_cast<std::size_t>(n), -1),
         right_(static_cast<std::size_t>(n), -1),
         n_chords_(static_cast<std::size_t>(n), 0),
-        state_(static_cast<std::size_t>(n), within) {
+        state_(static_cast<std::size_t>(n), State::within) {
     // Seen from the base, the loop runs from right to left.
     for (std::size_t i = 1; i < loop.size(); ++i) {
       const int left = loop[(i + 1) % loop.size()];
       left_[loop[i]] = left;
       right_[left] = loop[i];
     }
-    for (const int v : loop) state_[v] = border;
+    for (const int v : loop) state_[v] = State::border;
     for (const int v : loop) {
       rotations.for_each_neighbour(v, [&](int w) { n_chords_[v] += is_chord(v, w) ? 1 : 0; });
     }
@@ -92,7 +92,7 @@ class CanonicalOrder {
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (i % between_reports == 0) report(progress, 0, "embedding");
       const int v = open_[i];
-      if (state_[v] != border || n_chords_[v] > 0) continue;
+      if (state_[v] != State::border || n_chords_[v] > 0) continue;
       Step step{v, below(v)};
       if (step.below.empty()) return result;
       take(step);
@@ -102,10 +102,7 @@ class CanonicalOrder {
   }
 
  private:
-  static constexpr char within = 0;
-  static constexpr char border = 1;
-  static constexpr char just_exposed = 2;  ///< joined the border in this step
-  static constexpr char taken = 3;
+  enum class State : char { within, border, just_exposed, taken };  ///< just_exposed: joined the border in this step
 
   void offer(int v) {
     if (n_chords_[v] == 0 && v != first_ && v != second_) open_.push_back(v);
@@ -113,21 +110,21 @@ class CanonicalOrder {
   /// Whether the edge of two border vertices is a chord.
   bool is_chord(int v, int w) const {
     const bool is_base = (v == first_ && w == second_) || (v == second_ && w == first_);
-    const bool is_on_border = state_[w] == border || state_[w] == just_exposed;
+    const bool is_on_border = state_[w] == State::border || state_[w] == State::just_exposed;
     return is_on_border && left_[v] != w && right_[v] != w && !is_base;
   }
   std::vector<int> below(int v) const {
     std::vector<int> result{left_[v]};
     while (result.back() != right_[v]) {
       const int next = rotations_.next(v, result.back());
-      if (next < 0 || state_[next] == taken || result.size() > left_.size()) return {};
+      if (next < 0 || state_[next] == State::taken || result.size() > left_.size()) return {};
       result.push_back(next);
     }
     return result;
   }
   void take(const Step& step) {
     const std::vector<int>& below = step.below;
-    state_[step.vertex] = taken;
+    state_[step.vertex] = State::taken;
     for (std::size_t i = 0; i + 1 < below.size(); ++i) {
       right_[below[i]] = below[i + 1];
       left_[below[i + 1]] = below[i];
@@ -142,16 +139,16 @@ class CanonicalOrder {
     }
     const auto begin = below.begin() + 1;
     const auto end = below.end() - 1;
-    for (auto v = begin; v != end; ++v) state_[*v] = just_exposed;
+    for (auto v = begin; v != end; ++v) state_[*v] = State::just_exposed;
     for (auto v = begin; v != end; ++v) {
       rotations_.for_each_neighbour(*v, [&](int w) {
         if (!is_chord(*v, w)) return;
         ++n_chords_[*v];
-        if (state_[w] == border) ++n_chords_[w];
+        if (state_[w] == State::border) ++n_chords_[w];
       });
     }
     for (auto v = begin; v != end; ++v) {
-      state_[*v] = border;
+      state_[*v] = State::border;
       offer(*v);
     }
   }
@@ -162,7 +159,7 @@ class CanonicalOrder {
   std::vector<int> left_;  ///< left neighbor on the border, seen from the base; -1 at its end
   std::vector<int> right_;
   std::vector<int> n_chords_;  ///< of each vertex of the border
-  std::vector<char> state_;
+  std::vector<State> state_;
   std::vector<int> open_;
 };
 

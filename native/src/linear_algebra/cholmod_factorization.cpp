@@ -1,7 +1,5 @@
 #include "linear_algebra/cholmod_factorization.h"
 
-#include <stdexcept>
-
 #ifdef SPECTRAL_CONFORMAL_HAVE_CHOLMOD
 
 #include <cholmod.h>
@@ -264,13 +262,13 @@ std::string cholmod_version_name() {
 
 #else
 
+#include "spectral_conformal/errors.h"
+
 namespace spectral_conformal {
 
 bool has_cholmod() { return false; }
 
-std::unique_ptr<Factorization> make_cholmod_factorization() {
-  throw std::invalid_argument("This build has no CHOLMOD; install SuiteSparse and build again, or use 'eigen'.");
-}
+std::unique_ptr<Factorization> make_cholmod_factorization() { throw InvalidMesh(Rejection::no_cholmod); }
 
 std::string cholmod_version_name() { return ""; }
 

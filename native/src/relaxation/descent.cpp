@@ -10,6 +10,7 @@
 
 #include "concurrency/listening.h"
 #include "relaxation/lbfgs.h"
+#include "relaxation/line_search.h"
 
 namespace spectral_conformal {
 namespace {
@@ -171,8 +172,6 @@ class Relaxation {
   /// QC differed by at most 3 % on 12 meshes relaxed to equal areas.
   static constexpr double quick_fall = 0.6;
   static constexpr double short_step = 0.003;
-  /// Leaves each triangle a tenth of its way to a flip, and the boundary a tenth of its way to a contact.
-  static constexpr double fraction_of_max_step = 0.9;
 
   struct Step {
     double length = 0;  ///< relative to the full step; 0 if no step lowers the energy
@@ -261,8 +260,6 @@ class Relaxation {
   }
 
   Step descend() {
-    constexpr double sufficient = 1e-4;  // Armijo's condition, as in Nocedal and Wright (2006), Section 3.1
-    constexpr int max_halvings = 20;     // a step of 1e-6 of the full one has no visible effect
     const auto inverse = [this](const ComplexVector& b, ComplexVector& x) { form_.solve(b, x); };
     const ComplexVector direction = lbfgs_.descent(inverse, gradient_);
     const double slope = real_dot(gradient_, direction);
