@@ -14,6 +14,7 @@ _LOOK = "guide.html#look-at-the-map"
 _EXTENDERS = "guide.html#how-islands-lie-pins-seams-and-extenders"
 _SECTIONS = {
     names.UNWRAP_OPERATOR: _USE,
+    names.RELAX_OPERATOR: "guide.html#relax-the-map-that-is-there",
     names.SUGGEST_SEAMS_OPERATOR: "guide.html#quick-tour",
     names.SELECT_FAILED_OPERATOR: _USE,
     names.SELECT_DEFECTS_OPERATOR: _LOOK,

@@ -7,6 +7,8 @@ PACKAGE = __package__
 
 UNWRAP_OPERATOR = "uv.spectral_unwrap"
 
+RELAX_OPERATOR = "uv.spectral_relax"
+
 SELECT_FAILED_OPERATOR = "uv.spectral_select_failed"
 
 SELECT_DEFECTS_OPERATOR = "uv.spectral_select_defects"

@@ -7,6 +7,16 @@ TEXTS = {
     "Unwrap the mesh with low angle distortion and without pins": (
         "Das Mesh mit geringer Winkelverzerrung und ohne Pins abwickeln"
     ),
+    "Spectral Relax": "Spektral entspannen",
+    "Relax": "Entspannen",
+    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move, UVs that "
+    "others share stay; without a selection, all visible faces move": (
+        "Die aktive UV-Map, so wie sie liegt, ebnen, ohne neue umgedrehte oder überlappende Flächen. Nur ausgewählte "
+        "Flächen bewegen sich, mit anderen geteilte UVs bleiben; ohne Auswahl bewegen sich alle sichtbaren"
+    ),
+    "Enter or click: Keep   Esc or right click: Restore": (
+        "Eingabe oder Klick: Behalten   Esc oder Rechtsklick: Wiederherstellen"
+    ),
     "Select Failed Islands": "Fehlgeschlagene Inseln auswählen",
     "Select the visible faces of the islands that the last Spectral Unwrap could not solve": (
         "Die sichtbaren Flächen der Inseln auswählen, die „Spektral abwickeln“ zuletzt nicht lösen konnte"
@@ -177,6 +187,23 @@ TEXTS = {
     "Angle to Area": "Winkel zu Fläche",
     "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles": (
         "0 erhält Winkel, und Größen schwanken; 1 erhält gleichmäßige Größen auf Kosten der Winkel"
+    ),
+    "0 evens out angles only; 1 evens out angles and sizes": (
+        "0 gleicht nur Winkel aus, 1 gleicht Winkel und Größen aus"
+    ),
+    "Steps": "Schritte",
+    "Number of steps at most; it ends earlier where no further step helps": (
+        "Höchstzahl der Schritte; es endet früher, wenn kein weiterer hilft"
+    ),
+    "Hold Border": "Rand festhalten",
+    "Leave the border of islands where it is, and move the inside only": (
+        "Den Rand der Inseln lassen, wo er ist, und nur das Innere bewegen"
+    ),
+    "Unfold First": "Zuerst entfalten",
+    "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no pins "
+    "are mapped afresh for it if necessary": (
+        "Zuerst umgedrehte Flächen und Überlappungen entfernen, wie „Umdrehen verhindern“. Inseln, die ganz ausgewählt "
+        "sind und keine Pins haben, werden dafür nötigenfalls neu abgewickelt"
     ),
     "No Flip": "Umdrehen verhindern",
     "Unfold flipped faces and islands that overlap themselves, at some cost in angles; difficult islands take longer": (
@@ -483,6 +510,12 @@ TEXTS = {
     "The meshes changed during the solve, so nothing was written; unwrap again": (
         "Die Meshes haben sich während der Berechnung geändert, darum wurde nichts geschrieben; neu abwickeln"
     ),
+    "Nothing was selected, so all visible faces were relaxed": (
+        "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen entspannt"
+    ),
+    "Nothing can move: all UVs of these faces are pinned or held": (
+        "Nichts kann sich bewegen: Alle UVs dieser Flächen sind gepinnt oder festgehalten"
+    ),
     "Nothing was selected, so all visible faces were unwrapped": (
         "Nichts war ausgewählt, darum wurden alle sichtbaren Flächen abgewickelt"
     ),
@@ -515,6 +548,12 @@ TEXTS = {
     "{n} extenders": "{n} Extender",
     "{n} face": "{n} Fläche",
     "{n} faces": "{n} Flächen",
+    "{n} step": "{n} Schritt",
+    "{n} steps": "{n} Schritten",
+    "Relaxed in {steps}: distortion {percent} lower": "In {steps} entspannt: Verzerrung um {percent} geringer",
+    "{operator}: {steps}, distortion {percent} lower   {keys}": (
+        "„{operator}“: nach {steps} Verzerrung um {percent} geringer   {keys}"
+    ),
     "{n} island": "{n} Insel",
     "{n} islands": "{n} Inseln",
     "{operator} is running; Esc cancels it": "„{operator}“ läuft; Esc bricht ab",

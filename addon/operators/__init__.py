@@ -10,6 +10,7 @@ from .extenders import (
 )
 from .fit_range import UV_OT_spectral_fit_range
 from .inspect_map import UV_OT_spectral_inspect
+from .relax import UV_OT_spectral_relax
 from .seam_wish import MESH_OT_spectral_seam_wish
 from .select import (
     UV_OT_spectral_select_defects,
@@ -29,6 +30,7 @@ from .unwrap import UV_OT_spectral_unwrap
 
 _CLASSES = (
     UV_OT_spectral_unwrap,
+    UV_OT_spectral_relax,
     UV_OT_spectral_select_failed,
     UV_OT_spectral_select_defects,
     UV_OT_spectral_select_distorted,

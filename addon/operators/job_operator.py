@@ -45,8 +45,8 @@ class Choice(Protocol):
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Return {"FINISHED"} with an answer, {"RUNNING_MODAL"} for a handled event, else {"PASS_THROUGH"}."""
 
-    def update(self, context: bpy.types.Context) -> None:
-        """Update what is shown; called by a timer."""
+    def update(self, context: bpy.types.Context) -> bool | None:
+        """Update what is shown; called by a timer. Return True if the answer is there without the artist."""
 
     def end(self, context: bpy.types.Context) -> None:
         """Remove everything shown."""
@@ -102,12 +102,11 @@ class _Running:
         choice.begin(context)
         self._keep_awake(context)
 
-    def update(self, context: bpy.types.Context) -> None:
-        """Update the progress."""
+    def update(self, context: bpy.types.Context) -> bool:
+        """Update the progress; return whether the choice has answered itself."""
         if self._progress is not None:
             self._progress.update(context, self.worker.fraction, self.worker.phase)
-        if self.choice is not None:
-            self.choice.update(context)
+        return self.choice is not None and bool(self.choice.update(context))
 
     def hide(self, context: bpy.types.Context) -> None:
         """Stop waiting for the worker or the artist."""
@@ -236,9 +235,7 @@ class JobOperator(ReportingOperator):
                 return {"PASS_THROUGH"}
             status = job.choice.handle(context, event)
             if "FINISHED" in status:
-                answer = job.choice.answer
-                job.hide(context)
-                return self._advance(context, Done(context, answer, job.is_late))
+                return self._take_answer(context)
             if "RUNNING_MODAL" in status:
                 return status
         if is_left or (event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS"):
@@ -249,9 +246,15 @@ class JobOperator(ReportingOperator):
                 worker = job.worker
                 job.hide(context)
                 return self._advance(context, Done(context, worker.result(), job.is_late))
-            job.update(context)
-            return {"PASS_THROUGH"}
+            return self._take_answer(context) if job.update(context) else {"PASS_THROUGH"}
         return {"PASS_THROUGH"} if progress.moves_view(event) else {"RUNNING_MODAL"}
+
+    def _take_answer(self, context: bpy.types.Context) -> set[str]:
+        """Continue the job with the answer to its choice."""
+        job = self._job
+        answer = job.choice.answer
+        job.hide(context)
+        return self._advance(context, Done(context, answer, job.is_late))
 
     def _advance(self, context: bpy.types.Context, done: Done | None) -> set[str]:
         """Advance the job, first with None, until it ends or a window has to wait."""

@@ -7,6 +7,7 @@ from .. import names
 
 OF = {
     names.UNWRAP_OPERATOR: "UV",
+    names.RELAX_OPERATOR: "MOD_SMOOTH",
     names.SUGGEST_SEAMS_OPERATOR: "MOD_EDGESPLIT",
     names.SEAM_WISH_OPERATOR: "BRUSH_DATA",
     names.INSPECT_OPERATOR: "EYEDROPPER",

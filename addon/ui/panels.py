@@ -129,10 +129,12 @@ class _UnwrapPanel(_Panel):
     part = "unwrap"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operator and the live toggle."""
+        """Draw the operators and the live toggle."""
         layout = self.layout
         layout.operator_context = "INVOKE_REGION_WIN"
-        draw_operator(layout, names.UNWRAP_OPERATOR)
+        row = layout.row(align=True)
+        draw_operator(row, names.UNWRAP_OPERATOR)
+        draw_operator(row, names.RELAX_OPERATOR, text=texts.RELAX_SHORT_LABEL)
         layout.prop(context.scene, names.LIVE_UNWRAP_PROPERTY)
         if getattr(context.scene, names.LIVE_UNWRAP_PROPERTY) and _is_too_large_to_follow(context.edit_object):
             column = layout.column(align=True)

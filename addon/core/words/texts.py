@@ -27,6 +27,14 @@ if TYPE_CHECKING:
 
 UNWRAP_LABEL = "Spectral Unwrap"
 UNWRAP_DESCRIPTION = "Unwrap the mesh with low angle distortion and without pins"
+RELAX_LABEL = "Spectral Relax"
+# Beside Spectral Unwrap, where there is little room.
+RELAX_SHORT_LABEL = "Relax"
+RELAX_DESCRIPTION = (
+    "Even out the active UV map from where it is, without new flips or overlaps. Only selected faces move, UVs that "
+    "others share stay; without a selection, all visible faces move"
+)
+RELAX_KEYS = "Enter or click: Keep   Esc or right click: Restore"
 SELECT_FAILED_LABEL = "Select Failed Islands"
 SELECT_FAILED_DESCRIPTION = "Select the visible faces of the islands that the last Spectral Unwrap could not solve"
 SELECT_DEFECTS_LABEL = "Select Flipped and Overlapping"
@@ -131,6 +139,25 @@ AUTOMATIC_HOLES_PROPERTY = {
 AREA_BLEND_PROPERTY = {
     "name": "Angle to Area",
     "description": "0 keeps angles, and sizes vary; 1 keeps sizes even, at the cost of angles",
+}
+RELAX_SIZES_PROPERTY = {
+    "name": "Angle to Area",
+    "description": "0 evens out angles only; 1 evens out angles and sizes",
+}
+RELAX_STEPS_PROPERTY = {
+    "name": "Steps",
+    "description": "Number of steps at most; it ends earlier where no further step helps",
+}
+HOLD_BORDER_PROPERTY = {
+    "name": "Hold Border",
+    "description": "Leave the border of islands where it is, and move the inside only",
+}
+RELAX_UNFOLD_PROPERTY = {
+    "name": "Unfold First",
+    "description": (
+        "First remove flipped faces and overlaps, as No Flip does. Islands that are selected as a whole and have no "
+        "pins are mapped afresh for it if necessary"
+    ),
 }
 FOLD_FREE_PROPERTY = {
     "name": "No Flip",
@@ -388,6 +415,8 @@ NO_SUCH_EXTENDER = "This extender does not exist; choose one in the list"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
+NOTHING_SELECTED_RELAXES_ALL = "Nothing was selected, so all visible faces were relaxed"
+NOTHING_TO_RELAX = "Nothing can move: all UVs of these faces are pinned or held"
 NOTHING_SELECTED_MEANS_ALL = "Nothing was selected, so all visible faces were unwrapped"
 NO_EDGES_SELECTED = "No edges selected"
 NO_VISIBLE_FACES = "No visible faces to cut"
@@ -410,6 +439,7 @@ _EDGES = ("{n} edge", "{n} edges")
 _EXTENDERS = ("{n} extender", "{n} extenders")
 _FACES = ("{n} face", "{n} faces")
 _ISLANDS = ("{n} island", "{n} islands")
+_STEPS = ("{n} step", "{n} steps")
 
 
 def is_running(label: str) -> str:
@@ -464,6 +494,28 @@ def information(summary: Summary, seconds: float, where_to_see: str) -> str:
         translate("{seconds} s").format(seconds=format(seconds, ".2f")),
     ]
     return "; ".join(parts)
+
+
+def relaxed(gain: float, steps: int, flipped: int, overlapping: int, seconds: float) -> str:
+    """Return the report of relaxed maps; `gain` is the fraction of their distortion that is gone."""
+    sentence = translate("Relaxed in {steps}: distortion {percent} lower")
+    parts = [
+        sentence.format(steps=_count(steps, _STEPS), percent=_percent(gain)),
+        _defects(flipped, overlapping, SELECT_DEFECTS_LABEL),
+        translate("{seconds} s").format(seconds=format(seconds, ".2f")),
+    ]
+    return "; ".join(parts)
+
+
+def relax_status(gain: float, steps: int) -> str:
+    """Return the text of the status bar while maps relax."""
+    sentence = translate("{operator}: {steps}, distortion {percent} lower   {keys}")
+    return sentence.format(
+        operator=translate(RELAX_LABEL),
+        steps=_count(steps, _STEPS),
+        percent=_percent(gain),
+        keys=translate(RELAX_KEYS),
+    )
 
 
 def _defects(flipped: int, overlapping: int, where_to_see: str) -> str:

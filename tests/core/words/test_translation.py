@@ -158,6 +158,8 @@ CALLS = {
     "density_set": [(512.0, 1, "M"), (512.0, 2, "")],
     "density_equalized": [(512.0, 2, factors, "M") for factors in (0, 1, 2)],
     "density_factor": [(1.5, 1), (1.5, 2)],
+    "relaxed": [(0.5, 1, 1, 1, 1.0), (0.5, 2, 2, 2, 1.0), (0.5, 2, 0, 0, 1.0)],
+    "relax_status": [(0.5, 1), (0.5, 2)],
     "look_value": [(look, 2.0) for look in LOOKS],
     "legend_ends": [(look, 1.0, 2.0, 3.0) for look in LOOKS],
     "too_many_faces": [(["CUBE"],), ([],)],

@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The relaxation of the maps of several meshes, a few steps at a time.
+
+A point is a vertex of the mesh at one position in the map, whichever faces have it there. The points of faces that are
+not selected are held, and so are pins. Faces around the selection take part, so that it overlaps none of its island.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from ..mesh.polygon_mesh import PolygonMesh
+from .progress import Progress, part
+
+
+@dataclass(frozen=True)
+class RelaxOptions:
+    """Options of a relaxation.
+
+    Attributes:
+        sizes: from 0, angles alone, to 1; as in `spectral_conformal.relax`.
+        hold_border: hold the points on the border of islands.
+        unfold: first remove flips and overlaps.
+    """
+
+    sizes: float = 0.5
+    hold_border: bool = False
+    unfold: bool = False
+
+
+class RelaxingMap:
+    """The map of one mesh.
+
+    Attributes:
+        corners: (C,) bool, the corners that may move.
+        area: area in object space of the triangles that may move, in proportion.
+        energy_before: their mean energy at the start; see `spectral_conformal.relax`.
+    """
+
+    def __init__(self, mesh: PolygonMesh, options: RelaxOptions, progress: Progress | None = None) -> None:
+        """Begin with the `uv` of a mesh.
+
+        Raises:
+            NativeModuleError: `spectral_conformal` cannot be imported.
+            spectral_conformal.Cancelled: `progress` returned False.
+        """
+        self._mesh = mesh
+        uv = mesh.isotropic_uv()
+        face_of_corner = mesh.face_of_corner()
+        faces = np.isfinite(uv).all(axis=1) & np.isfinite(mesh.vertices[mesh.corner_vertices]).all(axis=1)
+        faces = np.logical_and.reduceat(faces, mesh.face_offsets[:-1]) & (np.diff(mesh.face_offsets) >= 3)
+        used = faces[face_of_corner]
+        # Of all corners, so that no face that is left out is torn off.
+        self._point, corner_of_point = _points(mesh.corner_vertices, uv)
+        triangles = self._point[_triangles(mesh, uv, faces)]
+        a, b, c = triangles.T
+        triangles = triangles[(a != b) & (b != c) & (c != a)]
+        held_corners = ~(used & mesh.selected_faces[face_of_corner])
+        if mesh.pinned_corners is not None:
+            held_corners |= mesh.pinned_corners
+        if options.hold_border:
+            held_corners |= _on_border(mesh, self._point) & used
+        fixed = np.zeros(len(corner_of_point), dtype=bool)
+        fixed[self._point[held_corners]] = True
+        vertices = mesh.vertices[mesh.corner_vertices[corner_of_point]]
+        vertices[~np.isfinite(vertices).all(axis=1)] = 0.0
+        self.corners = ~fixed[self._point] & used
+        sides = vertices[triangles]
+        areas = np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1)
+        self.area = float(areas[~fixed[triangles].all(axis=1)].sum())
+        points = uv[corner_of_point]
+        points[~np.isfinite(points).all(axis=1)] = 0.0
+        self._start = points
+        if options.unfold:
+            points = _embedded(vertices, triangles, points, fixed, progress)
+        self._relaxation = native.spectral_conformal().Relaxation(
+            vertices,
+            triangles,
+            points,
+            sizes=options.sizes,
+            fixed=fixed,
+            fold_free=options.unfold,
+            progress=progress,
+        )
+        self.energy_before = self._relaxation.result.energy_before
+
+    @property
+    def can_move(self) -> bool:
+        """Whether any corner may move and has a surface beside it."""
+        return self.area > 0.0 and bool(self.corners.any())
+
+    @property
+    def energy(self) -> float:
+        """The mean energy of the present map."""
+        return self._relaxation.energy
+
+    def step(self, n: int, progress: Progress | None = None) -> bool:
+        """Take up to `n` steps; return whether there may be more."""
+        return self._relaxation.step(n, progress=progress)
+
+    def uv(self) -> np.ndarray:
+        """Return the present map, (C, 2); what has not moved is the same to the last bit."""
+        now = self._relaxation.uv
+        moved = (now != self._start).any(axis=1)[self._point]
+        found = self._mesh.uv.copy()
+        found[moved] = self._mesh.from_isotropic_uv(now[self._point[moved]])
+        return found
+
+
+@dataclass(frozen=True)
+class Relaxed:
+    """Maps after some steps.
+
+    Attributes:
+        maps: (C, 2) of every mesh.
+        steps: number of steps.
+        gain: fraction of the distortion, above that of an isometry or a similarity, that is gone.
+        is_at_end: whether no further step lowers it.
+    """
+
+    maps: Sequence[np.ndarray]
+    steps: int
+    gain: float
+    is_at_end: bool
+
+
+class Relaxing:
+    """The maps of several meshes; any thread may call one method at a time.
+
+    Attributes:
+        corners: (C,) bool of every mesh, the corners that may move.
+        can_move: whether there are any.
+    """
+
+    def __init__(self, meshes: Sequence[PolygonMesh], options: RelaxOptions, progress: Progress | None = None) -> None:
+        """Begin with the `uv` of the meshes, which must have one.
+
+        Raises:
+            NativeModuleError: `spectral_conformal` cannot be imported.
+            spectral_conformal.Cancelled: `progress` returned False.
+        """
+        self._maps = [RelaxingMap(mesh, options, progress) for mesh in meshes]
+        self._steps = 0
+        self._least = 2.0 + 2.0 * options.sizes
+        self._goes_on = [each.can_move for each in self._maps]
+        self.can_move = any(self._goes_on)
+        self.corners = [each.corners for each in self._maps]
+
+    def step(self, n: int = 1, progress: Progress | None = None) -> bool:
+        """Take up to `n` steps on every mesh; return whether there may be more.
+
+        Raises:
+            spectral_conformal.Cancelled: `progress` returned False.
+        """
+        count = len(self._maps)
+        for k, each in enumerate(self._maps):
+            if self._goes_on[k]:
+                own = None if progress is None else part(progress, k / count, 1.0 / count)
+                self._goes_on[k] = each.step(n, own)
+        self._steps += n
+        return any(self._goes_on)
+
+    def now(self) -> Relaxed:
+        """Return the present maps."""
+        moving = [each for each in self._maps if each.can_move]
+        excess_before = sum(each.area * max(each.energy_before - self._least, 0.0) for each in moving)
+        excess = sum(each.area * max(each.energy - self._least, 0.0) for each in moving)
+        gain = 1.0 - excess / excess_before if excess_before > 0.0 else 0.0
+        return Relaxed([each.uv() for each in self._maps], self._steps, gain, not any(self._goes_on))
+
+
+def relax(
+    meshes: Sequence[PolygonMesh], options: RelaxOptions, steps: int, progress: Progress | None = None
+) -> tuple[Relaxing, Relaxed]:
+    """Relax the maps of several meshes by up to `steps` steps each, in any thread.
+
+    Raises:
+        NativeModuleError: `spectral_conformal` cannot be imported.
+        spectral_conformal.Cancelled: `progress` returned False.
+    """
+    relaxing = Relaxing(meshes, options, progress)
+    taken = 0
+    # One by one, so that the number of steps is the one at which a view would stop.
+    while taken < steps and relaxing.can_move:
+        own = None if progress is None else part(progress, taken / steps, 1.0 / steps)
+        taken += 1
+        if not relaxing.step(1, own):
+            break
+    return relaxing, relaxing.now()
+
+
+def _points(corner_vertices: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the point of every corner, (C,), and a corner of every point, (P,)."""
+    # Adding zero makes one zero of both; corners that are not finite are points of their own.
+    u, v = (uv + 0.0).T
+    order = np.lexsort((v, u, corner_vertices))
+    same = (
+        (corner_vertices[order[1:]] == corner_vertices[order[:-1]])
+        & (u[order[1:]] == u[order[:-1]])
+        & (v[order[1:]] == v[order[:-1]])
+    )
+    number = np.concatenate([[0], np.cumsum(~same)])
+    point = np.empty(len(order), dtype=np.int64)
+    point[order] = number
+    corner_of_point = np.empty(int(number[-1]) + 1, dtype=np.int64)
+    corner_of_point[number] = order
+    return point, corner_of_point
+
+
+def _triangles(mesh: PolygonMesh, uv: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Return the corners of triangles, (T, 3), that cover these `faces` (F,) in the map: concave quads unfolded."""
+    flat = np.column_stack([np.nan_to_num(uv, posinf=0.0, neginf=0.0), np.zeros(len(uv))])
+    own = np.arange(len(uv), dtype=np.int32)
+    triangles, _ = native.spectral_conformal().hosts.face_triangles(flat, mesh.face_offsets, own, selected_faces=faces)
+    return triangles
+
+
+def _on_border(mesh: PolygonMesh, point: np.ndarray) -> np.ndarray:
+    """Return which corners, (C,) bool, have a point of an edge that does not part exactly two faces of the map."""
+    ends = np.sort(np.stack([point, point[mesh.next_corner()]], axis=1), axis=1)
+    key = ends[:, 0] * (int(point.max()) + 1) + ends[:, 1]
+    _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
+    on_border = np.zeros(int(point.max()) + 1, dtype=bool)
+    on_border[ends[count[inverse.ravel()] != 2].ravel()] = True
+    return on_border[point]
+
+
+def _embedded(
+    vertices: np.ndarray, triangles: np.ndarray, points: np.ndarray, fixed: np.ndarray, progress: Progress | None
+) -> np.ndarray:
+    """Return the map in which islands with flips or overlaps, and without fixed points, are mapped afresh.
+
+    They get a map without either where there is one, moved, turned and scaled to lie nearest to their former points;
+    mirrored islands stay mirrored.
+    """
+    module = native.spectral_conformal()
+    if not len(triangles):
+        return points
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
+    defects = module.map_defects(offsets, triangles.ravel().astype(np.int32), points[triangles.ravel()])
+    bad = defects.flipped | defects.overlapping
+    if not bad.any():
+        return points
+    points, island = points.copy(), defects.island_of_face
+    for number in np.unique(island[bad]):
+        own, others = triangles[island == number], triangles[island != number]
+        used, local = np.unique(own, return_inverse=True)
+        # An island that touches another one in a point would be torn off.
+        if fixed[used].any() or np.isin(others, used).any():
+            continue
+        try:
+            found = module.parameterize(vertices[used], local.reshape(-1, 3), fold_free=True, progress=progress).uv
+        except (ValueError, module.SolveError):
+            # Closed, or no surface; what can be unfolded in its place still is.
+            continue
+        points[used] = _fitted(found, points[used], own_area=_signed_area(points, own))
+    return points
+
+
+def _signed_area(points: np.ndarray, triangles: np.ndarray) -> float:
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return float(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum())
+
+
+def _fitted(found: np.ndarray, former: np.ndarray, own_area: float) -> np.ndarray:
+    """Return `found` (n, 2) turned and moved to lie nearest to `former`, with the area that this spans."""
+    z, target = found @ (1.0, 1.0j), former @ (1.0, 1.0j)
+    if own_area < 0.0:
+        z = z.conj()
+    z, middle = z - z.mean(), target.mean()
+    turn = np.vdot(z, target - middle)
+    length = np.sqrt((abs(target - middle) ** 2).sum() / max((abs(z) ** 2).sum(), 1e-300))
+    z = middle + z * (length * turn / abs(turn) if turn else length)
+    return np.stack([z.real, z.imag], axis=1)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that relaxes the map that is there."""
+
+import time
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty, IntProperty
+
+from .. import names
+from ..core.solve.relaxing import RelaxOptions, relax
+from ..core.words import texts
+from ..core.words.translation import translate
+from ..live import following
+from ..unwrapping import relaxing
+from .job_operator import Job, JobOperator
+from .relax_view import RelaxView
+
+
+class UV_OT_spectral_relax(JobOperator, bpy.types.Operator):
+    """Lower the distortion of the active UV map, step by step in the view."""
+
+    bl_idname = names.RELAX_OPERATOR
+    bl_label = texts.RELAX_LABEL
+    bl_description = texts.RELAX_DESCRIPTION
+    bl_options = {"REGISTER", "UNDO"}
+
+    sizes: FloatProperty(**texts.RELAX_SIZES_PROPERTY, default=0.5, min=0.0, max=1.0, subtype="FACTOR")
+    # Not kept for the next call: it is set where the artist stops.
+    steps: IntProperty(**texts.RELAX_STEPS_PROPERTY, default=200, min=1, soft_max=500, options={"SKIP_SAVE"})
+    hold_border: BoolProperty(**texts.HOLD_BORDER_PROPERTY)
+    unfold: BoolProperty(**texts.RELAX_UNFOLD_PROPERTY)
+    correct_aspect: BoolProperty(**texts.CORRECT_ASPECT_PROPERTY, default=True)
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Lay out Adjust Last Operation."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for name in ("sizes", "steps", "hold_border", "unfold", "correct_aspect"):
+            layout.prop(self, name)
+
+    def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
+        """Read, relax and write, in a window as it goes; report the outcome."""
+        start = time.perf_counter()
+        edit_meshes, all_visible = relaxing.read(context, self.correct_aspect)
+        if not edit_meshes:
+            self.report({"WARNING"}, translate(texts.NOTHING_SELECTED))
+            return {"CANCELLED"}
+        edit_meshes = [edit_mesh for edit_mesh in edit_meshes if edit_mesh.polygons.uv is not None]
+        if not edit_meshes:
+            self.report({"WARNING"}, translate(texts.NO_UV_MAP))
+            return {"CANCELLED"}
+        options = RelaxOptions(self.sizes, self.hold_border, self.unfold)
+        if is_interactive:
+            view = RelaxView(edit_meshes, options, self.steps)
+            with following.not_following():
+                try:
+                    found = (yield view).result
+                except GeneratorExit:
+                    view.restore()
+                    raise
+            can_move = view.can_move
+            if view.is_stopped and found is not None:
+                # So that Adjust Last Operation stops there, too.
+                self.steps = found.steps
+        else:
+            meshes = [edit_mesh.polygons for edit_mesh in edit_meshes]
+            done = yield lambda progress: relax(meshes, options, self.steps, progress)
+            whole, found = done.result
+            can_move = whole.can_move
+            if can_move:
+                with following.not_following():
+                    relaxing.write(edit_meshes, found.maps, whole.corners)
+        if not can_move:
+            self.report({"WARNING"}, translate(texts.NOTHING_TO_RELAX))
+        if not can_move or found is None:
+            return {"CANCELLED"}
+        for level, text in relaxing.reports(edit_meshes, found, time.perf_counter() - start, all_visible):
+            self.report({level}, text)
+        return {"FINISHED"}

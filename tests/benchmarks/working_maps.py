@@ -1,0 +1,407 @@
+"""Work on the map that is there, beside Blender's own methods, in one run.
+
+    build/venv/bin/python -m tests.benchmarks.working_maps [mesh.obj ...] [--vertices N] [--blender NAME] [--json FILE]
+    build/venv/bin/python -m tests.benchmarks.working_maps --reach [--sizes N ...]
+
+The first form maps generated models, or those of the files, by every method. Columns: mean QC over the surface; the
+mean symmetric Dirichlet energy at the scale of the whole map that makes it least, 4 for an isometry; the standard
+deviation of log2 of the scale; flipped and overlapping faces; by how much of the root of the map's area the chain, or
+the worst side of the rectangle, departs from a straight line; seconds from the mesh to the map, those of the unwrap
+before it included.
+
+Straight chains and rectangles are made by constraints, and in the way of tools that straighten points, pin them and
+solve again by LSCM: on the line through the ends, spaced by length. The chain is one side of the patch, between two of
+its four corners; all four sides make the rectangle.
+
+`--reach` lets a relaxation run beside Blender's MINIMUM_STRETCH with 10 iterations, which minimizes the same energy:
+when it is below, when it is within a thousandth of its end, and the peaks of memory of a plain solve and of a
+relaxation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tests.benchmarks import generated, runs
+from tests.benchmarks.generated import Mesh
+
+VERTICES = 2_500
+REACH = (10_000, 50_000, 200_000)
+ROUNDS = 2
+# Steps of a relaxation that is left to end by itself.
+MANY_STEPS = 1_000
+COLUMNS = ("qc", "energy", "spread", "flipped", "overlapping", "bent", "seconds")
+TITLES = ("mean QC", "energy", "spread", "flipped", "overlapping", "off straight", "s")
+
+
+class _InBlender:
+    """One mesh in edit mode, mapped by Blender's methods."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        import bpy  # first: it puts Blender's own modules on the path
+
+        from tests.benchmarks import operator_scenes
+
+        self._bpy = bpy
+        operator_scenes._make(bpy, [mesh])
+        self.methods = operator_scenes._known(bpy, operator_scenes.METHODS)
+
+    def unwrap(self, method: str, **options: Any) -> np.ndarray:  # noqa: ANN401 - the operator's
+        """Return the map of a method, (C, 2)."""
+        assert self._bpy.ops.uv.unwrap(method=method, **options) == {"FINISHED"}
+        return self.uv()
+
+    def minimize_stretch(self, iterations: int) -> np.ndarray:
+        """Return the map of the older operator, which begins with the map that is there."""
+        # The operator wants the UV editor.
+        window = self._bpy.context.window_manager.windows[0]
+        area = window.screen.areas[0]
+        before, area.ui_type = area.ui_type, "UV"
+        with self._bpy.context.temp_override(window=window, area=area, region=area.regions[-1]):
+            self._bpy.ops.uv.select_all(action="SELECT")
+            assert self._bpy.ops.uv.minimize_stretch(iterations=iterations) == {"FINISHED"}
+        area.ui_type = before
+        return self.uv()
+
+    def pinned(self, corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Return the LSCM map with these `corners` (C,) bool pinned at their `points` (C, 2)."""
+        self._pin(corners, points)
+        uv = self.unwrap("CONFORMAL")
+        self._pin(corners, points, pin=False)
+        return uv
+
+    def uv(self) -> np.ndarray:
+        """Return the active map, (C, 2)."""
+        bm, layer = self._layer()
+        return np.array([loop[layer].uv for face in bm.faces for loop in face.loops], dtype=np.float64)
+
+    def _pin(self, corners: np.ndarray, points: np.ndarray, pin: bool = True) -> None:
+        bm, layer = self._layer()
+        loops = (loop for face in bm.faces for loop in face.loops)
+        for loop, is_pinned, point in zip(loops, corners.tolist(), points.tolist(), strict=True):
+            if is_pinned:
+                loop[layer].uv = point
+                loop[layer].pin_uv = pin
+
+    def _layer(self) -> tuple[Any, Any]:
+        import bmesh
+
+        bm = bmesh.from_edit_mesh(self._bpy.context.object.data)
+        return bm, bm.loops.layers.uv.active
+
+
+def _timed(call: Callable[[], np.ndarray], rounds: int) -> tuple[float, np.ndarray]:
+    found = []
+    for _ in range(rounds):
+        start = time.perf_counter()
+        uv = call()
+        found.append((time.perf_counter() - start, uv))
+    return min(found, key=lambda each: each[0])
+
+
+def measures(mesh: Mesh, uv: np.ndarray, chains: Sequence[Sequence[int]] = ()) -> runs.Figures:
+    """Return the figures of a map, (C, 2); `chains` of vertices are to be straight."""
+    import spectral_conformal as sc
+
+    from tests.benchmarks import map_measures
+
+    faces = sc.face_distortion(*mesh, uv)
+    good = (faces.area > 0) & np.isfinite(faces.qc) & np.isfinite(faces.log2_scale)
+    area, scale = faces.area[good], faces.log2_scale[good]
+    whole = map_measures.measure(*mesh, uv)
+    return {
+        "qc": float(np.average(faces.qc[good], weights=area)),
+        "energy": whole.energy,
+        "spread": float(np.sqrt(np.average((scale - np.average(scale, weights=area)) ** 2, weights=area))),
+        "flipped": whole.flipped,
+        "overlapping": whole.overlapping,
+        "bent": max((_bend(_of_vertices(mesh, uv)[list(chain)]) for chain in chains), default=0.0)
+        / _image_area(mesh, uv) ** 0.5,
+    }
+
+
+def _of_vertices(mesh: Mesh, uv: np.ndarray) -> np.ndarray:
+    points = np.zeros((len(mesh.vertices), 2))
+    points[mesh.corner_vertices] = uv
+    return points
+
+
+def _image_area(mesh: Mesh, uv: np.ndarray) -> float:
+    a, b, c = (_of_vertices(mesh, uv)[mesh.triangles()[:, k]] for k in range(3))
+    return abs(float(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum()) / 2.0)
+
+
+def _bend(points: np.ndarray) -> float:
+    """Return the distance of the farthest point from the line that lies best."""
+    centered = points - points.mean(axis=0)
+    return float(np.abs(centered @ np.linalg.svd(centered, full_matrices=False)[2][1]).max())
+
+
+def sides_of(mesh: Mesh, points: np.ndarray) -> list[list[int]]:
+    """Return the four sides of a patch between the corners of its border in a map, `points` (V, 2), in its winding.
+
+    Raises:
+        NotMeasured: it has no single border.
+    """
+    import spectral_conformal as sc
+
+    faces = np.split(mesh.corner_vertices, mesh.face_offsets[1:-1])
+    try:
+        loop = sc._constraints._border_loop([face.tolist() for face in faces])
+    except ValueError as error:
+        raise runs.NotMeasured(str(error)) from None
+    along = points[loop] - points[loop].mean(axis=0)
+    before, own, after = (mesh.vertices[np.roll(loop, k)] for k in (1, 0, -1))
+    to = [(end - own) / np.linalg.norm(end - own, axis=1)[:, None] for end in (before, after)]
+    # The farthest in four directions; of those nearly as far, the sharpest, which in a net of triangles may be next.
+    sharpness = 0.05 * np.ptp(along, axis=0).max() * (to[0] * to[1]).sum(axis=1)
+    directions = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    corners = sorted({int(np.argmax(along @ direction + sharpness)) for direction in directions})
+    if len(corners) < 4:
+        raise runs.NotMeasured("its border has no four corners")
+    loop = [*loop[corners[0] :], *loop[: corners[0] + 1]]
+    ends = [*(corner - corners[0] for corner in corners), len(loop) - 1]
+    return [loop[a : b + 1] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+
+
+def _lengths(mesh: Mesh, chain: Sequence[int]) -> np.ndarray:
+    """Return the length from the chain's first vertex to each, (n,)."""
+    steps = np.linalg.norm(np.diff(mesh.vertices[list(chain)], axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _scale(mesh: Mesh, uv: np.ndarray) -> float:
+    a, b, c = (mesh.vertices[mesh.triangles()[:, k]] for k in range(3))
+    return float((_image_area(mesh, uv) / (np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2.0)) ** 0.5)
+
+
+def _straightened(mesh: Mesh, uv: np.ndarray, chain: Sequence[int]) -> np.ndarray:
+    """Return the points of the vertices, (V, 2), with the chain on the line through its ends, as long as in 3D."""
+    points = _of_vertices(mesh, uv)
+    first, last = points[chain[0]].copy(), points[chain[-1]].copy()
+    lengths = _lengths(mesh, chain)
+    direction = (last - first) / np.linalg.norm(last - first)
+    start = (first + last) / 2.0 - direction * lengths[-1] * _scale(mesh, uv) / 2.0
+    points[list(chain)] = start + lengths[:, None] * _scale(mesh, uv) * direction
+    return points
+
+
+def _on_rectangle(mesh: Mesh, uv: np.ndarray, sides: Sequence[Sequence[int]]) -> np.ndarray:
+    """Return the points of the vertices, (V, 2), with the sides on a rectangle as wide and high as they are long."""
+    points = _of_vertices(mesh, uv)
+    lengths = [_lengths(mesh, side) for side in sides]
+    width, height = ((lengths[k][-1] + lengths[k + 2][-1]) / 2.0 * _scale(mesh, uv) for k in (0, 1))
+    starts = np.array([(0, 0), (width, 0), (width, height), (0, height)])
+    for k, (side, length) in enumerate(zip(sides, lengths, strict=True)):
+        points[list(side)] = starts[k] + (length / length[-1])[:, None] * (starts[(k + 1) % 4] - starts[k])
+    return points
+
+
+def methods(meshes: Sequence[Mesh], rounds: int = ROUNDS) -> runs.Figures:
+    """Map a mesh by every method, in a Blender; return the rows, each with its figures or why there are none."""
+    (mesh,) = meshes
+    blender = _InBlender(mesh)
+    import spectral_conformal as sc
+
+    relaxing = importlib.import_module("spectral_unwrap.core.solve.relaxing")
+    rows: dict[str, runs.Figures] = {}
+
+    def row(name: str, call: Callable[[], np.ndarray], chains: Sequence[Sequence[int]] = (), n: int = rounds) -> None:
+        try:
+            seconds, uv = _timed(call, n)
+        except (ValueError, sc.SolveError, runs.NotMeasured) as reason:
+            rows[name] = {"reason": str(reason)}
+            return
+        rows[name] = {**measures(mesh, uv, chains), "seconds": seconds}
+
+    def relaxed(uv: np.ndarray, sizes: float, faces: np.ndarray | None = None) -> np.ndarray:
+        polygons = relaxing.PolygonMesh(
+            *mesh,
+            seam_edges=np.empty((0, 2), dtype=np.int32),
+            selected_faces=np.ones(len(mesh.face_offsets) - 1, dtype=bool) if faces is None else faces,
+            uv=uv,
+        )
+        return relaxing.relax([polygons], relaxing.RelaxOptions(sizes), MANY_STEPS)[1].maps[0]
+
+    for method in blender.methods:
+        options = {"iterations": 10} if method == "MINIMUM_STRETCH" else {}
+        row(method, lambda method=method, options=options: blender.unwrap(method, **options))
+    conformal = blender.unwrap("CONFORMAL")
+    row("CONFORMAL, minimize_stretch, 10", lambda: (blender.unwrap("CONFORMAL"), blender.minimize_stretch(10))[1])
+    row("unwrap", lambda: sc.unwrap(*mesh).uv)
+    row("unwrap, No Flip", lambda: sc.unwrap(*mesh, fold_free=True).uv)
+    for sizes in (0.0, 0.5, 1.0):
+        row(f"unwrap and relax, sizes {sizes:g}", lambda sizes=sizes: relaxed(sc.unwrap(*mesh).uv, sizes))
+    start = sc.unwrap(*mesh).uv
+    # Half of the faces, those on one side.
+    height = np.add.reduceat(mesh.vertices[mesh.corner_vertices, 1], mesh.face_offsets[:-1])
+    height /= np.diff(mesh.face_offsets)
+    half = height < np.median(height)
+    row("unwrap, half of it relaxed in place, sizes 1", lambda: relaxed(start, 1.0, half))
+
+    triangles = mesh.triangles()
+    try:
+        sides = sides_of(mesh, _of_vertices(mesh, start))
+    except runs.NotMeasured as reason:
+        rows["straight side"] = {"reason": str(reason)}
+        return rows
+    faces = [face.tolist() for face in np.split(mesh.corner_vertices, mesh.face_offsets[1:-1])]
+    side, corners = sides[0], [each[0] for each in sides]
+    for what, constraints, chains, pin in (
+        ("one side straight", lambda: sc.Constraints(horizontal=[side]), [side], _straightened),
+        ("rectangle", lambda: sc.Constraints.rectangle(faces, corners), sides, _on_rectangle),
+    ):
+        row(
+            f"{what}, constraints",
+            lambda constraints=constraints: sc.parameterize(mesh.vertices, triangles, constraints=constraints()).uv[
+                mesh.corner_vertices
+            ],
+            chains,
+        )
+        pinned = np.isin(mesh.corner_vertices, np.concatenate(chains))
+        points = pin(mesh, conformal, side if pin is _straightened else sides)[mesh.corner_vertices]
+        row(
+            f"{what}, pinned, CONFORMAL",
+            lambda pinned=pinned, points=points: (blender.unwrap("CONFORMAL"), blender.pinned(pinned, points))[1],
+            chains,
+        )
+    return rows
+
+
+def reach(meshes: Sequence[Mesh], rounds: int = 1) -> runs.Figures:
+    """Let a relaxation run beside MINIMUM_STRETCH with 10 iterations, in a Blender."""
+    (mesh,) = meshes
+    blender = _InBlender(mesh)
+    if "MINIMUM_STRETCH" not in blender.methods:
+        raise runs.NotMeasured("this Blender has no MINIMUM_STRETCH")
+    import spectral_conformal as sc
+
+    theirs, uv = _timed(lambda: blender.unwrap("MINIMUM_STRETCH", iterations=10), rounds)
+    their_energy = measures(mesh, uv)["energy"]
+    triangles = mesh.triangles()
+    start = time.perf_counter()
+    given = sc.parameterize(mesh.vertices, triangles).uv
+    unwrapped = time.perf_counter() - start
+    relaxation = sc.Relaxation(mesh.vertices, triangles, given, sizes=1.0, tolerance=0.0)
+    # Seconds without those of measuring; energies at the best scale of the whole map, as theirs.
+    seconds, path, goes_on = time.perf_counter() - start, [], True
+    while goes_on and len(path) < 300:
+        begin = time.perf_counter()
+        goes_on = relaxation.step(1)
+        seconds += time.perf_counter() - begin
+        path.append((seconds, relaxation.energy))
+    end = path[-1][1]
+    default, by_default = _timed(
+        lambda: sc.relax(mesh.vertices, triangles, given, sizes=1.0).uv[mesh.corner_vertices], 1
+    )
+    return {
+        "vertices": len(mesh.vertices),
+        "theirs": theirs,
+        "their_energy": their_energy,
+        "unwrap": unwrapped,
+        "below": next((each for each, energy in path if energy < their_energy), None),
+        "near": next((each for each, energy in path if energy < 1.001 * end), None),
+        "end": end,
+        "default": default,
+        "default_energy": measures(mesh, by_default)["energy"],
+    }
+
+
+def memory(meshes: Sequence[Mesh], is_relaxed: bool) -> runs.Figures:
+    """Return the peak of memory of a plain solve, or of the relaxation of its map, and of the process before."""
+    import spectral_conformal as sc
+
+    (mesh,) = meshes
+    triangles = mesh.triangles()
+    before = runs.peak_megabytes()
+    uv = sc.parameterize(mesh.vertices, triangles).uv
+    if is_relaxed:
+        sc.relax(mesh.vertices, triangles, uv, sizes=1.0)
+    return {"megabytes": runs.peak_megabytes(), "before": before}
+
+
+def _models(n: int) -> dict[str, Mesh]:
+    """Return one generated patch of about `n` vertices of every kind."""
+    return {name: scene.meshes()[0] for name, scene in generated.kinds(n).items() if "many" not in name}
+
+
+def _print_methods(found: dict[str, dict[str, runs.Figures]]) -> None:
+    for mesh, rows in found.items():
+        print(f"\n| {mesh} | {' | '.join(TITLES)} |\n{'|---' * (len(TITLES) + 1)}|")
+        for name, row in rows.items():
+            if "reason" in row:
+                print(f"| {name} | {row['reason']} |{' |' * (len(TITLES) - 1)}")
+                continue
+            cells = (
+                f"{row['qc']:.4f}",
+                f"{row['energy']:.4f}",
+                f"{row['spread']:.3f}",
+                row["flipped"],
+                row["overlapping"],
+                f"{row['bent']:.1e}" if "straight" in name or "rectangle" in name else "",
+                f"{row['seconds']:.3f}",
+            )
+            print(f"| {name} | {' | '.join(map(str, cells))} |", flush=True)
+
+
+def _print_reach(found: Sequence[runs.Figures]) -> None:
+    print(
+        "\n| vertices | MINIMUM_STRETCH, s | its energy | unwrap, s | below it after, s | of its time "
+        "| within 0.1 % after, s | energy at the end | relax to its tolerance, s | its energy | peak of a solve, MB "
+        f"| of a relaxation, MB |\n{'|---' * 12}|"
+    )
+    for row in found:
+        below, near = row["below"], row["near"]
+        share = "" if below is None else f"{below / row['theirs']:.2f}"
+        print(
+            f"| {row['vertices']} | {row['theirs']:.2f} | {row['their_energy']:.4f} | {row['unwrap']:.2f} "
+            f"| {'never' if below is None else format(below, '.2f')} | {share} | {near:.2f} | {row['end']:.4f} "
+            f"| {row['default']:.2f} | {row['default_energy']:.4f} | {row['solve_megabytes']:.0f} "
+            f"| {row['relax_megabytes']:.0f} |",
+            flush=True,
+        )
+
+
+def main() -> None:
+    """Measure what the command line names."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="*", type=Path, metavar="mesh.obj")
+    parser.add_argument("--vertices", type=int, default=VERTICES, help=f"of generated models, default {VERTICES}")
+    parser.add_argument("--reach", action="store_true", help="the relaxation beside MINIMUM_STRETCH")
+    parser.add_argument("--sizes", nargs="+", type=int, default=REACH, metavar="N", help="vertices, for --reach")
+    parser.add_argument("--blender", default=runs.BLENDER, help=f"default {runs.BLENDER}")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to this file")
+    options = parser.parse_args()
+    given = {path.name: generated.read(path) for path in options.files}
+    kept: Any
+    if options.reach:
+        scenes = [generated.Scene(round(n**0.5), is_triangulated=True) for n in options.sizes]
+        models = given or {str(scene.n_vertices): scene.meshes()[0] for scene in scenes}
+        kept = []
+        for mesh in models.values():
+            row = runs.run("working_maps", "reach", {}, [mesh], options.blender)
+            for name, is_relaxed in (("solve", False), ("relax", True)):
+                found = runs.run("working_maps", "memory", {"is_relaxed": is_relaxed}, [mesh])
+                row[f"{name}_megabytes"] = found["megabytes"] - found["before"]
+            kept.append(row)
+        _print_reach(kept)
+    else:
+        models = given or _models(options.vertices)
+        kept = {}
+        for name, mesh in models.items():
+            kept[name] = runs.run("working_maps", "methods", {}, [mesh], options.blender)
+            _print_methods({name: kept[name]})
+    if options.json:
+        options.json.write_text(json.dumps(kept, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    runs.answer(methods, reach, memory) if runs.is_measuring() else main()

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Spectral Relax: what moves, what stays to the last bit, and what it reports."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.inside import scenes
+
+N = 6
+
+
+def hill(name="Hill", offset=0.0):
+    """A hill of N x N quads whose map is its view from above, (C, 2), in edit mode."""
+    x, y = np.meshgrid(np.arange(N + 1), np.arange(N + 1))
+    height = 3.0 * np.exp(-((x - 3.0) ** 2 + (y - 3.4) ** 2) / 3.0)
+    vertices = np.stack([x + offset, y, height], axis=-1).reshape(-1, 3)
+    return scenes.new_object(vertices, scenes._quads(N, N, N + 1), name=name)
+
+
+def flatten(edited):
+    """Map by the view from above, as single precision has it."""
+    uv = (scenes.corner_positions(edited)[:, :2] / (2.0 * N)).astype(np.float32)
+    scenes.write_uv(edited, uv.tolist())
+    return scenes.read_uv(edited)
+
+
+def edit_hill():
+    edited = hill()
+    scenes.edit(edited)
+    return edited, flatten(edited)
+
+
+def deviation(edited):
+    return np.log(scenes.stretches(edited)).std()
+
+
+def test_whole_islands_of_many_objects_get_even(reports):
+    first, second = hill(), hill("Second", offset=10.0)
+    scenes.edit(first, second)
+    for edited in (first, second):
+        flatten(edited)
+    before, state = deviation(first), scenes.state(first)
+    assert bpy.ops.uv.spectral_relax(sizes=1.0) == {"FINISHED"}
+    assert deviation(first) < 0.8 * before
+    assert deviation(second) < 0.8 * before
+    assert scenes.state(first) == state
+    ((level, text),) = reports()
+    assert level == "Info"
+    assert "lower" in text and "no flipped faces" in text
+
+
+def test_selected_faces_move_and_what_others_share_stays_to_the_bit():
+    edited, before = edit_hill()
+    chosen = [N * row + column for row in range(1, 5) for column in range(4)]
+    scenes.select_faces(edited, chosen)
+    assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
+    moved = (scenes.read_uv(edited) != before).any(axis=1)
+    bm = scenes.edit_mesh(edited)
+    inside = {v for v in bm.verts if all(face.index in chosen for face in v.link_faces)}
+    may_move = np.array([loop.vert in inside for face in bm.faces for loop in face.loops])
+    assert not moved[~may_move].any()
+    # The border of the island is free.
+    assert moved[may_move].all()
+
+
+def test_hidden_faces_and_pins_stay():
+    edited, before = edit_hill()
+    bm = scenes.edit_mesh(edited)
+    layer = bm.loops.layers.uv.active
+    hidden, pinned = bm.faces[8], bm.faces[22].loops[0].vert
+    for loop in pinned.link_loops:
+        loop[layer].pin_uv = True
+    stay = np.array([v in set(hidden.verts) | {pinned} for f in bm.faces for v in (loop.vert for loop in f.loops)])
+    hidden.hide_set(True)
+    bmesh.update_edit_mesh(edited.data)
+    assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
+    moved = (scenes.read_uv(edited) != before).any(axis=1)
+    assert not moved[stay].any()
+    assert moved[~stay].all()
+
+
+def test_held_border():
+    edited, before = edit_hill()
+    assert bpy.ops.uv.spectral_relax(hold_border=True) == {"FINISHED"}
+    moved = (scenes.read_uv(edited) != before).any(axis=1)
+    bm = scenes.edit_mesh(edited)
+    on_border = np.array([loop.vert.is_boundary for face in bm.faces for loop in face.loops])
+    np.testing.assert_array_equal(moved, ~on_border)
+
+
+def test_same_steps_give_the_same_map_and_more_steps_a_better_one():
+    edited, before = edit_hill()
+    found = []
+    for steps in (1, 1, 50):
+        scenes.write_uv(edited, before.tolist())
+        assert bpy.ops.uv.spectral_relax(steps=steps, sizes=1.0) == {"FINISHED"}
+        found.append((scenes.read_uv(edited), deviation(edited)))
+    np.testing.assert_array_equal(found[0][0], found[1][0])
+    assert found[2][1] < found[0][1]
+
+
+@pytest.mark.parametrize("sync", [False, True])
+def test_selection_of_the_uv_editor(sync):
+    window = bpy.context.window_manager.windows[0]
+    area = window.screen.areas[0]
+    area.ui_type = "UV"
+    bpy.context.scene.tool_settings.use_uv_select_sync = sync
+    edited, before = edit_hill()
+    half = scenes.corners_of(edited, range(N * N // 2))
+    if sync:
+        scenes.select_faces(edited, range(N * N // 2))
+    else:
+        scenes.set_uv_flags(edited, half)
+    with bpy.context.temp_override(window=window, area=area):
+        assert bpy.ops.uv.spectral_relax() == {"FINISHED"}
+    moved = (scenes.read_uv(edited) != before).any(axis=1)
+    middle = np.isclose(before[:, 1], 0.25)
+    assert not moved[~half | middle].any()
+    assert moved[half & ~middle].all()
+
+
+def test_folds_go_where_asked(reports):
+    edited, before = edit_hill()
+    # The middle lies beside the island.
+    folded = before.copy()
+    folded[np.isclose(before, 0.25).all(axis=1)] = (0.9, 0.3)
+    scenes.write_uv(edited, folded.tolist())
+    assert bpy.ops.uv.spectral_relax(unfold=True) == {"FINISHED"}
+    assert "no flipped faces" in reports()[-1][1]
+
+
+def test_nothing_that_can_move_is_said(reports):
+    edited, before = edit_hill()
+    scenes.select_faces(edited, [14])
+    assert bpy.ops.uv.spectral_relax() == {"CANCELLED"}
+    np.testing.assert_array_equal(scenes.read_uv(edited), before)
+    assert reports()[0][0] == "Warning"
+
+
+def test_without_a_uv_map_it_says_so(reports):
+    scenes.edit(scenes.grid(2, 2, uv_map=False))
+    assert bpy.ops.uv.spectral_relax() == {"CANCELLED"}
+    assert "UV map" in reports()[0][1]

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Relaxing the maps of polygon meshes, with the real module."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import spectral_conformal
+from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+from spectral_unwrap.core.solve.relaxing import Relaxing, RelaxOptions, relax
+
+N = 8
+
+
+def hill(**fields):
+    """A hill of N x N quads, mapped by its view from above."""
+    y, x = np.mgrid[: N + 1, : N + 1].reshape(2, -1)
+    vertices = np.stack([x, y, 3.0 * np.exp(-((x - 4.0) ** 2 + (y - 4.4) ** 2) / 4.0)], axis=1)
+    corner = (np.arange(N)[:, None] * (N + 1) + np.arange(N)).reshape(-1, 1)
+    corners = (corner + np.array([0, 1, N + 2, N + 1])).ravel().astype(np.int32)
+    given = {
+        "vertices": vertices,
+        "face_offsets": np.arange(0, 4 * N * N + 1, 4, dtype=np.int32),
+        "corner_vertices": corners,
+        "seam_edges": np.empty((0, 2), dtype=np.int32),
+        "selected_faces": np.ones(N * N, dtype=bool),
+        "uv": vertices[corners, :2] / N,
+    }
+    return PolygonMesh(**{**given, **fields})
+
+
+def part(rows, columns):
+    chosen = np.zeros((N, N), dtype=bool)
+    chosen[rows, columns] = True
+    return chosen.ravel()
+
+
+def moved(mesh, found):
+    return (found.maps[0] != mesh.uv).any(axis=1)
+
+
+def defects(mesh, uv):
+    found = spectral_conformal.map_defects(mesh.face_offsets, mesh.corner_vertices, uv.astype(np.float32))
+    return int(found.flipped.sum()), int(found.overlapping.sum())
+
+
+def test_a_whole_island_relaxes_until_no_step_helps():
+    mesh = hill()
+    _, found = relax([mesh], RelaxOptions(sizes=1.0), 1000)
+    assert found.is_at_end
+    assert 0.3 < found.gain < 1.0
+    assert defects(mesh, found.maps[0]) == (0, 0)
+    _, again = relax([replace(mesh, uv=found.maps[0])], RelaxOptions(sizes=1.0), 1000)
+    assert again.gain < 0.01
+
+
+def test_points_of_faces_that_are_not_selected_stay_to_the_bit():
+    mesh = hill(selected_faces=part(slice(1, 6), slice(0, 5)))
+    _, found = relax([mesh], RelaxOptions(), 100)
+    face = mesh.face_of_corner()
+    others = np.isin(mesh.corner_vertices, mesh.corner_vertices[~mesh.selected_faces[face]])
+    np.testing.assert_array_equal(moved(mesh, found), ~others)
+
+
+def test_a_cut_in_the_map_parts_what_is_held_from_what_moves():
+    # The upper half lies apart in the map; no seam is marked.
+    mesh = hill(selected_faces=part(slice(0, 4), slice(0, N)))
+    mesh.uv[~mesh.selected_faces[mesh.face_of_corner()]] += 2.0
+    _, found = relax([mesh], RelaxOptions(), 100)
+    np.testing.assert_array_equal(moved(mesh, found), mesh.selected_faces[mesh.face_of_corner()])
+
+
+def test_pins_and_a_held_border_stay():
+    pinned = np.zeros(4 * N * N, dtype=bool)
+    # One corner of a point pins it.
+    corner = 4 * (3 * N + 3)
+    pinned[corner] = True
+    mesh = hill(pinned_corners=pinned)
+    relaxing, found = relax([mesh], RelaxOptions(hold_border=True), 100)
+    x, y = (mesh.vertices[mesh.corner_vertices, k] for k in (0, 1))
+    stays = (x == 0) | (x == N) | (y == 0) | (y == N) | (mesh.corner_vertices == mesh.corner_vertices[corner])
+    np.testing.assert_array_equal(moved(mesh, found), ~stays)
+    np.testing.assert_array_equal(relaxing.corners[0], ~stays)
+
+
+def test_a_part_does_not_grow_over_the_rest_of_its_island():
+    arms = part(slice(0, N), [0, 1, 2, 5, 6, 7]) | part(slice(0, 2), slice(0, N))
+    selected = part(slice(2, N), [0, 1, 2])
+    whole = hill()
+    corners = arms[whole.face_of_corner()]
+    # Flat, with a hair between the arms of a U in the map, of which the selected one wants to be twice as wide.
+    x, y = (whole.vertices[whole.corner_vertices[corners], k] for k in (0, 1))
+    mesh = PolygonMesh(
+        vertices=whole.vertices * (1.0, 1.0, 0.0),
+        face_offsets=np.arange(0, corners.sum() + 1, 4, dtype=np.int32),
+        corner_vertices=whole.corner_vertices[corners],
+        seam_edges=whole.seam_edges,
+        selected_faces=selected[arms],
+        uv=np.stack([np.interp(x, (0, 3, 5, 8), (0, 1.5, 1.6, 4.6)), y], axis=1) / N,
+    )
+    assert defects(mesh, mesh.uv) == (0, 0)
+    _, found = relax([mesh], RelaxOptions(sizes=1.0), 200)
+    assert moved(mesh, found).any()
+    assert defects(mesh, found.maps[0]) == (0, 0)
+
+
+def test_many_steps_are_single_steps_and_meshes_end_on_their_own():
+    meshes = [hill(), hill(vertices=hill().vertices * (1.0, 1.0, 0.0))]
+    relaxing = Relaxing(meshes, RelaxOptions())
+    while relaxing.step(1):
+        pass
+    _, found = relax(meshes, RelaxOptions(), 1000)
+    np.testing.assert_array_equal(relaxing.now().maps[0], found.maps[0])
+    assert relaxing.now().steps == found.steps
+    # The second is flat and has nothing to gain.
+    np.testing.assert_allclose(found.maps[1], meshes[1].uv, atol=1e-9)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_unfolded_first(mirrored):
+    mesh = hill()
+    sign = -1.0 if mirrored else 1.0
+    mesh.uv[:, 0] *= sign
+    middle = mesh.uv.mean(axis=0)
+    inside = np.abs(mesh.uv - middle).max(axis=1) < 0.3
+    mesh.uv[inside] = middle - (mesh.uv[inside] - middle) * (1.0, -1.0)
+    assert sum(defects(mesh, mesh.uv)) > 0
+    _, found = relax([mesh], RelaxOptions(unfold=True), 200)
+    assert defects(mesh, found.maps[0]) == (0, 0)
+    a, b, c = (found.maps[0].reshape(-1, 4, 2)[:, k] for k in range(3))
+    assert (np.sign(np.cross(b - a, c - a)) == sign).all()
+    np.testing.assert_allclose(found.maps[0].mean(axis=0), middle, atol=0.05)
+
+
+def test_uvs_that_are_not_finite_stay_and_hold_nothing_else_up():
+    mesh = hill()
+    mesh.uv[0] = np.nan
+    _, found = relax([mesh], RelaxOptions(), 50)
+    np.testing.assert_array_equal(found.maps[0][:4], mesh.uv[:4])
+    assert np.isfinite(found.maps[0][4:]).all()
+    assert moved(mesh, found)[4:].any()
+
+
+def test_the_aspect_of_the_image_counts():
+    mesh = hill()
+    _, found = relax([mesh], RelaxOptions(), 1000)
+    wide = replace(mesh, aspect=4.0, uv=mesh.uv / (2.0, 0.5))
+    _, found_wide = relax([wide], RelaxOptions(), 1000)
+    np.testing.assert_allclose(found_wide.maps[0] * (2.0, 0.5), found.maps[0], atol=1e-9)
+
+
+def test_nothing_to_move():
+    mesh = hill(selected_faces=part(3, 3))
+    relaxing, found = relax([mesh], RelaxOptions(), 10)
+    assert not relaxing.can_move
+    np.testing.assert_array_equal(found.maps[0], mesh.uv)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a window: an artist lets a map relax, restores it by Esc and keeps it by Enter or a click.
+
+blender --factory-startup --python drive_relax.py -- <folder for the screenshots> <file for the verdict>
+"""
+
+import importlib
+import time
+
+import bmesh
+import bpy
+import numpy as np
+
+from tests.interface import driving as drive
+from tests.interface.session import area_of, override, point_at, screenshot, uv, xdotool
+
+SIZE = 24  # faces along a side
+# Steps that relaxations may take; the rest wait, because they would end before a key is pressed.
+allowed = [0]
+
+
+def let_steps_wait():
+    relax_view = importlib.import_module("spectral_unwrap.operators.relax_view")
+
+    class Waiting(relax_view.Relaxing):
+        def step(self, n, progress):
+            while self._steps >= allowed[0] and progress(0.0, ""):
+                time.sleep(0.01)
+            return super().step(n, progress)
+
+    relax_view.Relaxing = Waiting
+
+
+def open_hill():
+    """Put a hill into edit mode whose map is its view from above."""
+    with override("VIEW_3D"):
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=SIZE, y_subdivisions=SIZE)
+        bpy.ops.object.mode_set(mode="EDIT")
+        mesh = bpy.context.edit_object.data
+        bm = bmesh.from_edit_mesh(mesh)
+        layer = bm.loops.layers.uv.active
+        for vertex in bm.verts:
+            x, y, _ = vertex.co
+            for loop in vertex.link_loops:
+                loop[layer].uv = (0.5 + 0.3 * x, 0.5 + 0.3 * y)
+            vertex.co.z = 1.2 * np.exp(-6.0 * ((x - 0.2) ** 2 + (y + 0.1) ** 2))
+        bmesh.update_edit_mesh(mesh)
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Hill")
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    settings = bpy.context.window_manager.spectral_map_overlay
+    settings.show = True
+    yield from drive.show_uvs()
+
+
+def choice():
+    running = importlib.import_module("spectral_unwrap.operators.job_operator").running()
+    return running and running.choice
+
+
+def relax(steps):
+    """Start it from the viewport, and wait until so many steps are drawn."""
+    allowed[0] = steps
+    point_at("VIEW_3D", 0.4, 0.4)
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_relax("INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
+    yield from drive.until(lambda: choice() and choice().answer and choice().answer.steps == steps)
+
+
+def view():
+    return area_of("VIEW_3D").spaces.active.region_3d.view_distance
+
+
+def steps():
+    history = bpy.context.window_manager.operators
+    yield from drive.open_uv_editing()
+    yield from open_hill()
+    let_steps_wait()
+    before, done = uv(), len(history)
+
+    # Keys do nothing and the wheel moves the view, as the map goes on; Esc brings back every bit.
+    yield from relax(2)
+    assert not np.array_equal(uv(), before)
+    distance = view()
+    xdotool("key", "x", "key", "Tab", "key", "a", "click", 4)
+    yield from drive.until(lambda: view() != distance)
+    assert bpy.context.mode == "EDIT_MESH"
+    screenshot("relaxing")
+    xdotool("key", "Escape")
+    yield from drive.until(lambda: choice() is None)
+    yield
+    np.testing.assert_array_equal(uv(), before)
+    assert len(history) == done
+    screenshot("relax_restored")
+
+    # Enter keeps what is drawn, as one step to undo, and as often as it was repeated.
+    yield from relax(3)
+    xdotool("key", "Return")
+    yield from drive.until(lambda: choice() is None)
+    yield
+    kept = uv()
+    assert not np.array_equal(kept, before)
+    assert (history[-1].bl_idname, history[-1].steps) == ("UV_OT_spectral_relax", 3)
+    screenshot("relax_kept")
+    yield from drive.check_undo_and_redo(before, kept)
+    xdotool("key", "ctrl+z")
+    yield
+    yield
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_relax("EXEC_DEFAULT", True, steps=3) == {"FINISHED"}
+    np.testing.assert_array_equal(uv(), kept)
+
+    # A click keeps it, too; and without either it ends by itself.
+    yield from relax(1)
+    xdotool("click", 1)
+    yield from drive.until(lambda: choice() is None)
+    allowed[0] = 1000
+    with override("VIEW_3D"):
+        assert bpy.ops.uv.spectral_relax("INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
+    yield from drive.until(lambda: choice() is None)
+    yield
+    screenshot("relaxed")
+    assert history[-1].steps == 200
+    assert choice() is None
+
+
+drive.run(steps())
