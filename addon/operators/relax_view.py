@@ -104,7 +104,4 @@ class RelaxView:
         while goes_on and steps < self._max_steps:
             goes_on = self._relaxing.step(1, progress)
             steps += 1
-            # Maps that nobody draws are not made.
-            is_last = not goes_on or steps == self._max_steps
-            if is_last or self._latest is self.answer:
-                self._latest = self._relaxing.now()
+            self._latest = self._relaxing.now()

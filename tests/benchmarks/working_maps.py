@@ -293,7 +293,7 @@ def reach(meshes: Sequence[Mesh], rounds: int = 1) -> runs.Figures:
     relaxation = sc.Relaxation(mesh.vertices, triangles, given, sizes=1.0, tolerance=0.0)
     # Seconds without those of measuring; energies at the best scale of the whole map, as theirs.
     seconds, path, goes_on = time.perf_counter() - start, [], True
-    while goes_on and len(path) < 300:
+    while goes_on and not (len(path) > 20 and path[-1][1] > (1.0 - 1e-6) * path[-20][1]):
         begin = time.perf_counter()
         goes_on = relaxation.step(1)
         seconds += time.perf_counter() - begin

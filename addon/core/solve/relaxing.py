@@ -5,6 +5,7 @@ A point is a vertex of the mesh at one position in the map, whichever faces have
 not selected are held, and so are pins. Faces around the selection take part, so that it overlaps none of its island.
 """
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -91,21 +92,20 @@ class RelaxingMap:
         """Whether any corner may move and has a surface beside it."""
         return self.area > 0.0 and bool(self.corners.any())
 
-    @property
-    def energy(self) -> float:
-        """The mean energy of the present map."""
-        return self._relaxation.energy
+    def now(self) -> tuple[np.ndarray, float]:
+        """Return the present points, for `uv`, and their mean energy."""
+        found = self._relaxation.result
+        return found.uv, found.energy
 
     def step(self, n: int, progress: Progress | None = None) -> bool:
         """Take up to `n` steps; return whether there may be more."""
         return self._relaxation.step(n, progress=progress)
 
-    def uv(self) -> np.ndarray:
-        """Return the present map, (C, 2); what has not moved is the same to the last bit."""
-        now = self._relaxation.uv
-        moved = (now != self._start).any(axis=1)[self._point]
+    def uv(self, points: np.ndarray) -> np.ndarray:
+        """Return the map, (C, 2), of points from `now`; what has not moved is the same to the last bit."""
+        moved = (points != self._start).any(axis=1)[self._point]
         found = self._mesh.uv.copy()
-        found[moved] = self._mesh.from_isotropic_uv(now[self._point[moved]])
+        found[moved] = self._mesh.from_isotropic_uv(points[self._point[moved]])
         return found
 
 
@@ -114,16 +114,23 @@ class Relaxed:
     """Maps after some steps.
 
     Attributes:
-        maps: (C, 2) of every mesh.
         steps: number of steps.
         gain: fraction of the distortion, above that of an isometry or a similarity, that is gone.
         is_at_end: whether no further step lowers it.
+        points: of every mesh.
+        meshes: whose points they are.
     """
 
-    maps: Sequence[np.ndarray]
     steps: int
     gain: float
     is_at_end: bool
+    points: Sequence[np.ndarray]
+    meshes: Sequence[RelaxingMap]
+
+    @functools.cached_property
+    def maps(self) -> list[np.ndarray]:
+        """The map of every mesh, (C, 2)."""
+        return [mesh.uv(points) for mesh, points in zip(self.meshes, self.points)]
 
 
 class Relaxing:
@@ -164,11 +171,14 @@ class Relaxing:
 
     def now(self) -> Relaxed:
         """Return the present maps."""
-        moving = [each for each in self._maps if each.can_move]
-        excess_before = sum(each.area * max(each.energy_before - self._least, 0.0) for each in moving)
-        excess = sum(each.area * max(each.energy - self._least, 0.0) for each in moving)
+        found = [each.now() for each in self._maps]
+        excess = excess_before = 0.0
+        for each, (_, energy) in zip(self._maps, found):
+            if each.can_move:
+                excess_before += each.area * max(each.energy_before - self._least, 0.0)
+                excess += each.area * max(energy - self._least, 0.0)
         gain = 1.0 - excess / excess_before if excess_before > 0.0 else 0.0
-        return Relaxed([each.uv() for each in self._maps], self._steps, gain, not any(self._goes_on))
+        return Relaxed(self._steps, gain, not any(self._goes_on), [points for points, _ in found], self._maps)
 
 
 def relax(
