@@ -24,6 +24,7 @@ TARGETS = {
     "Solver": 10,
     "Unwrapper": 10,
     "distortion": 8,
+    "relax": 8,
     "metric_from_uv": 4,
     "metric_from_direction": 4,
     "blend_metric": 2,
@@ -202,6 +203,20 @@ def check_chart(chart):
     assert 0 <= chart.flipped <= len(chart.faces)
 
 
+def check_relaxed(result, known):
+    given, vertices, triangles = (np.asarray(known[name]) for name in ("uv", "vertices", "triangles"))
+    assert result.uv.shape == given.shape
+    stays = np.ones(len(given), bool)
+    stays[triangles.astype(np.int64)] = False
+    assert np.isfinite(result.uv[~stays]).all()
+    if "fixed" in known:
+        stays |= np.asarray(known["fixed"])
+    assert np.array_equal(result.uv[stays], given[stays], equal_nan=True), "a fixed vertex has moved"
+    assert np.isfinite((result.energy_before, result.energy)).all()
+    assert 0 <= result.steps <= known["max_steps"]
+    assert 0 <= result.flipped <= len(triangles)
+
+
 def check_distortion(result, known):
     n = len(np.asarray(known["triangles"]))
     for values in (result.qc, result.log2_scale, result.flipped, result.overlapping):
@@ -242,6 +257,7 @@ CHECKS = {
     "Parameterization": check_parameterization,
     "Unwrap": check_unwrap,
     "Distortion": check_distortion,
+    "RelaxedMap": check_relaxed,
     "metric_from_uv": check_metric,
     "metric_from_direction": check_metric,
     "blend_metric": check_metric,

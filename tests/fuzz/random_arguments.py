@@ -169,6 +169,13 @@ PARAMETERS = {
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
 POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}
+RELAX_PARAMETERS = {
+    **PARAMETERS,
+    "sizes": lambda rng, mesh: float(rng.choice([0.0, 1.0, rng.random()])),
+    "fixed": lambda rng, mesh: rng.random(len(mesh.vertices)) < rng.uniform(0, 1.2),
+    "weights": lambda rng, mesh: 10 ** rng.uniform(-4, 4, len(mesh.triangles)),
+    "max_steps": lambda rng, mesh: int(rng.integers(0, 30)),
+}
 
 
 def parameters_of(function):
@@ -191,6 +198,10 @@ def random_arguments(rng, mesh, function):
     """Sensible arguments: those that must be given and some of the others."""
     names = parameters_of(function)
     makers = POLYGON_PARAMETERS if "faces" in names else PARAMETERS
+    if function is sc.relax:
+        makers = RELAX_PARAMETERS
+        # Without it, a small tolerance takes a thousand steps.
+        names["max_steps"] = True
     share = rng.uniform(0, 0.5)
     arguments = {name: makers[name](rng, mesh) for name, needed in names.items() if needed or rng.random() < share}
     if "pinned_corners" in arguments:

@@ -183,6 +183,37 @@ def test_the_border_does_not_cover_itself():
     assert sc.distortion(vertices, triangles, relaxed.uv).overlapping.sum() <= count
 
 
+def test_a_border_that_touches_itself_at_the_start_relaxes_too():
+    # A slit whose sides are vertices of their own at the same places.
+    vertices, triangles = bumpy(13)
+    slit = np.flatnonzero((vertices[:, 0] == 0) & (vertices[:, 1] < 0.1))
+    twins = len(vertices) + np.arange(len(slit))
+    beyond = vertices[triangles].mean(axis=1)[:, 0] > 0
+    # The last vertex of the slit is its end, which both sides share.
+    for old, new in zip(slit[:-1], twins[:-1]):
+        triangles[beyond] = np.where(triangles[beyond] == old, new, triangles[beyond])
+    vertices = np.r_[vertices, vertices[slit]]
+    uv = vertices[:, :2].copy()
+    relaxed = sc.relax(vertices, triangles, uv, sizes=1)
+    assert np.isfinite((relaxed.energy_before, relaxed.energy)).all()
+    assert relaxed.energy < relaxed.energy_before - 0.01
+    assert not sc.distortion(vertices, triangles, relaxed.uv).overlapping.any()
+
+
+def test_what_is_held_far_away_changes_nothing():
+    # The same patch with a wide held collar, and with none but its ring; both at the scale of the view from above.
+    vertices, triangles = flat(25)
+    inside = np.abs(vertices[:, :2]).max(axis=1) < 0.3
+    uv = shaken(vertices[:, :2], inside, 0.02)
+    whole = sc.relax(vertices, triangles, uv, fixed=~inside, tolerance=1e-6)
+    near = inside[triangles].any(axis=1)
+    used, local = np.unique(triangles[near], return_inverse=True)
+    # Map and surface have the same area in both.
+    part = sc.relax(vertices[used], local.reshape(-1, 3), uv[used], fixed=~inside[used], tolerance=1e-6)
+    np.testing.assert_allclose(whole.uv[used], part.uv, atol=1e-9)
+    np.testing.assert_array_equal(whole.uv[~inside], uv[~inside])
+
+
 def test_weights_draw_the_distortion_elsewhere():
     vertices, triangles = bumpy()
     uv = sc.parameterize(vertices, triangles).uv

@@ -114,22 +114,26 @@ class Island {
     for (std::size_t t = 0; t < moving.size(); ++t) sum += (elements[t].weight *= their_weights[t]);
     for (DistortionElement& element : elements) element.weight /= sum;
 
-    const ComplexVector given = own;
+    map_ = own;
+    std::vector<BoundaryLoop> border = border_of(all_);
+    if (!has_free_vertex(border)) border.clear();
+    take_part(elements, border);
+    own = part_of(map_);
     if (options.fold_free && count_flipped(elements, own, unplaced) > 0) {
       unfold_locally(elements, fixed_, options.backend, own, progress);
     }
-    overlapping_ = count_overlapping(all_, own);
-    flipped_ = count_flipped(elements, own, unplaced);
-    written_ = given;
     write(own, z);
+    overlapping_ = count_overlapping(all_, map_);
+    flipped_ = count_flipped(elements, own, unplaced);
     DescentOptions descent;
     descent.measure = {options.sizes};
     descent.tolerance = options.tolerance;
     descent.max_factorizations = std::numeric_limits<int>::max();
     descent.keep_all_barriers = true;
-    const std::vector<BoundaryLoop> border = border_of(all_);
-    if (has_free_vertex(border)) descent.boundary = &border_.emplace(border, own);
+    if (!border.empty()) descent.boundary = &border_.emplace(border, own, BoundaryBarrier::Contacts::ignored);
     descent_.emplace(std::move(elements), fixed_, std::move(own), options.backend, descent);
+    // Image areas or coordinates whose squares or inverses double precision cannot hold.
+    if (!std::isfinite(energy_before())) descent_.reset();
   }
 
   bool can_advance() const { return descent_ && !has_ended_; }
@@ -138,8 +142,9 @@ class Island {
   void advance(const Progress& progress, ComplexVector& z) {
     has_ended_ = !descent_->advance(progress);
     const int flipped = count_flipped(descent_->elements(), descent_->z(), unplaced);
-    // Without overlaps, the barrier of the border keeps it so.
-    const int overlapping = overlapping_ == 0 ? 0 : count_overlapping(all_, descent_->z());
+    // Without overlaps and contacts, the barrier of the border keeps it so.
+    const bool is_kept = overlapping_ == 0 && !(border_ && border_->ignores_contacts());
+    const int overlapping = is_kept ? 0 : count_overlapping(all_, with_part(descent_->z()));
     if (flipped > flipped_ || overlapping > overlapping_) {
       has_ended_ = is_rejected_ = true;
       return;
@@ -171,22 +176,62 @@ class Island {
     });
   }
 
+  /// Numbers the vertices of the elements and of the border anew, so that the descent has no others: held ones far from
+  /// all that moves take neither memory nor time.
+  void take_part(std::vector<DistortionElement>& elements, std::vector<BoundaryLoop>& border) {
+    std::vector<int> number(vertices_.size(), -1);
+    for (const DistortionElement& element : elements) {
+      for (const int v : element.corners) number[v] = 0;
+    }
+    for (const BoundaryLoop& loop : border) {
+      for (const int v : loop) number[v] = 0;
+    }
+    std::vector<char> fixed;
+    for (int v = 0; v < static_cast<int>(number.size()); ++v) {
+      if (number[v] < 0) continue;
+      number[v] = static_cast<int>(part_.size());
+      part_.push_back(v);
+      if (!fixed_.empty()) fixed.push_back(fixed_[v]);
+    }
+    fixed_ = std::move(fixed);
+    for (DistortionElement& element : elements) {
+      for (int& v : element.corners) v = number[v];
+    }
+    for (BoundaryLoop& loop : border) {
+      for (int& v : loop) v = number[v];
+    }
+  }
+
+  ComplexVector part_of(const ComplexVector& map) const {
+    ComplexVector own(static_cast<Eigen::Index>(part_.size()));
+    for (Eigen::Index i = 0; i < own.size(); ++i) own[i] = map[part_[i]];
+    return own;
+  }
+
+  ComplexVector with_part(const ComplexVector& own) const {
+    ComplexVector map = map_;
+    for (Eigen::Index i = 0; i < own.size(); ++i) map[part_[i]] = own[i];
+    return map;
+  }
+
   /// Adds the way of the vertices that moved, so that the others keep every bit.
   void write(const ComplexVector& own, ComplexVector& z) {
-    for (Eigen::Index v = 0; v < own.size(); ++v) {
-      if (own[v] == written_[v]) continue;
-      const Complex way = (own[v] - written_[v]) / scale_;
+    for (Eigen::Index i = 0; i < own.size(); ++i) {
+      const int v = part_[i];
+      if (own[i] == map_[v]) continue;
+      const Complex way = (own[i] - map_[v]) / scale_;
       z[vertices_[v]] += is_mirrored_ ? std::conj(way) : way;
+      map_[v] = own[i];
     }
-    written_ = own;
   }
 
   std::vector<int> vertices_;
   Triangles all_;
-  std::vector<char> fixed_;
+  std::vector<int> part_;    ///< vertices of the island that the descent has
+  std::vector<char> fixed_;  ///< of these; in the beginning of all
   double scale_ = 0;
   bool is_mirrored_ = false;
-  ComplexVector written_;  ///< the map as it stands, in these coordinates
+  ComplexVector map_;  ///< all vertices of the island as they stand, in these coordinates
   double weight_ = 0;
   int flipped_ = 0;  ///< of the triangles that move
   int flipped_and_held_ = 0;

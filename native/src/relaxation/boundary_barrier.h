@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "spectral_conformal/types.h"
@@ -13,8 +14,15 @@ namespace spectral_conformal {
 /// measured in the initial map.
 class BoundaryBarrier {
  public:
-  /// loops: all of the chart's; z: (V,), finite.
-  BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const ComplexVector& z);
+  /// What to do about vertices that touch an edge in the initial map: at them the energy is infinite.
+  enum class Contacts { counted, ignored };
+
+  /// loops: all of the chart's; z: (V,), finite. Ignored contacts never count, not even once they have parted.
+  BoundaryBarrier(const std::vector<BoundaryLoop>& loops, const ComplexVector& z,
+                  Contacts contacts = Contacts::counted);
+
+  /// Whether there are ignored contacts, which may turn into overlaps.
+  bool ignores_contacts() const { return !ignored_.empty(); }
 
   /// A boundary vertex and a boundary edge other than its own two.
   struct Pair {
@@ -46,9 +54,14 @@ class BoundaryBarrier {
     double length;  ///< in the initial map
   };
 
-  std::vector<BoundaryEdge> edges_;  ///< each with its `from`
-  std::vector<double> reach_;        ///< per edge, for `from`: a quarter of the shorter of its two edges
-  double weight_ = 0;                ///< per pair
+  /// Calls visit(pair, edge) for all of `pairs_near`.
+  template <class Visit>
+  void for_each_pair_near(const ComplexVector& z, const ComplexVector& step, const Visit& visit) const;
+
+  std::vector<BoundaryEdge> edges_;           ///< each with its `from`
+  std::vector<double> reach_;                 ///< per edge, for `from`: a quarter of the shorter of its two edges
+  double weight_ = 0;                         ///< per pair
+  std::vector<std::pair<int, int>> ignored_;  ///< vertices and edges, sorted
 };
 
 }  // namespace spectral_conformal

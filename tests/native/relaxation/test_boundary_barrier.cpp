@@ -66,6 +66,17 @@ TEST_CASE("the energy is that of the distance to the edge, and infinite at conta
   CHECK(at(barrier, with_first_at({1.5, 1.7})).energy == 0);
 }
 
+TEST_CASE("ignored contacts have no energy, all others do") {
+  const ComplexVector touching = with_first_at({1.5, 2});
+  const BoundaryBarrier barrier(loops, touching, BoundaryBarrier::Contacts::ignored);
+  CHECK(barrier.ignores_contacts());
+  CHECK(std::isfinite(at(barrier, touching).energy));
+  ComplexVector elsewhere = square();
+  elsewhere[5] = {1, 0.1};
+  CHECK(at(barrier, elsewhere).energy > 0);
+  CHECK_FALSE(BoundaryBarrier(loops, square(), BoundaryBarrier::Contacts::ignored).ignores_contacts());
+}
+
 TEST_CASE("the gradient is that of finite differences, and the curvature bounds the second ones") {
   const BoundaryBarrier barrier(loops, square());
   // Beside an edge, and beside the vertex between two.
