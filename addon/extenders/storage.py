@@ -24,6 +24,13 @@ STRENGTH = {
     **texts.STRENGTH_PROPERTY,
     **{"default": 1.0, "min": -core.STRENGTH_LIMIT, "max": core.STRENGTH_LIMIT, "soft_min": -10.0, "soft_max": 10.0},
 }
+# Arguments of the property of sliders, which sets the strength beside it.
+AMOUNT = {
+    **texts.AMOUNT_OF_PUSH_PROPERTY,
+    **{"min": -100.0, "max": 100.0, "subtype": "PERCENTAGE", "precision": 1},
+    "get": lambda each: core.amount_of(each.strength),
+    "set": lambda each, amount: setattr(each, "strength", core.strength_of(amount)),
+}
 # Values at both vertices of an extender, 0 at others. Blender interpolates integers in single precision, which holds
 # them exactly; a value between different vertices is never one of them.
 _MARKS = (1 << 23, -(1 << 23))

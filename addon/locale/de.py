@@ -32,21 +32,20 @@ TEXTS = {
         "am meisten senken und geschlossene Meshes öffnen; danach abwickeln"
     ),
     "Live Spectral Unwrap": "Spektral abwickeln in Echtzeit",
-    "Let islands follow moved pins and changed extenders, and unwrap again when seams change": (
-        "Inseln folgen bewegten Pins und geänderten Extendern; bei geänderten Nähten wird neu abgewickelt"
+    "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change": (
+        "Inseln folgen bewegten Pins, Drücken und Ziehen; bei geänderten Nähten wird neu abgewickelt"
     ),
-    "Extender": "Extender",
-    "Add Extender": "Extender hinzufügen",
+    "Add Push/Pull": "Drücken/Ziehen hinzufügen",
     "Push pairs of selected vertices apart in the map, or pull them together": (
         "Paare ausgewählter Punkte in der UV-Map auseinanderdrücken oder zusammenziehen"
     ),
-    "Remove Extender": "Extender entfernen",
-    "Remove the active extender": "Den aktiven Extender entfernen",
+    "Remove Push/Pull": "Drücken/Ziehen entfernen",
+    "Remove the active push or pull": "Das aktive Drücken oder Ziehen entfernen",
     "Remove Broken": "Defekte entfernen",
-    "Remove all extenders that lost a vertex": "Alle Extender entfernen, denen ein Punkt fehlt",
-    "Adjust Extender": "Extender anpassen",
-    "Drag to change the strength of the active extender; its island follows": (
-        "Durch Ziehen die Stärke des aktiven Extenders ändern; seine Insel folgt"
+    "Remove all pushes and pulls that lost a vertex": "Alle entfernen, denen ein Punkt fehlt",
+    "Adjust Push/Pull": "Drücken/Ziehen anpassen",
+    "Drag to push the two vertices apart or pull them together; their island follows": (
+        "Durch Bewegen der Maus die beiden Punkte auseinanderdrücken oder zusammenziehen; ihre Insel folgt"
     ),
     "Spectral": "Spektral",
     "Seams": "Nähte",
@@ -154,7 +153,7 @@ TEXTS = {
     "Store the distortion of every face as a mesh attribute, for rendering, geometry nodes and scripts": (
         "Die Verzerrung jeder Fläche als Attribut des Meshs speichern, für Rendering, Geometry Nodes und Skripte"
     ),
-    "Extenders": "Extender",
+    "Push/Pull": "Drücken/Ziehen",
     "Vertex gone": "Punkt fehlt",
     # Settings of Spectral Unwrap.
     "Method": "Methode",
@@ -405,17 +404,17 @@ TEXTS = {
         "Über 0 drückt auseinander, unter 0 zieht zusammen; 1 ist mäßig"
     ),
     "Index": "Index",
-    "Position in the list, -1 for the active extender": "Position in der Liste, -1 für den aktiven Extender",
+    "Position in the list, -1 for the active one": "Position in der Liste, -1 für die aktive",
     "Broken": "Defekt",
-    "Instead remove all extenders that lost a vertex": ("Stattdessen alle Extender entfernen, denen ein Punkt fehlt"),
+    "Instead remove all that lost a vertex": "Stattdessen alle entfernen, denen ein Punkt fehlt",
     "Name": "Name",
-    "Name of the extender": "Name des Extenders",
+    "Name in the list": "Name in der Liste",
     "Use": "Verwenden",
-    "Use the extender in the next unwrap": "Den Extender beim nächsten Abwickeln verwenden",
+    "Use it in the next unwrap": "Beim nächsten Abwickeln verwenden",
     "Layer": "Ebene",
     "Attribute of the vertices that marks both ends": "Attribut der Punkte, das beide Enden markiert",
-    "Active Extender": "Aktiver Extender",
-    "The extender chosen in the panel": "Der im Panel gewählte Extender",
+    "Active Push/Pull": "Aktives Drücken/Ziehen",
+    "The one chosen in the panel": "Das im Panel gewählte",
     # What enumerations offer.
     "Least angle distortion, with a free boundary and without pins": (
         "Geringste Winkelverzerrung, mit freier Begrenzung und ohne Pins"
@@ -474,11 +473,11 @@ TEXTS = {
     "No vertex is active; Shift-click the one to connect the others with": (
         "Kein Punkt ist aktiv; den Punkt mit Umschalt+Klick auswählen, mit dem die anderen verbunden werden sollen"
     ),
-    "The extender has no effect: its vertices lie in different islands; remove the seams between them": (
-        "Der Extender wirkt nicht: seine Punkte liegen in verschiedenen Inseln; die Nähte dazwischen entfernen"
+    "No effect: the vertices lie in different islands; remove the seams between them": (
+        "Ohne Wirkung: die Punkte liegen in verschiedenen Inseln; die Nähte dazwischen entfernen"
     ),
-    "The extender has no effect: pins hold its island; unpin it or use soft pins": (
-        "Der Extender wirkt nicht: Pins halten seine Insel fest; sie lösen oder weiche Pins verwenden"
+    "No effect: pins hold the island; unpin it or use soft pins": (
+        "Ohne Wirkung: Pins halten die Insel fest; sie lösen oder weiche Pins verwenden"
     ),
     "Subdivision Surface modifier needs to be first to work with unwrap": (
         "Der Modifikator „Oberflächenunterteilung“ muss an erster Stelle stehen, um beim Abwickeln zu wirken"
@@ -489,8 +488,8 @@ TEXTS = {
     "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it": (
         "Anpassen berücksichtigt den Modifikator „Oberflächenunterteilung“ nicht; dafür neu abwickeln"
     ),
-    "Extenders work with the Spectral method only; unwrap with it": (
-        "Extender wirken nur bei der Methode „Spektral“; mit dieser abwickeln"
+    "Push/Pull works with the Spectral method only; unwrap with it": (
+        "Drücken/Ziehen wirkt nur bei der Methode „Spektral“; mit dieser abwickeln"
     ),
     "Nothing is selected; select the vertices to connect, one after the other": (
         "Nichts ist ausgewählt; die zu verbindenden Punkte nacheinander auswählen"
@@ -502,7 +501,9 @@ TEXTS = {
     "Not enough memory for this mesh; close other programs, select fewer faces, or add seams": (
         "Zu wenig Speicher für dieses Mesh; andere Programme schließen, weniger Flächen auswählen oder Nähte hinzufügen"
     ),
-    "This extender does not exist; choose one in the list": "Diesen Extender gibt es nicht; einen in der Liste wählen",
+    "There is none at this position; choose one in the list": (
+        "An dieser Position ist keines; eines in der Liste wählen"
+    ),
     "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number": (
         "Eingabe oder Klick: Bestätigen   Esc oder Rechtsklick: Abbrechen   Umschalt: Genau   Oder eine Zahl tippen"
     ),
@@ -544,8 +545,8 @@ TEXTS = {
     # Numbers with what they count, and sentences with numbers.
     "{n} cut": "{n} Schnitt",
     "{n} cuts": "{n} Schnitte",
-    "{n} extender": "{n} Extender",
-    "{n} extenders": "{n} Extender",
+    "{n} push/pull": "{n} Drücken/Ziehen",
+    "{n} pushes/pulls": "{n} Drücken/Ziehen",
     "{n} face": "{n} Fläche",
     "{n} faces": "{n} Flächen",
     "{n} step": "{n} Schritt",
@@ -665,25 +666,31 @@ TEXTS = {
         "Das Objekt ist negativ skaliert; abgewickelt wird das Mesh ohne Spiegelung"
     ),
     # Extenders.
-    "Skipped {n} extender that lost a vertex: {names}": "{n} Extender übersprungen, dem ein Punkt fehlt: {names}",
-    "Skipped {n} extenders that lost a vertex: {names}": "{n} Extender übersprungen, denen ein Punkt fehlt: {names}",
+    "Skipped {n} push/pull that lost a vertex: {names}": "{n} Drücken/Ziehen ohne Punkt übersprungen: {names}",
+    "Skipped {n} pushes/pulls that lost a vertex: {names}": "{n} Drücken/Ziehen ohne Punkt übersprungen: {names}",
     "{name} lost a vertex; remove it and add another": (
         "{name} fehlt ein Punkt; entfernen und einen anderen hinzufügen"
     ),
-    "{operator}: strength {strength}   {note}": "{operator}: Stärke {strength}   {note}",
-    "Removed broken extenders: {n}": "Defekte Extender entfernt: {n}",
+    "{operator}: {amount} %   {note}": "{operator}: {amount} %   {note}",
+    "Further would fold the island; add a seam, or push or pull other vertices": (
+        "Weiter würde die Insel falten; eine Naht ergänzen oder andere Punkte drücken oder ziehen"
+    ),
+    "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together": (
+        "Über 0 drückt die Punkte auseinander, 100 % so weit ihre Insel es zulässt; unter 0 zieht sie zusammen"
+    ),
+    "Removed broken ones: {n}": "Defekte entfernt: {n}",
     "Added {extenders}": "{extenders} hinzugefügt",
     "Added {extenders} for the next unwrap; {operator} acts at once": (
         "{extenders} für das nächste Abwickeln hinzugefügt; „{operator}“ wirkt sofort"
     ),
-    "Pairs that already have an extender: {n}": "Paare, die schon einen Extender haben: {n}",
-    "{n} extender had no effect: both vertices must lie in the same unwrapped island, without pins that hold it": (
-        "{n} Extender hatte keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die keine Pins "
-        "festhalten"
+    "Pairs that already have one: {n}": "Paare, die schon eines haben: {n}",
+    "{n} push/pull had no effect: both vertices must lie in one unwrapped island, without pins that hold it": (
+        "{n} Drücken/Ziehen hatte keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die "
+        "keine Pins festhalten"
     ),
-    "{n} extenders had no effect: both vertices must lie in the same unwrapped island, without pins that hold it": (
-        "{n} Extender hatten keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die keine Pins "
-        "festhalten"
+    "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, without pins that hold it": (
+        "{n} Drücken/Ziehen hatten keine Wirkung: beide Punkte müssen in einer abgewickelten Insel liegen, die "
+        "keine Pins festhalten"
     ),
     # What is said of what was selected.
     "No islands failed, selection unchanged": "Keine Insel ist fehlgeschlagen, Auswahl unverändert",

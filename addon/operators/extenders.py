@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from .. import editors, names
 from ..core.errors import ReadableError
-from ..core.extenders.pairs import pairs
+from ..core.extenders.pairs import amount_of, pairs, strength_of
 from ..core.words import texts
 from ..core.words.translation import translate
 from ..edit_mesh import selection
@@ -24,8 +24,8 @@ from .reporting_operator import ReportingOperator
 
 # Panels set these for one click; they are neither remembered nor shown in Adjust Last Operation.
 _FOR_ONE_CALL = {"HIDDEN", "SKIP_SAVE"}
-# Change of strength per pixel: 100 pixels make 1, which counts like the whole border.
-_STEP = 0.01
+# Change of the amount per pixel, in percent: 400 pixels from nothing to the whole effect.
+_STEP = 0.25
 # Factor with Shift, as in Blender's own transforms.
 _PRECISION = 0.1
 _CONFIRM = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
@@ -70,7 +70,8 @@ class MESH_OT_spectral_extender_add(ReportingOperator, bpy.types.Operator):
     bl_description = texts.ADD_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO"}
 
-    strength: FloatProperty(**storage.STRENGTH)
+    strength: FloatProperty(**storage.STRENGTH, options={"HIDDEN"})
+    amount: FloatProperty(**storage.AMOUNT)
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find the pairs of all meshes, then add extenders."""
@@ -137,7 +138,8 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
     bl_description = texts.ADJUST_EXTENDER_DESCRIPTION
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
 
-    strength: FloatProperty(**storage.STRENGTH)
+    strength: FloatProperty(**storage.STRENGTH, options={"HIDDEN"})
+    amount: FloatProperty(**storage.AMOUNT)
 
     def job(self, context: bpy.types.Context, is_interactive: bool) -> Job:
         """Drag the strength, store it and write the map; any other end restores both."""
@@ -154,10 +156,10 @@ class MESH_OT_spectral_extender_adjust(JobOperator, _ExtenderOperator, bpy.types
 
 
 class _Drag(Choice):
-    """Asks for a strength, by dragging or as a typed number, while the map follows.
+    """Asks for an amount, by dragging or as a typed number, while the map follows.
 
     Attributes:
-        answer: the strength.
+        answer: the last strength that the map could follow.
         islands: follow.
     """
 
@@ -168,7 +170,7 @@ class _Drag(Choice):
         if -1 in self._pair:
             raise ReadableError(texts.broken_extender(extender.name))
         self.islands = AdjustedIslands(edit_object, [self._pair])
-        self.answer = self._dragged = self._former = extender.strength
+        self.answer = self._wanted = self._former = extender.strength
         self._typed, self._mouse_x = "", None
 
     def show(self, strength: float, is_final: bool = False) -> None:
@@ -187,15 +189,17 @@ class _Drag(Choice):
             self.islands.restore()
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Update the map for the strength; if that fails, it stays and the status bar says why."""
+        """Update the map for the wanted strength; if that fails, both stay and the status bar says why."""
         note = translate(texts.ADJUST_EXTENDER_KEYS)
         try:
-            self.show(self.answer)
+            self.show(self._wanted)
+            self.answer = self._wanted
         except ReadableError as error:
             note = str(error)
-        progress.show_status(
-            context, texts.adjusting(f"[{self._typed}|]" if self._typed else f"{self.answer:.3f}", note)
-        )
+            with following.not_following():
+                storage.of(self._mesh)[self._index].strength = self.answer
+        amount = f"[{self._typed}|]" if self._typed else f"{amount_of(self.answer):.1f}"
+        progress.show_status(context, texts.adjusting(amount, note))
         editors.redraw(context)
 
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -205,12 +209,14 @@ class _Drag(Choice):
         if event.type == "MOUSEMOVE":
             moved = event.mouse_x - (event.mouse_x if self._mouse_x is None else self._mouse_x)
             self._mouse_x = event.mouse_x
-            self._dragged += moved * _STEP * (_PRECISION if event.shift else 1.0)
+            moved *= _STEP * (_PRECISION if event.shift else 1.0)
+            self._wanted = strength_of(amount_of(self.answer) + moved)
         elif event.value != "PRESS" or not (event.type in _CONFIRM or self._type(event)):
             return {"PASS_THROUGH"}
         elif event.type in _CONFIRM:
             return {"FINISHED"}
-        self.answer = float(self._typed) if any(map(str.isdigit, self._typed)) else self._dragged
+        if any(map(str.isdigit, self._typed)):
+            self._wanted = strength_of(float(self._typed))
         self.begin(context)
         return {"RUNNING_MODAL"}
 

@@ -41,7 +41,7 @@ class MESH_UL_spectral_extenders(bpy.types.UIList):
         if is_broken:
             split.label(text=texts.VERTEX_GONE_LABEL)
         else:
-            split.prop(extender, "strength", text="", slider=True)
+            split.prop(extender, "amount", text="", slider=True)
         row.prop(extender, "use", text="")
 
 

@@ -22,7 +22,7 @@ from tests.interface.extender_sidebar import (
     pairs,
     press,
     row,
-    type_strength,
+    type_amount,
 )
 from tests.interface.session import override, picture, screenshot, xdotool
 
@@ -30,13 +30,13 @@ REPEL = (1.0, 0.42, 0.12)
 
 
 def add_by_clicking():
-    one = [("Extender", 1.0, True)]
+    one = [("Push/Pull", 1.0, True)]
     yield from click_vertices(6, 0)
     yield from click_sidebar(ADD)
     assert pairs() == [(6, 0)]
     yield from check_undo_and_redo([], one)
 
-    three = one + [("Extender.001", 1.0, True), ("Extender.002", 1.0, True)]
+    three = one + [("Push/Pull.001", 1.0, True), ("Push/Pull.002", 1.0, True)]
     yield from click_vertices(35, 41, 24)
     yield from click_sidebar(ADD)
     screenshot("extenders_added")
@@ -62,7 +62,7 @@ def adjust_last_operation():
     yield
     yield
     screenshot("extenders_adjusted")
-    after = [*before, ("Extender.003", -2.5, True)]
+    after = [*before, ("Push/Pull.003", -2.5, True)]
     assert listed() == after, listed()
     yield from check_undo_and_redo(before, after)
     yield from press("ctrl+z")
@@ -70,11 +70,11 @@ def adjust_last_operation():
 
 def change_in_the_list():
     start = listed()
-    yield from type_strength(0, "0.4")
-    changed = [("Extender", 0.4, True), *start[1:]]
+    yield from type_amount(0, "50")
+    changed = [("Push/Pull", 0.2, True), *start[1:]]
     yield from check_undo_and_redo(start, changed)
     yield from click_sidebar(row(1, USE))
-    off = [changed[0], ("Extender.001", 1.0, False), changed[2]]
+    off = [changed[0], ("Push/Pull.001", 1.0, False), changed[2]]
     screenshot("extenders_one_off")
     yield from check_undo_and_redo(changed, off)
 

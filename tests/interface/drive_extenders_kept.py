@@ -18,7 +18,7 @@ from tests.interface.extender_sidebar import (
     open_grid,
     pairs,
     press,
-    type_strength,
+    type_amount,
 )
 from tests.interface.session import VERDICT, override, point_at, screenshot, uv, xdotool
 
@@ -43,7 +43,7 @@ def break_one():
     assert sum(-1 in pair for pair in pairs()) == 1, pairs()
     before = listed()
     yield from click_sidebar(REMOVE_BROKEN)
-    yield from check_undo_and_redo(before, [item for item in before if item[0] != "Extender.002"])
+    yield from check_undo_and_redo(before, [item for item in before if item[0] != "Push/Pull.002"])
     yield from press("ctrl+z", "ctrl+z")
     assert pairs() == start, pairs()
     screenshot("extenders_whole_again")
@@ -98,8 +98,8 @@ def leave_edit_mode_and_come_back():
     assert bpy.context.mode == "OBJECT"
     yield from press("ctrl+z")
     assert (listed(), pairs()) == before
-    yield from type_strength(0, "3")
-    yield from check_undo_and_redo(before[0], [("Extender", 3.0, True), *before[0][1:]])
+    yield from type_amount(0, "93.75")
+    yield from check_undo_and_redo(before[0], [("Push/Pull", 3.0, True), *before[0][1:]])
     yield from press("ctrl+z")
 
 
@@ -117,8 +117,8 @@ def save_and_reopen():
     screenshot("extenders_reopened")
     storage = importlib.import_module("spectral_unwrap.extenders.storage")
     assert storage.vertices(bpy.context.edit_object.data) is not None, "no arrows are drawn"
-    yield from type_strength(0, "3")
-    yield from check_undo_and_redo(before[0], [("Extender", 3.0, True), *before[0][1:]])
+    yield from type_amount(0, "93.75")
+    yield from check_undo_and_redo(before[0], [("Push/Pull", 3.0, True), *before[0][1:]])
 
 
 def steps():

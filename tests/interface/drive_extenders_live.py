@@ -22,7 +22,7 @@ from tests.interface.extender_sidebar import (
     open_grid,
     press,
     raise_a_hill,
-    type_strength,
+    type_amount,
 )
 from tests.interface.session import screenshot, uv
 
@@ -39,7 +39,7 @@ def add_and_type_live():
     assert np.abs(added - before).max() > 1e-4, "the map does not follow the extender"
     screenshot("extender_added_live")
     yield from check_map_undo_and_redo(before, added)
-    yield from type_strength(len(start), "9")
+    yield from type_amount(len(start), "9")
     for _ in range(3):
         yield
     typed = uv()

@@ -71,10 +71,10 @@ def row(index, column):
     return column, FIRST_ROW + NEXT_ROW * index
 
 
-def type_strength(index, strength):
-    """Double-click the strength of an extender in the list and type another."""
+def type_amount(index, amount):
+    """Double-click the amount of an extender in the list, in percent, and type another."""
     yield from click_sidebar(row(index, STRENGTH), times=2)
-    xdotool("key", "ctrl+a", "type", strength)
+    xdotool("key", "ctrl+a", "type", amount)
     yield
     xdotool("key", "Return")
     yield

@@ -57,6 +57,7 @@ class ExtenderAdjustment:
             mesh.vertices, mesh.face_offsets, mesh.corner_vertices, **solution.arguments(self._mesh, self._options)
         )
         self._shown: np.ndarray | None = None
+        self._folded = 0
         self.corners = faces[mesh.face_of_corner()]
         self.unused, self.charts = 0, ()
 
@@ -65,12 +66,17 @@ class ExtenderAdjustment:
         """Return the map, (C, 2) float64, right at `corners`, for all `extenders`; `is_final` asks for all digits.
 
         Raises:
-            ReadableError: an island could not be solved, or pins hold all the extenders.
+            ReadableError: an island could not be solved, has more flipped or overlapping faces than the first map, or
+                pins hold all the extenders.
         """
         mesh = replace(self._mesh, extenders=tuple(extenders))
         tolerance: dict[str, Any] = {} if is_final else {"tolerance": _TOLERANCE}
         result = self._unwrapper.solve(**solution.soft_constraints(mesh, self._options), **tolerance)
         failed = np.flatnonzero(result.charts.column("status") != "solved")
+        folded = int(sum(result.charts.column(name).sum() for name in ("flipped", "overlapping")))
+        # The first map is that of the mesh as it is.
+        if self._shown is not None and not is_final and (len(failed) or folded > self._folded):
+            raise ReadableError(translate(texts.WOULD_FOLD))
         if len(failed):
             raise ReadableError(result.charts[failed[0]].message)
         unused = [flag for each, flag in zip(extenders, result.unused_extenders) if frozenset(each[:2]) in self._pairs]
@@ -78,6 +84,7 @@ class ExtenderAdjustment:
             raise ReadableError(translate(texts.HELD_BY_PINS))
         self.unused, self.charts = sum(map(bool, unused)), result.charts
         if self._shown is None:
+            self._folded = folded
             self._begin(result.uv, result.chart_of_face[mesh.face_of_corner()], result.charts.column("area"))
         self._shown = placement.turned_onto(result.uv, self._shown, self._chart, self._scale)
         return mesh.from_isotropic_uv(self._shown)

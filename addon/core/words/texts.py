@@ -53,16 +53,16 @@ SEAM_WISHES = (
     ("CLEAR", "Clear Wishes", "Suggest Seams decides about the selected edges"),
 )
 LIVE_UNWRAP_LABEL = "Live Spectral Unwrap"
-LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins and changed extenders, and unwrap again when seams change"
-EXTENDER_NAME = "Extender"
-ADD_EXTENDER_LABEL = "Add Extender"
+LIVE_UNWRAP_DESCRIPTION = "Let islands follow moved pins, pushes and pulls, and unwrap again when seams change"
+EXTENDER_NAME = "Push/Pull"
+ADD_EXTENDER_LABEL = "Add Push/Pull"
 ADD_EXTENDER_DESCRIPTION = "Push pairs of selected vertices apart in the map, or pull them together"
-REMOVE_EXTENDER_LABEL = "Remove Extender"
-REMOVE_EXTENDER_DESCRIPTION = "Remove the active extender"
+REMOVE_EXTENDER_LABEL = "Remove Push/Pull"
+REMOVE_EXTENDER_DESCRIPTION = "Remove the active push or pull"
 REMOVE_BROKEN_EXTENDERS_LABEL = "Remove Broken"
-REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all extenders that lost a vertex"
-ADJUST_EXTENDER_LABEL = "Adjust Extender"
-ADJUST_EXTENDER_DESCRIPTION = "Drag to change the strength of the active extender; its island follows"
+REMOVE_BROKEN_EXTENDERS_DESCRIPTION = "Remove all pushes and pulls that lost a vertex"
+ADJUST_EXTENDER_LABEL = "Adjust Push/Pull"
+ADJUST_EXTENDER_DESCRIPTION = "Drag to push the two vertices apart or pull them together; their island follows"
 SIDEBAR_TAB = "Spectral"
 SEAMS_LABEL = "Seams"
 UNWRAP_PANEL_LABEL = "Unwrap"
@@ -109,7 +109,7 @@ DENSITY_FACTOR_DESCRIPTION = (
     "Spectral Unwrap and Equalize Texel Density"
 )
 SUBMENU_LABEL = "Spectral"
-EXTENDERS_LABEL = "Extenders"
+EXTENDERS_LABEL = "Push/Pull"
 VERTEX_GONE_LABEL = "Vertex gone"
 
 # Names and descriptions of the operators' properties.
@@ -349,13 +349,17 @@ STRENGTH_PROPERTY = {
     "name": "Strength",
     "description": "Above 0 pushes apart, below 0 pulls together; 1 is moderate",
 }
-INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active extender"}
-BROKEN_PROPERTY = {"name": "Broken", "description": "Instead remove all extenders that lost a vertex"}
+AMOUNT_OF_PUSH_PROPERTY = {
+    "name": "Push/Pull",
+    "description": "Above 0 pushes the vertices apart, 100 % as far as the island allows; below 0 pulls them together",
+}
+INDEX_PROPERTY = {"name": "Index", "description": "Position in the list, -1 for the active one"}
+BROKEN_PROPERTY = {"name": "Broken", "description": "Instead remove all that lost a vertex"}
 # The properties of an extender, and of a mesh with extenders.
-EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name of the extender"}
-EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use the extender in the next unwrap"}
+EXTENDER_NAME_PROPERTY = {"name": "Name", "description": "Name in the list"}
+EXTENDER_USE_PROPERTY = {"name": "Use", "description": "Use it in the next unwrap"}
 EXTENDER_LAYER_PROPERTY = {"name": "Layer", "description": "Attribute of the vertices that marks both ends"}
-ACTIVE_EXTENDER_PROPERTY = {"name": "Active Extender", "description": "The extender chosen in the panel"}
+ACTIVE_EXTENDER_PROPERTY = {"name": "Active Push/Pull", "description": "The one chosen in the panel"}
 
 # Enumeration items: (identifier, label, description). An identifier in lower case is the value of the option of
 # spectral_conformal.unwrap.
@@ -400,18 +404,19 @@ PLACEMENT_ITEMS = (
 
 SELECT_PAIR = "Select two vertices, or several and last the one to connect the others with"
 NO_ACTIVE_VERTEX = "No vertex is active; Shift-click the one to connect the others with"
-NO_COMMON_ISLAND = "The extender has no effect: its vertices lie in different islands; remove the seams between them"
-HELD_BY_PINS = "The extender has no effect: pins hold its island; unpin it or use soft pins"
+NO_COMMON_ISLAND = "No effect: the vertices lie in different islands; remove the seams between them"
+WOULD_FOLD = "Further would fold the island; add a seam, or push or pull other vertices"
+HELD_BY_PINS = "No effect: pins hold the island; unpin it or use soft pins"
 # Blender's own sentence where use_subsurf_data has no effect.
 NO_LEADING_SUBSURF = "Subdivision Surface modifier needs to be first to work with unwrap"
 NO_ACTIVE_EDGE = "Nothing was stretched: no edge is active; click the edge to stretch along"
 ADJUSTED_WITHOUT_SUBSURF = "Adjusting ignores the Subdivision Surface modifier; unwrap again to include it"
-EXTENDERS_NEED_SPECTRAL = "Extenders work with the Spectral method only; unwrap with it"
+EXTENDERS_NEED_SPECTRAL = "Push/Pull works with the Spectral method only; unwrap with it"
 NO_VERTICES_SELECTED = "Nothing is selected; select the vertices to connect, one after the other"
 STRENGTH_IS_NO_NUMBER = "The strength must be a number, not nan"
 OUT_OF_MEMORY_TO_FOLLOW = "Not enough memory to update the map; close other programs, or add seams"
 TOO_LITTLE_MEMORY_FOR_MESH = "Not enough memory for this mesh; close other programs, select fewer faces, or add seams"
-NO_SUCH_EXTENDER = "This extender does not exist; choose one in the list"
+NO_SUCH_EXTENDER = "There is none at this position; choose one in the list"
 ADJUST_EXTENDER_KEYS = "Enter or click: Confirm   Esc or right click: Cancel   Shift: Precision   Type a number"
 NOTHING_SELECTED = "No faces selected"
 MESHES_CHANGED = "The meshes changed during the solve, so nothing was written; unwrap again"
@@ -436,7 +441,7 @@ _PINNED_METHODS = {"lscm": "pinned least squares (LSCM)", "spectral": "the spect
 # Numbers with what they count: for one, and for any other number.
 _CUTS = ("{n} cut", "{n} cuts")
 _EDGES = ("{n} edge", "{n} edges")
-_EXTENDERS = ("{n} extender", "{n} extenders")
+_EXTENDERS = ("{n} push/pull", "{n} pushes/pulls")
 _FACES = ("{n} face", "{n} faces")
 _ISLANDS = ("{n} island", "{n} islands")
 _STEPS = ("{n} step", "{n} steps")
@@ -800,8 +805,8 @@ def broken_extenders(names: Sequence[str]) -> str:
     if not names:
         return ""
     forms = (
-        "Skipped {n} extender that lost a vertex: {names}",
-        "Skipped {n} extenders that lost a vertex: {names}",
+        "Skipped {n} push/pull that lost a vertex: {names}",
+        "Skipped {n} pushes/pulls that lost a vertex: {names}",
     )
     return _count(len(names), forms, names=", ".join(names))
 
@@ -811,15 +816,15 @@ def broken_extender(name: str) -> str:
     return translate("{name} lost a vertex; remove it and add another").format(name=name)
 
 
-def adjusting(strength: str, note: str) -> str:
-    """Return the text of the status bar while a strength is dragged."""
-    sentence = translate("{operator}: strength {strength}   {note}")
-    return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), strength=strength, note=note)
+def adjusting(amount: str, note: str) -> str:
+    """Return the text of the status bar while an amount is dragged."""
+    sentence = translate("{operator}: {amount} %   {note}")
+    return sentence.format(operator=translate(ADJUST_EXTENDER_LABEL), amount=amount, note=note)
 
 
 def removed_broken(count: int) -> str:
     """Return the report of Remove Broken."""
-    return translate("Removed broken extenders: {n}").format(n=count)
+    return translate("Removed broken ones: {n}").format(n=count)
 
 
 def added_extenders(count: int, existing: int, follows: bool) -> str:
@@ -831,7 +836,7 @@ def added_extenders(count: int, existing: int, follows: bool) -> str:
         sentence = translate("Added {extenders} for the next unwrap; {operator} acts at once")
         parts.append(sentence.format(extenders=extenders, operator=translate(ADJUST_EXTENDER_LABEL)))
     if existing:
-        parts.append(translate("Pairs that already have an extender: {n}").format(n=existing))
+        parts.append(translate("Pairs that already have one: {n}").format(n=existing))
     return ". ".join(parts)
 
 
@@ -840,8 +845,8 @@ def unused_extenders(count: int) -> str:
     if count == 0:
         return ""
     forms = (
-        "{n} extender had no effect: both vertices must lie in the same unwrapped island, without pins that hold it",
-        "{n} extenders had no effect: both vertices must lie in the same unwrapped island, without pins that hold it",
+        "{n} push/pull had no effect: both vertices must lie in one unwrapped island, without pins that hold it",
+        "{n} pushes/pulls had no effect: both vertices must lie in one unwrapped island, without pins that hold it",
     )
     return _count(count, forms)
 

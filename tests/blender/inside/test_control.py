@@ -97,7 +97,7 @@ def test_broken_extenders_are_skipped_with_a_warning(reports):
     bmesh.update_edit_mesh(grid.data)
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert warnings(reports) == ["Skipped 1 extender that lost a vertex: Extender"]
+    assert warnings(reports) == ["Skipped 1 push/pull that lost a vertex: Push/Pull"]
 
 
 def test_extenders_without_effect_are_told_where_they_were_meant(reports):
@@ -107,7 +107,7 @@ def test_extenders_without_effect_are_told_where_they_were_meant(reports):
         edge.seam = all(vertex.co.x == 6.0 for vertex in edge.verts)
     reports()
     assert bpy.ops.uv.spectral_unwrap() == {"FINISHED"}
-    assert [text for text in warnings(reports) if "1 extender had no effect" in text]
+    assert [text for text in warnings(reports) if "1 push/pull had no effect" in text]
     # Nobody meant it where neither vertex is unwrapped.
     middle = [f.index for f in scenes.edit_mesh(grid).faces if 2.0 < f.calc_center_median().y < 5.0]
     scenes.select_faces(grid, middle)
@@ -182,7 +182,7 @@ def test_adjusting_what_cannot_be_adjusted_changes_nothing(reports):
     before = scenes.read_uv(grid)
     with pytest.raises(RuntimeError, match="vertices lie in different islands"):
         bpy.ops.mesh.spectral_extender_adjust(strength=2.0)
-    with pytest.raises(RuntimeError, match="This extender does not exist"):
+    with pytest.raises(RuntimeError, match="There is none at this position"):
         bpy.ops.mesh.spectral_extender_adjust(index=7)
     assert grid.data.spectral_extenders[0].strength == 1.0
     np.testing.assert_array_equal(scenes.read_uv(grid), before)

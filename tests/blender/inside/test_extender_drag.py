@@ -51,16 +51,22 @@ def strength_of(grid):
     return grid.data.spectral_extenders[0].strength
 
 
+def after(pixels):
+    """The strength after dragging from 1 so far: a pixel is a quarter of a percent of the amount."""
+    pairs = module("core.extenders.pairs")
+    return pairs.strength_of(pairs.amount_of(1.0) + 0.25 * pixels)
+
+
 def test_dragging_changes_the_strength_and_the_map_follows(dragged):
     grid, before, drag = dragged
-    assert drag.move(200) == {"RUNNING_MODAL"}
-    assert strength_of(grid) == pytest.approx(3.0)
+    assert drag.move(-100) == {"RUNNING_MODAL"}
+    assert strength_of(grid) == pytest.approx(after(-100))
     drag.move(100, shift=True)
-    assert strength_of(grid) == pytest.approx(3.1)
-    assert "strength 3.100" in drag.invoked.status[-1]
+    assert strength_of(grid) == pytest.approx(after(-90))
+    assert "Push/Pull: 60.8 % " in drag.invoked.status[-1]
     assert np.abs(scenes.read_uv(grid) - before).max() > 1e-3
     assert drag.send("LEFTMOUSE") == {"FINISHED"}
-    assert (strength_of(grid), drag.invoked.operator.strength) == pytest.approx((3.1, 3.1))
+    assert (strength_of(grid), drag.invoked.operator.strength) == pytest.approx((after(-90),) * 2)
     assert drag.invoked.left_nothing()
 
 
@@ -75,26 +81,32 @@ def test_escape_restores_exactly(dragged):
 
 def test_a_number_can_be_typed(dragged):
     grid, _, drag = dragged
+    typed = module("core.extenders.pairs").strength_of(2.5)
     drag.type("2", ".", "5", "5")
     drag.send("BACK_SPACE")
-    assert strength_of(grid) == 2.5
+    assert strength_of(grid) == pytest.approx(typed)
     assert "[2.5|]" in drag.invoked.status[-1]
     drag.move(50)
-    assert strength_of(grid) == 2.5
+    assert strength_of(grid) == pytest.approx(typed)
     drag.type("-")
-    assert strength_of(grid) == -2.5
+    assert strength_of(grid) == pytest.approx(-typed)
     drag.type("-", ",")
     assert drag.send("RET") == {"FINISHED"}
-    assert strength_of(grid) == 2.5
+    assert strength_of(grid) == pytest.approx(typed)
 
 
-def test_where_the_map_cannot_follow_it_stays_and_the_reason_is_shown(dragged):
+def test_before_the_map_folds_it_stops_with_the_reason_and_the_last_strength_stays(dragged):
     grid, _, drag = dragged
-    drag.type("-", "9", "9", "9", "9")
-    assert np.isfinite(scenes.read_uv(grid)).all()
-    assert "weaken or remove extenders" in drag.invoked.status[-1]
-    assert drag.send("RET") == {"CANCELLED"}
-    assert strength_of(grid) == 1.0
+    drag.move(-320)
+    valid, uv = strength_of(grid), scenes.read_uv(grid)
+    assert valid == pytest.approx(after(-320))
+    drag.move(-600)
+    assert "would fold the island" in drag.invoked.status[-1]
+    np.testing.assert_array_equal(scenes.read_uv(grid), uv)
+    assert strength_of(grid) == valid
+    assert drag.send("RET") == {"FINISHED"}
+    assert strength_of(grid) == valid
+    np.testing.assert_allclose(scenes.read_uv(grid), uv, atol=1e-3)
 
 
 def test_view_navigation_goes_on_while_dragging(dragged):
@@ -119,8 +131,8 @@ def test_list_and_arrows_show_the_strength_that_is_dragged(dragged):
         return outward
 
     assert points_outward()
-    drag.move(-150)
-    assert strength_of(grid) == pytest.approx(-0.5)
+    drag.move(-360)
+    assert strength_of(grid) == pytest.approx(after(-360))
     assert not points_outward()
     drag.send("ESC")
     assert points_outward()
@@ -133,7 +145,7 @@ def test_the_name_of_the_layer_follows_for_undo(dragged):
     drag.send("LEFTMOUSE")
     (extender,) = grid.data.spectral_extenders
     assert extender.layer in grid.data.attributes
-    assert extender.layer == ".spectral_extender:1:2:Extender"
+    assert extender.layer == f".spectral_extender:1:{extender.strength:.9g}:Push/Pull"
 
 
 def test_leaving_edit_mode_gives_map_and_strength_back(dragged):

@@ -81,7 +81,7 @@ def test_two_selected_vertices_make_an_extender():
     grid = edit_grid()
     add(grid, [7, 2], strength=-2.5)
     assert pairs(grid) == [(7, 2)]
-    assert listed(grid) == [("Extender", -2.5, True)]
+    assert listed(grid) == [("Push/Pull", -2.5, True)]
     assert resolved(grid) == ([(7, 2, -2.5)], [])
     assert module("extenders.storage").active_index(grid.data) == 0
 
@@ -97,7 +97,7 @@ def test_several_vertices_are_connected_with_the_last():
     grid = edit_grid()
     add(grid, [7, 2, 19, 0])
     assert sorted(pairs(grid)) == [(2, 0), (7, 0), (19, 0)]
-    assert [name for name, _, _ in listed(grid)] == ["Extender", "Extender.001", "Extender.002"]
+    assert [name for name, _, _ in listed(grid)] == ["Push/Pull", "Push/Pull.001", "Push/Pull.002"]
     assert module("extenders.storage").active_index(grid.data) == 2
 
 
@@ -119,7 +119,7 @@ def test_existing_pair_is_not_doubled(reports):
     reports()
     select(grid, [2, 7])
     assert bpy.ops.mesh.spectral_extender_add() == {"CANCELLED"}
-    assert reports() == [("Warning", "Pairs that already have an extender: 1")]
+    assert reports() == [("Warning", "Pairs that already have one: 1")]
     add(grid, [3, 7, 2])
     assert pairs(grid) == [(7, 2), (3, 2)]
 
@@ -170,13 +170,13 @@ def test_extender_without_one_vertex_is_broken_and_reported(reports):
     delete_vertices(grid, [8])
     assert [-1 in pair for pair in pairs(grid)] == [True, False]
     forces, broken = resolved(grid)
-    assert broken == ["Extender"]
+    assert broken == ["Push/Pull"]
     assert len(forces) == 1
     assert module("extenders.storage").broken(grid.data) == [True, False]
-    with pytest.raises(RuntimeError, match="Extender lost a vertex"):
+    with pytest.raises(RuntimeError, match="Push/Pull lost a vertex"):
         bpy.ops.mesh.spectral_extender_adjust(index=0, strength=2.0)
     assert bpy.ops.mesh.spectral_extender_remove(broken=True) == {"FINISHED"}
-    assert [name for name, _, _ in listed(grid)] == ["Extender.001"]
+    assert [name for name, _, _ in listed(grid)] == ["Push/Pull.001"]
 
 
 def test_broken_extender_that_is_off_causes_no_warning():
@@ -237,12 +237,12 @@ def test_removing_keeps_the_active_one():
 
     grid.data.spectral_extenders_active = 2
     bpy.ops.mesh.spectral_extender_remove(index=0)
-    assert active() == "Extender.002"
+    assert active() == "Push/Pull.002"
     bpy.ops.mesh.spectral_extender_remove()
-    assert [name for name, _, _ in listed(grid)] == ["Extender.001", "Extender.003"]
-    assert active() == "Extender.001"
+    assert [name for name, _, _ in listed(grid)] == ["Push/Pull.001", "Push/Pull.003"]
+    assert active() == "Push/Pull.001"
     bpy.ops.mesh.spectral_extender_remove()
-    assert active() == "Extender.003"
+    assert active() == "Push/Pull.003"
     bpy.ops.mesh.spectral_extender_remove()
     assert active() is None
     assert not bpy.ops.mesh.spectral_extender_remove.poll()
@@ -264,7 +264,7 @@ def test_list_and_vertices_are_saved_with_the_file(tmp_path):
         bpy.context.view_layer.objects.active = grid
         if bpy.context.mode != "EDIT_MESH":
             bpy.ops.object.mode_set(mode="EDIT")
-        assert listed(grid) == [("Extender", -3.0, True), ("Extender.001", 1.0, False)]
+        assert listed(grid) == [("Push/Pull", -3.0, True), ("Push/Pull.001", 1.0, False)]
         assert pairs(grid) == [(6, 8), (2, 3)]
 
 
@@ -296,7 +296,7 @@ def test_copy_of_the_object_has_extenders_of_its_own():
     copy.data.spectral_extenders[0].strength = 7.0
     delete_vertices(copy, [6])
     assert pairs(copy) == [(-1, 7)]
-    assert listed(grid) == [("Extender", 1.0, True)]
+    assert listed(grid) == [("Push/Pull", 1.0, True)]
 
 
 def test_joined_objects_bring_their_extenders():
@@ -324,14 +324,14 @@ def test_new_names_are_free_ones_and_others_may_be_any():
     for first in (0, 2):
         add(grid, [first, first + 1])
     first, second = grid.data.spectral_extenders
-    assert (first.name, second.name) == ("Extender", "Extender.001")
+    assert (first.name, second.name) == ("Push/Pull", "Push/Pull.001")
     second.strength = 3.0
     first.name = second.name = "Nose"
     add(grid, [4, 5])
-    assert [name for name, _, _ in listed(grid)] == ["Nose", "Nose", "Extender"]
+    assert [name for name, _, _ in listed(grid)] == ["Nose", "Nose", "Push/Pull"]
     # In all the same, they would be one layer.
     second.strength = 1.0
-    assert listed(grid) == [("Nose", 1.0, True), ("Nose.001", 1.0, True), ("Extender", 1.0, True)]
+    assert listed(grid) == [("Nose", 1.0, True), ("Nose.001", 1.0, True), ("Push/Pull", 1.0, True)]
     assert pairs(grid) == [(0, 1), (2, 3), (4, 5)]
 
 
@@ -357,16 +357,16 @@ def test_the_layer_has_the_properties_in_its_name(mode):
     bpy.ops.object.mode_set(mode=mode)
     extender = grid.data.spectral_extenders[1]
     for change, value, name in (
-        ("strength", 5.0, "1:5:Extender.001"),
-        ("use", False, "0:5:Extender.001"),
+        ("strength", 5.0, "1:5:Push/Pull.001"),
+        ("use", False, "0:5:Push/Pull.001"),
         ("name", "Nose", "0:5:Nose"),
         ("name", "Nose: left", "0:5:Nose: left"),
     ):
         setattr(extender, change, value)
-        assert layers(grid) == [".spectral_extender:1:-0.5:Extender", f".spectral_extender:{name}"]
+        assert layers(grid) == [".spectral_extender:1:-0.5:Push/Pull", f".spectral_extender:{name}"]
     bpy.ops.object.mode_set(mode="EDIT")
     assert pairs(grid) == [(2, 3), (6, 8)]
-    assert listed(grid) == [("Extender", -0.5, True), ("Nose: left", 5.0, False)]
+    assert listed(grid) == [("Push/Pull", -0.5, True), ("Nose: left", 5.0, False)]
 
 
 def test_long_names_are_cut_and_found_again():
@@ -398,7 +398,7 @@ def test_the_list_is_that_of_the_layers_after_undo():
     add(grid, [2, 3], strength=-4.0)
     mesh.attributes[layers(grid)[0]].name = ".spectral_extender:0:2.5:Nose"
     session.begin()
-    assert listed(grid) == [("Nose", 2.5, False), ("Extender.001", -4.0, True)]
+    assert listed(grid) == [("Nose", 2.5, False), ("Push/Pull.001", -4.0, True)]
     assert extenders.active_index(mesh) == 1
     mesh.attributes.remove(mesh.attributes[layers(grid)[1]])
     session.begin()
@@ -414,7 +414,7 @@ def test_an_extender_goes_with_its_layer():
     bpy.ops.object.mode_set(mode="OBJECT")
     grid.data.attributes.remove(grid.data.attributes[layers(grid)[0]])
     scenes.edit(grid, select=False)
-    assert listed(grid) == [("Extender.001", 1.0, True)]
+    assert listed(grid) == [("Push/Pull.001", 1.0, True)]
     assert pairs(grid) == [(2, 3)]
 
 
@@ -425,11 +425,11 @@ def test_other_layers_are_left_alone():
         (".spectral_extender:1:1:Float", "FLOAT", "POINT"),
         (".spectral_extender:1:1:Face", "INT", "FACE"),
         (".spectral_extender:1:one:Word", "INT", "POINT"),
-        ("Extender", "INT", "POINT"),
+        ("Push/Pull", "INT", "POINT"),
     ):
         grid.data.attributes.new(name, kind, domain)
     bpy.context.view_layer.update()
-    assert listed(grid) == [("Extender", 1.0, True)]
+    assert listed(grid) == [("Push/Pull", 1.0, True)]
     assert len(layers(grid)) == 4
 
 
@@ -439,14 +439,14 @@ def give_former_extenders(edited):
     layer = mesh.attributes.new(".spectral_extenders:ca3c79dd8ac0d1b0bf38e4d6", "INT", "POINT")
     for vertex, identifier in ((6, 17), (8, 4), (2, 99), (12, 4)):
         layer.data[vertex].value = identifier
-    for values in (("Extender", -3.0, True, 17, 4), ("Nose", 2.5, False, 99, 4), ("Broken", 1.0, True, 4, 5)):
+    for values in (("Push/Pull", -3.0, True, 17, 4), ("Nose", 2.5, False, 99, 4), ("Broken", 1.0, True, 4, 5)):
         extender = mesh.spectral_extenders.add()
         for name, value in zip(("name", "strength", "use", "first_id", "second_id"), values):
             setattr(extender, name, value)
 
 
 def assert_converted(edited):
-    assert listed(edited) == [("Extender", -3.0, True), ("Nose", 2.5, False), ("Broken", 1.0, True)]
+    assert listed(edited) == [("Push/Pull", -3.0, True), ("Nose", 2.5, False), ("Broken", 1.0, True)]
     assert pairs(edited) == [(6, 8), (2, 8), (8, -1)]
     assert len(layers(edited)) == 3
 
@@ -517,7 +517,7 @@ def test_values_come_back_with_the_add_on():
     addon_utils.disable("spectral_unwrap")
     assert not hasattr(grid.data, "spectral_extenders")
     addon_utils.enable("spectral_unwrap")
-    assert listed(grid) == [("Extender", 3.0, True)]
+    assert listed(grid) == [("Push/Pull", 3.0, True)]
     assert pairs(grid) == [(6, 8)]
 
 

@@ -452,7 +452,7 @@ def test_without_live_unwrapping_an_added_extender_says_when_it_acts(reports):
     np.testing.assert_array_equal(scenes.read_uv(grid), before)
     ((level, text),) = reports()
     assert level == "Info"
-    assert text.startswith("Added 1 extender for the next unwrap")
+    assert text.startswith("Added 1 push/pull for the next unwrap")
 
 
 def test_added_changed_and_removed_extenders_are_followed(reports):
@@ -465,7 +465,7 @@ def test_added_changed_and_removed_extenders_are_followed(reports):
     reports()
     add_extender(grid, 0, 62, strength=5.0)
     # At once, in the undo step of the operator.
-    assert reports() == [("Info", "Added 1 extender")]
+    assert reports() == [("Info", "Added 1 push/pull")]
     np.testing.assert_allclose(shape(scenes.read_uv(grid)), shape(unwrapped_with(grid)), atol=1e-5)
     assert not np.allclose(shape(scenes.read_uv(grid)), shape(start), atol=1e-3)
     np.testing.assert_allclose(scenes.read_uv(grid).mean(axis=0), start.mean(axis=0), atol=1e-5)

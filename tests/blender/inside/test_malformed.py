@@ -98,9 +98,9 @@ def test_damaged_extenders(name):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("one vertex twice", "Skipped 1 extender that lost a vertex: Whole"),
-        ("huge identifiers", "Skipped 1 extender that lost a vertex: Whole"),
-        ("nothing inside", "Skipped 1 extender that lost a vertex: Extender"),
+        ("one vertex twice", "Skipped 1 push/pull that lost a vertex: Whole"),
+        ("huge identifiers", "Skipped 1 push/pull that lost a vertex: Whole"),
+        ("nothing inside", "Skipped 1 push/pull that lost a vertex: Push/Pull"),
     ],
 )
 def test_damaged_extenders_are_named(name, message, reports):

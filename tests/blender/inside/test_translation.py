@@ -70,10 +70,10 @@ def test_labels_come_in_the_language_of_the_user(in_german):
     operator = bpy.app.translations.pgettext_iface(texts.SUGGEST_SEAMS_LABEL, "Operator")
     panel = bpy.app.translations.pgettext_iface(texts.EXTENDERS_LABEL)
     if in_german:
-        assert (item, operator, panel) == ("Schachbrett", "Nähte vorschlagen", "Extender")
+        assert (item, operator, panel) == ("Schachbrett", "Nähte vorschlagen", "Drücken/Ziehen")
         assert description == "Schachbrett auf der Oberfläche; Materialien bleiben, wie sie sind"
     else:
-        assert (item, operator, panel) == ("Checker", "Suggest Seams", "Extenders")
+        assert (item, operator, panel) == ("Checker", "Suggest Seams", "Push/Pull")
 
 
 def test_switched_off_reports_stay_english(in_german, capfd):

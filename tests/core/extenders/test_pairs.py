@@ -75,3 +75,16 @@ def test_names_are_made_unique_as_in_blender():
     assert extender_pairs.free_name("Extender", ["Extender"]) == "Extender.001"
     assert extender_pairs.free_name("Extender", ["Extender", "Extender.002", "Extender.001"]) == "Extender.003"
     assert extender_pairs.free_name(".5", [".5"]) == ".5.001"
+
+
+@pytest.mark.parametrize("strength", [0.0, 0.2, -0.2, 1.0, 1e3, -1e3, 1e-3])
+def test_amounts_stand_for_strengths(strength):
+    amount = extender_pairs.amount_of(strength)
+    assert abs(amount) < 100.0
+    assert extender_pairs.strength_of(amount) == pytest.approx(strength)
+
+
+def test_amounts_end_at_the_limit_of_strengths():
+    assert [extender_pairs.strength_of(amount) for amount in (-200.0, -100.0, 0.0, 100.0, 1e9)] == pytest.approx(
+        [-1e4, -1e4, 0.0, 1e4, 1e4]
+    )

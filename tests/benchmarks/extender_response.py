@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How evenly the distance of a pair answers its push along the slider, and how far it can be pulled.
+
+    build/venv/bin/python -m tests.benchmarks.extender_response
+
+For pairs on the border and inside of surfaces: the strength with half of the effect of an infinite one; the part of
+the slider's whole effect that lies below its first fifth, of a slider of strengths from 0 to 10 and of amounts; and the
+smallest distance that a pull reaches without flipped triangles, relative to that without a pull, with its amount.
+"""
+
+import numpy as np
+import spectral_conformal
+
+from addon.core.extenders.pairs import STRENGTH_LIMIT, strength_of
+
+
+def surface(columns, rows, height):
+    """A grid of triangles over a rectangle of height 1, with a height at every point."""
+    x, y = np.meshgrid(np.linspace(0.0, columns / rows, columns + 1), np.linspace(0.0, 1.0, rows + 1))
+    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    up = columns + 1
+    triangles = np.concatenate([np.c_[first, first + 1, first + up + 1], np.c_[first, first + up + 1, first + up]])
+    return np.stack([x, y, height(x, y)], axis=-1).reshape(-1, 3), triangles
+
+
+SURFACES = {
+    "hill": (24, 24, lambda x, y: 0.8 * np.exp(-20.0 * ((x - 0.5) ** 2 + (y - 0.5) ** 2))),
+    "waves": (24, 16, lambda x, y: 0.2 * np.sin(7.0 * x) * np.cos(5.0 * y)),
+    "saddle": (24, 24, lambda x, y: 0.8 * ((x - 0.5) ** 2 - (y - 0.5) ** 2)),
+}
+
+
+def pairs(columns, rows):
+    middle = (columns + 1) * (rows // 2)
+    return {
+        "corners": (0, (columns + 1) * (rows + 1) - 1),
+        "sides": (middle, middle + columns),
+        "inside": (middle + columns // 4, middle + 3 * columns // 4),
+    }
+
+
+def distance(solver, mesh, pair, strength):
+    """The distance of a pair in the map; None where there is no map without flipped triangles."""
+    try:
+        found = solver.solve(extenders=[(*pair, strength)] if strength else ())
+    except spectral_conformal.SolveError:
+        return None
+    is_flipped = spectral_conformal.distortion(*mesh, found.uv).flipped.any()
+    return None if strength < 0.0 and is_flipped else float(np.linalg.norm(found.uv[pair[0]] - found.uv[pair[1]]))
+
+
+def measured(mesh, pair):
+    """Return half strength, both parts below a fifth, the smallest distance and its amount."""
+    solver = spectral_conformal.Solver(*mesh)
+    start, most = (distance(solver, mesh, pair, strength) for strength in (0.0, STRENGTH_LIMIT))
+    low, high = 1e-4, 1e4
+    for _ in range(30):
+        middle = (low * high) ** 0.5
+        is_less = distance(solver, mesh, pair, middle) - start < 0.5 * (most - start)
+        low, high = (middle, high) if is_less else (low, middle)
+    former = [distance(solver, mesh, pair, strength) - start for strength in (2.0, 10.0)]
+    now = [distance(solver, mesh, pair, strength_of(amount)) - start for amount in (20.0, 100.0)]
+    pulled, amount = 1.0, 0
+    for percent in range(-2, -101, -2):
+        found = distance(solver, mesh, pair, strength_of(percent))
+        if found is None:
+            break
+        pulled, amount = found / start, percent
+    return high, former[0] / former[1], now[0] / now[1], pulled, amount
+
+
+def main():
+    print(f"{'surface':9}{'pair':9}{'half at':>9}{'strength':>10}{'amount':>8}{'pulled to':>11}{'at':>7}")
+    for name, (columns, rows, height) in SURFACES.items():
+        mesh = surface(columns, rows, height)
+        for label, pair in pairs(columns, rows).items():
+            half, former, now, pulled, amount = measured(mesh, pair)
+            print(f"{name:9}{label:9}{half:9.2f}{former:10.0%}{now:8.0%}{pulled:11.0%}{amount:6d}%")
+
+
+if __name__ == "__main__":
+    main()
