@@ -55,14 +55,14 @@ def drag_and_give_up():
 def type_a_number():
     start = listed()
     yield from click_sidebar(ADJUST)
-    xdotool("key", "7", "period", "5")
+    xdotool("key", "9", "3", "period", "7", "5")
     yield
     yield
     screenshot("extender_typed")
     xdotool("key", "Return")
     yield
     yield
-    assert listed() == [start[0], (start[1][0], 7.5, True)], listed()
+    assert listed() == [start[0], (start[1][0], 3.0, True)], listed()
 
 
 def save_and_reopen():

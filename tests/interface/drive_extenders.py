@@ -56,13 +56,13 @@ def adjust_last_operation():
     yield
     xdotool("click", "--repeat", 2, "--delay", 60, 1)
     yield
-    xdotool("key", "ctrl+a", "type", "--", "-2.5")
+    xdotool("key", "ctrl+a", "type", "--", "-50")
     yield
     xdotool("key", "Return")
     yield
     yield
     screenshot("extenders_adjusted")
-    after = [*before, ("Push/Pull.003", -2.5, True)]
+    after = [*before, ("Push/Pull.003", -0.2, True)]
     assert listed() == after, listed()
     yield from check_undo_and_redo(before, after)
     yield from press("ctrl+z")
@@ -83,7 +83,7 @@ def change_in_the_list():
     xdotool("key", "Return")
     yield
     yield
-    named = [("Brim", 0.4, True), *off[1:]]
+    named = [("Brim", 0.2, True), *off[1:]]
     yield from check_undo_and_redo(off, named)
 
     yield from click_sidebar(row(0, ICON))
