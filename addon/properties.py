@@ -79,6 +79,7 @@ class SpectralMapOverlay(PropertyGroup):
     image_size: IntProperty(
         **texts.IMAGE_SIZE_PROPERTY, default=1024, min=1, max=65536, subtype="PIXEL", update=_on_map_change
     )
+    margin: IntProperty(**texts.BAND_PROPERTY, default=8, min=0, max=1024, subtype="PIXEL", update=_on_map_change)
     checks: IntProperty(**texts.CHECKS_PROPERTY, default=16, min=1, max=4096, update=_on_map_change)
     legend: BoolProperty(**texts.LEGEND_PROPERTY, default=True, update=_on_map_change)
 

@@ -341,6 +341,19 @@ TEXTS = {
     "{name}: {mean}, {density}": "{name}: {mean}, {density}",
     "{name}: nothing to measure": "{name}: nichts zu messen",
     "and {n} more": "und {n} weitere",
+    "Stacks and Margin": "Stapel und Abstand",
+    "Equal or mirrored islands that lie on each other in one color each, and the margin around islands as a band": (
+        "Gleiche oder gespiegelte Inseln, die aufeinanderliegen, in je einer Farbe, und den Abstand um Inseln als Band"
+    ),
+    "Pixels between islands; the band around each island is half as wide, so bands that touch are too close": (
+        "Pixel zwischen Inseln; das Band um jede Insel ist halb so breit, Bänder, die sich berühren, sind zu nah"
+    ),
+    "Band: half of {margin} px; bands that touch are too close": (
+        "Band: die Hälfte von {margin} px; Bänder, die sich berühren, sind zu nah"
+    ),
+    "No stacks": "Keine Stapel",
+    "{n} stack of {islands}": "{n} Stapel aus {islands}",
+    "{n} stacks of {islands}": "{n} Stapel aus {islands}",
     "Low": "Niedrig",
     "Value at the lower end of the colors; angle distortion is a ratio, 1.1 for angles off by 10 %, and size a "
     "factor, 1 for the median": (

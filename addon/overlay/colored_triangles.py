@@ -13,7 +13,8 @@ from ..session import Lifetime, Remembered
 Color = tuple[float, float, float]
 
 # Drivers guarantee 128 bytes for constants, and Blender uses some. So the last components of the colors are other
-# numbers: the value at the lower end, the inverse of the range, and the squares of the checker, 0 for values.
+# numbers: the value at the lower end, the inverse of the range (negative for hues), and the squares of the checker, 0
+# for values.
 _CONSTANTS = (
     ("MAT4", "ModelViewProjectionMatrix"),
     ("VEC4", "low"),
@@ -41,6 +42,10 @@ void main()
   if (high.w > 0.0) {
     vec2 square = floor(map_place * high.w);
     color = mod(square.x + square.y, 2.0) < 0.5 ? low.xyz : high.xyz;
+  }
+  else if (middle.w < 0.0) {
+    vec3 hue = 0.55 + 0.4 * cos(6.2831853 * (face_value + vec3(0.0, 0.33, 0.67)));
+    color = face_value < 0.0 ? low.xyz : hue;
   }
   else {
     float place = clamp((face_value - low.w) * middle.w, 0.0, 1.0);
@@ -128,13 +133,17 @@ def draw(
     low: float,
     high: float,
     checks: float = 0.0,
+    as_hues: bool = False,
 ) -> None:
-    """Draw the triangles with the current matrices, their values between `low` and `high`, or as a checker."""
+    """Draw the triangles with the current matrices, their values between `low` and `high`, or as a checker.
+
+    Or with the values as hues, 0 to 1, and the low color for negative ones.
+    """
     bound.bind()
     matrix = gpu.matrix.get_projection_matrix() @ gpu.matrix.get_model_view_matrix()
     bound.uniform_float("ModelViewProjectionMatrix", matrix)
     bound.uniform_float("low", (*colors.low, low))
-    bound.uniform_float("middle", (*colors.middle, 1.0 / max(high - low, 1e-12)))
+    bound.uniform_float("middle", (*colors.middle, -1.0 if as_hues else 1.0 / max(high - low, 1e-12)))
     bound.uniform_float("high", (*colors.high, checks))
     bound.uniform_float("opacity", colors.opacity)
     triangles.draw(bound)

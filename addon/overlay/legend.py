@@ -16,7 +16,12 @@ from .screen_text import LINE, draw_line, fill_box, text_width
 
 _SOUND_TO_FLIPPED = ((0.45, 0.45, 0.45), (1.0, 0.62, 0.05), (0.90, 0.05, 0.65))
 _CHECKER = ((0.12, 0.12, 0.12), (0.5, 0.5, 0.5), (0.92, 0.92, 0.92))
-_FIXED = {choices.LOOK_DEFECTS: _SOUND_TO_FLIPPED, choices.LOOK_CHECKER: _CHECKER}
+_ALONE = ((0.45, 0.45, 0.45),) * 3
+_FIXED = {
+    choices.LOOK_DEFECTS: _SOUND_TO_FLIPPED,
+    choices.LOOK_CHECKER: _CHECKER,
+    choices.LOOK_STACKS: _ALONE,
+}
 # The other kinds: the prefix of their colors in the preferences, and their default colors.
 _CHOSEN = {
     choices.LOOK_ANGLE: ("angle", color_ramp.GOOD_TO_BAD),
@@ -50,7 +55,11 @@ def draw(
     Last Operation would cover it, so it is never there.
     """
     low, high = low_high
-    labels = () if kind == choices.LOOK_CHECKER else texts.legend_ends(kind, low, 0.5 * (low + high), high)
+    labels = (
+        ()
+        if kind in (choices.LOOK_CHECKER, choices.LOOK_STACKS)
+        else texts.legend_ends(kind, low, 0.5 * (low + high), high)
+    )
     lines = (texts.look(kind, texels(context).symbol), *lines)
     scale = context.preferences.system.ui_scale
     area, region = context.area, context.region

@@ -23,6 +23,7 @@ from ..core.measure.map_view import (
     joined_numbers,
     median_log2_scale,
 )
+from ..core.measure.stacks import stacks
 from ..core.measure.texels import Texels
 from ..core.mesh.world_scale import metric_of
 from ..core.words import texts
@@ -43,7 +44,11 @@ _QUIET_SECONDS = 0.3
 _MIN_SIZE = 1e-3
 # More objects than these have their numbers in the legend together only.
 _MAX_OBJECTS = 6
-_NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS})
+_NEEDS_ISLANDS = frozenset({choices.LOOK_DEFECTS, choices.LOOK_STACKS})
+_WITHOUT_RANGE = frozenset({choices.LOOK_DEFECTS, choices.LOOK_CHECKER, choices.LOOK_STACKS})
+_BAND = (0.95, 0.75, 0.2)
+# Hues of consecutive stacks differ most with steps of the golden ratio.
+_HUE_STEP = 0.618034
 
 
 class Overlay(Remembered):
@@ -53,6 +58,8 @@ class Overlay(Remembered):
         meshes: by the full names of their objects.
         range: the default range, kept while the mesh is edited, so that colors stay comparable.
         numbers: of all shown maps together.
+        stacks: hues of the faces by map, how many stacks there are, and of how many islands.
+        serial: of these stacks.
         medians: of the binary logarithm of the scale, of all shown maps together.
         preview: UVs, (C, 2), shown instead of those of objects, by their full names.
         pointed_at: the face in the legend, by the name of its object and its index.
@@ -64,6 +71,8 @@ class Overlay(Remembered):
         self.meshes: dict[str, ShownMesh] = {}
         self.range: dict[tuple, tuple[float, float]] = {}
         self.numbers: dict[tuple[MapView, ...], IslandNumbers] = {}
+        self.stacks: dict[tuple[MapView, ...], tuple[dict[MapView, np.ndarray], int, int]] = {}
+        self.serial = 0
         self.medians: dict[tuple[MapView, ...], float] = {}
         self.preview: dict[str, np.ndarray] = {}
         self.pointed_at: tuple[str, int] | None = None
@@ -172,7 +181,7 @@ def set_range(low_high: tuple[float, float]) -> None:
 def shown_range(context: bpy.types.Context) -> tuple[float, float]:
     """Return the values at the two ends of the colors."""
     chosen = settings()
-    if not chosen.use_range or chosen.kind in (choices.LOOK_DEFECTS, choices.LOOK_CHECKER):
+    if not chosen.use_range or chosen.kind in _WITHOUT_RANGE:
         return fixed(context)
     low, high = chosen.range_low, chosen.range_high
     if chosen.kind == choices.LOOK_SIZE:
@@ -199,13 +208,13 @@ def _draw_in_viewport(context: bpy.types.Context) -> None:
     with in_front_of_faces(context.region_data, _NEARER):
         gpu.state.depth_test_set("NONE" if is_through else "LESS_EQUAL")
         for each, shown, view in ready:
-            triangles = shown.batch(chosen.kind, texels(context), in_editor=False)
+            triangles = shown.batch(chosen.kind, texels(context), False, _own_values(view, ready))
             if triangles is None or not each.visible_in_viewport_get(space):
                 continue
             with gpu.matrix.push_pop():
                 gpu.matrix.multiply_matrix(each.matrix_world)
                 ends = _ends_of(view, ready, low_high)
-                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen))
+                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen), _has_hues(chosen))
 
 
 def _draw_in_uv_editor(context: bpy.types.Context) -> None:
@@ -219,11 +228,16 @@ def _draw_in_uv_editor(context: bpy.types.Context) -> None:
     chosen, low_high = settings(), shown_range(context)
     gpu.state.blend_set("ALPHA")
     try:
+        for _each, shown, _view in ready if _has_hues(chosen) else ():
+            band = shown.band(chosen.margin, texels(context))
+            if band is not None:
+                color = Colors(_BAND, _BAND, _BAND)
+                colored_triangles.draw(band, colored_triangles.shader(is_flat=True), color, 0.0, 1.0, as_hues=True)
         for _each, shown, view in ready:
-            triangles = shown.batch(chosen.kind, texels(context), in_editor=True)
+            triangles = shown.batch(chosen.kind, texels(context), True, _own_values(view, ready))
             if triangles is not None:
                 shader, ends = colored_triangles.shader(is_flat=True), _ends_of(view, ready, low_high)
-                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen))
+                colored_triangles.draw(triangles, shader, colors(), *ends, _checks(chosen), _has_hues(chosen))
     finally:
         gpu.state.blend_set("NONE")
 
@@ -236,6 +250,31 @@ def _ready(context: bpy.types.Context) -> Iterator[tuple[bpy.types.Object, Shown
             continue
         yield found
     _look_at_islands_later(context)
+
+
+def _has_hues(chosen: bpy.types.PropertyGroup) -> bool:
+    return chosen.kind == choices.LOOK_STACKS
+
+
+def _own_values(view: MapView, ready: Sequence[tuple]) -> tuple[int, np.ndarray] | None:
+    """Return the hues of the stacks in a map, with their serial number; None for other kinds."""
+    if not _has_hues(settings()):
+        return None
+    hues, _, _ = _stacks([each for *_, each in ready])
+    return session.of(Overlay).serial, hues[view]
+
+
+def _stacks(shown: Sequence[MapView]) -> tuple[dict[MapView, np.ndarray], int, int]:
+    """Return the hues of all faces, -1 for islands alone, and the numbers of stacks and of islands in them."""
+    overlay, key = session.of(Overlay), tuple(shown)
+    if key not in overlay.stacks:
+        overlay.stacks.clear()
+        overlay.serial += 1
+        # What lies on each other to a pixel shows the same pixels.
+        found, islands = stacks(shown, 1.0 / settings().image_size)
+        hues = [np.where(stack < 0, -1.0, (stack * _HUE_STEP) % 1.0) for stack in found]
+        overlay.stacks[key] = dict(zip(shown, hues)), max(int(stack.max(initial=-1)) for stack in found) + 1, islands
+    return overlay.stacks[key]
 
 
 def _checks(chosen: bpy.types.PropertyGroup) -> float:
@@ -255,6 +294,8 @@ def _draw_legend(context: bpy.types.Context) -> None:
     chosen = settings()
     lines = texts.too_many_faces(too_large)
     if found and all(shown.islands_known for _, shown, _ in found):
+        if _has_hues(chosen):
+            lines.extend(texts.stacked(*_stacks([view for *_, view in found])[1:], chosen.margin))
         lines.extend(texts.legend_numbers(texts.LEGEND_MESH, _joined_numbers([view for *_, view in found])))
         lines.extend(_object_lines(found, texels(context)))
         lines.extend(_active_island_lines(context, found))

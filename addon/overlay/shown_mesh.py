@@ -27,8 +27,9 @@ class ShownMesh:
         self._view: MapView | None = None
         self._is_stale = True
         self._trusts_faces = False
-        self._batches: dict[tuple[str, Texels], gpu.types.GPUBatch] = {}
-        self._in_editor: dict[tuple[str, Texels], gpu.types.GPUBatch] = {}
+        self._batches: dict[tuple[str, Texels, int], gpu.types.GPUBatch] = {}
+        self._in_editor: dict[tuple[str, Texels, int], gpu.types.GPUBatch] = {}
+        self._band: tuple[tuple[float, Texels], gpu.types.GPUBatch | None] | None = None
         self._places: gpu.types.GPUVertBuf | None = None
         self._tree: BVHTree | None = None
         self.is_too_large = False
@@ -85,16 +86,23 @@ class ShownMesh:
         self._view = None if arrays is None else MapView(arrays, before if has_mesh else None)
         self._batches.clear()
         self._in_editor.clear()
+        self._band = None
         self.islands_known = False
         if not has_mesh:
             self._places = self._tree = None
 
-    def batch(self, kind: str, texels: Texels, in_editor: bool) -> gpu.types.GPUBatch | None:
-        """Return the triangles to draw for the last view; None for none."""
-        known, key = (self._in_editor if in_editor else self._batches), (kind, texels)
+    def batch(
+        self, kind: str, texels: Texels, in_editor: bool, own: tuple[int, np.ndarray] | None = None
+    ) -> gpu.types.GPUBatch | None:
+        """Return the triangles to draw for the last view; None for none.
+
+        `own` are values to show instead, (F,), and their serial number.
+        """
+        serial, shown_values = own or (0, None)
+        known, key = (self._in_editor if in_editor else self._batches), (kind, texels, serial)
         if key not in known:
             known.clear()
-            uv, values = self._view.triangle_map(kind, texels)
+            uv, values = self._view.triangle_map(kind, texels, shown_values)
             chosen = np.repeat(self._view.is_in_uv_editor(), 3) if in_editor else np.ones(1, dtype=bool)
             if not chosen.all():
                 places = colored_triangles.places(self._view.triangle_positions()[chosen]) if chosen.any() else None
@@ -105,6 +113,15 @@ class ShownMesh:
                 places = self._places
             known[key] = colored_triangles.batch(places, uv, values) if len(values) else None
         return known[key]
+
+    def band(self, margin: float, texels: Texels) -> gpu.types.GPUBatch | None:
+        """Return the band around the islands in the UV editor, half of a margin in pixels wide; None for none."""
+        if self._band is None or self._band[0] != (margin, texels):
+            uv = self._view.border_band(margin, texels)
+            places = colored_triangles.places(np.zeros((len(uv), 3), dtype=np.float32)) if len(uv) else None
+            drawn = colored_triangles.batch(places, uv, np.full(len(uv), -1.0, dtype=np.float32)) if len(uv) else None
+            self._band = (margin, texels), drawn
+        return self._band[1]
 
     def tree(self) -> BVHTree:
         """Return a ray-casting tree of the triangles of the last view, made on first use."""

@@ -264,9 +264,11 @@ class _MapOverlayPanel(_Panel):
         layout.prop(overlay, "kind", text="")
         if overlay.kind == choices.LOOK_CHECKER:
             layout.prop(overlay, "checks")
-        if overlay.kind == choices.LOOK_DENSITY:
+        if overlay.kind == choices.LOOK_STACKS:
+            layout.prop(overlay, "margin")
+        if overlay.kind in (choices.LOOK_DENSITY, choices.LOOK_STACKS):
             layout.prop(overlay, "image_size")
-        if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS):
+        if overlay.kind not in (choices.LOOK_CHECKER, choices.LOOK_DEFECTS, choices.LOOK_STACKS):
             row = layout.row(align=True)
             row.prop(overlay, "use_range")
             row.operator(names.FIT_RANGE_OPERATOR, text=texts.AUTO_LABEL)

@@ -30,6 +30,7 @@ def toward_large(factor):
 # Of a face in the first and of one in the last column: where these are two times as wide on the map, so that they have
 # 1.41 times the size, half of the way to two times, and to 1.5 times the density 0.83 of it.
 LOOKS = {"SIZE": (MEDIAN, toward_large(0.5)), "DENSITY": (MEDIAN, toward_large(0.83)), "DEFECTS": ((0.45,) * 3,) * 2}
+LOOKS["STACKS"] = LOOKS["DEFECTS"]
 FITTED = {"SIZE": (MEDIAN, LARGE), "DENSITY": (SMALL, LARGE)}
 # Of a displayed colour, out of 1: Blender mixes its editors in eight bits of linear colours, coarse where dark.
 NEARLY = 0.04

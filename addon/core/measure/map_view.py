@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import choices, native
+from ..drawing import island_band
 from ..mesh.polygon_mesh import PolygonMesh
 from ..mesh.world_scale import area_growth
 from . import defects
@@ -127,9 +128,14 @@ class MapView:
     def densities(self, texels: Texels | None = None) -> np.ndarray:
         """Return the texel density of every face, (F,) float64: pixels along the unit of `texels`."""
         texels = texels or Texels()
+        return self._sides(texels) * texels.length * np.exp2(self.log2_scale)
+
+    def _sides(self, texels: Texels) -> np.ndarray:
+        """Return the pixels along a side of the texture of every face, (F,) float64."""
         known = self.mesh.texture_sides
-        sides = texels.side if known is None else np.where(known > 0.0, known, texels.side)
-        return sides * texels.length * np.exp2(self.log2_scale)
+        if known is None:
+            return np.full(len(self.mesh.selected_faces), float(texels.side))
+        return np.where(known > 0.0, known, texels.side)
 
     def mean_density(self, texels: Texels | None = None) -> float:
         """Return the texel density of all selected faces together; NaN without a surface."""
@@ -142,7 +148,7 @@ class MapView:
         Args:
             kind: one of `choices.LOOK_ANGLE` (quasi-conformal distortion), `LOOK_SIZE` (binary logarithm of the scale
                 over its median), `LOOK_DENSITY` (`densities`), `LOOK_DEFECTS` (1 flipped, 0.5 overlapping, 0 neither)
-                and `LOOK_CHECKER`, which has no values.
+                and `LOOK_CHECKER` and `LOOK_STACKS`, which have no values of one map.
             texels: how densities are measured; by default textures have one pixel.
             median: of the binary logarithm of the scale, of all maps shown together; of this map by default.
         """
@@ -162,13 +168,30 @@ class MapView:
         vertices = self.mesh.corner_vertices.take(self.triangles[0].ravel())
         return self.mesh.vertices.astype(np.float32).take(vertices, axis=0)
 
-    def triangle_map(self, kind: str, texels: Texels | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Return UVs (3 T, 2) and values (3 T,) of the corners of the triangles, float32."""
+    def triangle_map(
+        self, kind: str, texels: Texels | None = None, values: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return UVs (3 T, 2) and values (3 T,) of the corners of the triangles, float32.
+
+        `values` (F,) are shown instead of those of the kind.
+        """
         corners, face = self.triangles
         with np.errstate(over="ignore"):
-            values = np.nan_to_num(self.values(kind, texels), nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
+            values = self.values(kind, texels) if values is None else values
+            values = np.nan_to_num(values, nan=_LARGE, posinf=_LARGE, neginf=-_LARGE)
         uv = self.mesh.uv.astype(np.float32).take(corners.ravel(), axis=0)
         return uv, values.astype(np.float32).take(face).repeat(3)
+
+    def border_band(self, margin: float, texels: Texels) -> np.ndarray:
+        """Return triangles, (3 T, 2) float32, that cover half of a `margin` in pixels around all islands."""
+        mesh, corner_faces = self.mesh, self.mesh.face_of_corner()
+        following = mesh.next_corner()
+        shown = mesh.selected_faces if mesh.uv_faces is None else mesh.uv_faces
+        begins = island_band.border(mesh.uv, mesh.corner_vertices, following, shown[corner_faces])
+        width = 0.5 * margin / self._sides(texels)[corner_faces[begins]]
+        stretch = [mesh.aspect**-0.5, mesh.aspect**0.5]
+        both_axes = width[:, None] * stretch
+        return island_band.triangles(mesh.uv[begins], mesh.uv[following[begins]], both_axes).astype(np.float32)
 
     def face_at(self, point: Sequence[float]) -> int:
         """Return a face at the `point` (u, v), of those that the UV editor shows; -1 for none."""

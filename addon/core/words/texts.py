@@ -318,6 +318,12 @@ IMAGE_SIZE_PROPERTY = {
     "description": "Pixels along one side of the texture, for the texel density of faces whose material has no image",
 }
 CHECKS_PROPERTY = {"name": "Squares", "description": "Checker squares along one side of a UV tile"}
+BAND_PROPERTY = {
+    "name": "Margin",
+    "description": (
+        "Pixels between islands; the band around each island is half as wide, so bands that touch are too close"
+    ),
+}
 LEGEND_PROPERTY = {"name": "Legend", "description": "Show what the colors mean, and the numbers of the map"}
 
 DEFAULTS_LABEL = "Spectral Unwrap Defaults"
@@ -394,9 +400,14 @@ LOOK_ITEMS = (
         "Faces that are flipped or overlap others of their island",
     ),
     (choices.LOOK_CHECKER, "Checker", "Checker squares on the surface; materials stay as they are"),
+    (
+        choices.LOOK_STACKS,
+        "Stacks and Margin",
+        "Equal or mirrored islands that lie on each other in one color each, and the margin around islands as a band",
+    ),
 )
-# A checker has no values.
-STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] != choices.LOOK_CHECKER)
+# The others have no values.
+STORED_ITEMS = tuple(item for item in LOOK_ITEMS if item[0] not in (choices.LOOK_CHECKER, choices.LOOK_STACKS))
 PLACEMENT_ITEMS = (
     (choices.PACK, "Pack", "Scale islands by their surface area and pack them upright into the UV tile"),
     (choices.KEEP, "Keep in Place", "Fit every island into its former bounding box, in its former orientation"),
@@ -638,6 +649,17 @@ def legend_object(name: str, numbers: IslandNumbers, mean_density: float, unit: 
 def legend_more(objects: int) -> list[str]:
     """Return the legend's line about objects without a line; none for none."""
     return [_count(objects, ("and {n} more", "and {n} more"))] if objects > 0 else []
+
+
+def stacked(count: int, islands_in_stacks: int, margin: int) -> list[str]:
+    """Return the legend's lines about stacks and the margin in pixels."""
+    lines = [translate("Band: half of {margin} px; bands that touch are too close").format(margin=margin)]
+    if not count:
+        return [translate("No stacks"), *lines]
+    return [
+        _count(count, ("{n} stack of {islands}", "{n} stacks of {islands}"), islands=islands(islands_in_stacks)),
+        *lines,
+    ]
 
 
 def _spread(numbers: IslandNumbers) -> str:

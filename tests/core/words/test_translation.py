@@ -163,6 +163,7 @@ CALLS = {
     "look_value": [(look, 2.0) for look in LOOKS],
     "legend_ends": [(look, 1.0, 2.0, 3.0) for look in LOOKS],
     "too_many_faces": [(["CUBE"],), ([],)],
+    "stacked": [(0, 0, 8), (1, 2, 8), (2, 5, 8)],
     "legend_object": [("A", numbers(qc), 2.0, "M") for qc in (1.5, NAN)],
     "legend_more": [(0,), (2,)],
     "legend_numbers": [(texts.LEGEND_MESH, numbers()), (texts.LEGEND_MESH, numbers(NAN))],

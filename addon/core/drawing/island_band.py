@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A band around islands in the UV plane, as wide as the margin that belongs to each of them."""
+
+import numpy as np
+
+# Corners of the polygon that stands for a disk around a corner of the border: it misses 8 % of the width at most.
+_SIDES = 8
+
+
+def border(uv: np.ndarray, vertices: np.ndarray, following: np.ndarray, counted: np.ndarray) -> np.ndarray:
+    """Return the corners at which an edge on the border of an island begins, (N,) int.
+
+    Args:
+        uv: (C, 2) the map.
+        vertices: (C,) the vertex of every corner.
+        following: (C,) the next corner in the face of every corner.
+        counted: (C,) bool, the corners of faces that are shown.
+    """
+    corners = np.flatnonzero(counted)
+    if not len(corners):
+        return corners
+    # Corners at one vertex and one position are one point of the map.
+    values = np.column_stack([vertices[corners], uv[corners].view(np.int64)])
+    order = np.lexsort(values.T)
+    is_new = (np.diff(values[order], axis=0) != 0).any(axis=1)
+    point = np.zeros(len(uv), dtype=np.int64)
+    point[corners[order]] = np.concatenate([[0], np.cumsum(is_new)])
+    edges = np.sort(np.column_stack([point[corners], point[following[corners]]]), axis=1)
+    _, index, count = np.unique(edges[:, 0] * len(uv) + edges[:, 1], return_inverse=True, return_counts=True)
+    return corners[count[index.ravel()] == 1]
+
+
+def triangles(start: np.ndarray, end: np.ndarray, width: np.ndarray) -> np.ndarray:
+    """Return triangles, (3 T, 2), that cover what is nearer to the segments than a width, on both sides.
+
+    Args:
+        start: (N, 2) of every segment.
+        end: (N, 2).
+        width: (N, 2) along both axes: a texture that is no square has another in each.
+    """
+    one, two = start / width, end / width
+    along = two - one
+    length = np.linalg.norm(along, axis=1, keepdims=True)
+    side = np.column_stack([-along[:, 1], along[:, 0]]) / np.where(length > 0.0, length, 1.0)
+    quads = np.stack([one - side, two - side, two + side, one - side, two + side, one + side], axis=1)
+    turns = 2.0 * np.pi * np.arange(_SIDES + 1) / _SIDES
+    circle = np.column_stack([np.cos(turns), np.sin(turns)])
+    fan = np.stack([np.zeros((_SIDES, 2)), circle[:-1], circle[1:]], axis=1).reshape(-1, 2)
+    disks = one[:, None] + fan[None]
+    scaled = [part * width[:, None] for part in (quads, disks)]
+    return np.concatenate([part.reshape(-1, 2) for part in scaled])

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stacks: islands of a map that lie on each other, because they are equal or mirrored and share their texture."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .map_view import MapView
+
+
+def stacks(views: Sequence[MapView], tolerance: float) -> tuple[list[np.ndarray], int]:
+    """Find the stacks of several maps.
+
+    Islands are a stack if their bounding boxes and the roots of their areas in the map agree within a `tolerance`, in
+    UV tiles; turns by 180 degrees and mirrors change neither.
+
+    Returns:
+        for each map the stack of every face, (F,) int: numbered from 0 over all maps by their first island, -1 for
+        islands alone and faces without one; and the number of islands in stacks.
+    """
+    measured = [_measures(view) for view in views]
+    counts = [len(part) for part in measured]
+    group = _close(np.concatenate(measured), tolerance)
+    _, first, index, members = np.unique(group, return_index=True, return_inverse=True, return_counts=True)
+    is_stack = members > 1
+    # Stacks in the order of their first islands.
+    number = np.full(len(members), -1)
+    order = np.flatnonzero(is_stack)[np.argsort(first[is_stack], kind="stable")]
+    number[order] = np.arange(len(order))
+    of_island = np.split(number[index.ravel()], np.cumsum(counts)[:-1])
+    # The last entry is that of faces without an island.
+    found = [np.append(part, -1)[view.island_of_face] for part, view in zip(of_island, views)]
+    return found, int(members[is_stack].sum())
+
+
+def _measures(view: MapView) -> np.ndarray:
+    """Return the bounding box and the root of the area of every island in the map, (K, 5); NaN for none."""
+    island = view.island_of_face
+    count = int(island.max(initial=-1)) + 1
+    faces = np.flatnonzero(island >= 0)
+    low, high = view.mesh.face_bounds(view.mesh.uv) if len(island) else (np.empty((0, 2)), np.empty((0, 2)))
+    box_low, box_high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    np.minimum.at(box_low, island[faces], low[faces])
+    np.maximum.at(box_high, island[faces], high[faces])
+    in_map = np.nan_to_num(view.area * np.exp2(2.0 * view.log2_scale))
+    area = np.bincount(island[faces], in_map[faces], minlength=count)
+    return np.column_stack([box_low, box_high, np.sqrt(area)])
+
+
+def _close(values: np.ndarray, tolerance: float) -> np.ndarray:
+    """Group rows (K, n) that agree in every column within a tolerance, or by way of others; return the groups, (K,)."""
+    group = np.zeros(len(values), dtype=int)
+    for column in values.T:
+        order = np.lexsort((column, group))
+        with np.errstate(invalid="ignore"):
+            differs = (np.diff(group[order]) > 0) | ~(np.diff(column[order]) <= tolerance)
+        group[order] = np.concatenate([[0], np.cumsum(differs)])[: len(order)]
+    return group

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands that lie on each other, and the band around islands."""
+
+import numpy as np
+import pytest
+from spectral_unwrap.core.drawing import island_band
+from spectral_unwrap.core.measure.map_view import MapView
+from spectral_unwrap.core.measure.stacks import stacks
+from spectral_unwrap.core.measure.texels import Texels
+from spectral_unwrap.core.mesh.polygon_mesh import PolygonMesh
+
+SQUARE = np.array([(0.0, 0.0), (0.25, 0.0), (0.25, 0.125), (0.0, 0.125)])
+
+
+def islands(*maps):
+    """One quad per map, each an island of its own."""
+    n, uv = len(maps), np.concatenate(maps)
+    corners, offsets = np.arange(4 * n, dtype=np.int32), np.arange(0, 4 * n + 1, 4, dtype=np.int32)
+    positions = np.column_stack([uv, np.repeat(np.arange(n), 4)])
+    return PolygonMesh(positions, offsets, corners, np.empty((0, 2), np.int32), np.ones(n, bool), uv)
+
+
+def test_equal_and_mirrored_islands_on_each_other_are_stacks():
+    mirrored, aside = SQUARE[[1, 0, 3, 2]], SQUARE + (0.5, 0.0)
+    views = [MapView(islands(SQUARE, aside, mirrored)), MapView(islands(SQUARE + 1e-5, SQUARE * 0.5, aside + (0, 0.1)))]
+    found, number = stacks(views, 1e-3)
+    assert [each.tolist() for each in found] == [[0, -1, 0], [0, -1, -1]]
+    assert number == 3
+    apart, number = stacks([views[0], MapView(islands(SQUARE + 1e-2))], 1e-3)
+    assert [each.tolist() for each in apart] == [[0, -1, 0], [-1]]
+    assert number == 2
+
+
+def test_islands_without_uvs_are_in_no_stack():
+    found, number = stacks([MapView(islands(np.full((4, 2), np.nan), np.full((4, 2), np.nan)))], 1e-3)
+    assert found[0].tolist() == [-1, -1]
+    assert number == 0
+
+
+def test_the_band_reaches_half_of_the_margin_in_pixels():
+    view = MapView(islands(SQUARE, SQUARE + (0.5, 0.5)))
+    band = view.border_band(16.0, Texels(256))
+    np.testing.assert_allclose(band.min(axis=0), -8.0 / 256, atol=1e-6)
+    np.testing.assert_allclose(band.max(axis=0), SQUARE.max(axis=0) + 0.5 + 8.0 / 256, atol=1e-6)
+
+
+def test_edges_between_faces_of_an_island_are_no_border():
+    uv = np.concatenate([SQUARE, SQUARE + (0.25, 0.0)])
+    vertices = np.array([0, 1, 2, 3, 1, 4, 5, 2])
+    following = np.array([1, 2, 3, 0, 5, 6, 7, 4])
+    counted = np.ones(8, dtype=bool)
+    assert island_band.border(uv, vertices, following, counted).tolist() == [0, 2, 3, 4, 5, 6]
+    # Torn apart in the map.
+    assert len(island_band.border(uv + np.repeat([0.0, 1.0], 4)[:, None], vertices, following, counted)) == 8
+    assert len(island_band.border(uv, vertices, following, ~counted)) == 0
+    assert island_band.triangles(uv[:0], uv[:0], np.empty((0, 2))).shape == (0, 2)
+    assert np.isfinite(island_band.triangles(uv[:1], uv[:1], np.full((1, 2), 0.1))).all()
+    assert pytest.approx(0.1) == np.abs(island_band.triangles(uv[:1], uv[:1], np.full((1, 2), 0.1))).max()
