@@ -16,9 +16,6 @@
 namespace spectral_conformal {
 namespace {
 
-/// More are not the corners of a box, but a rough surface, whose spanning tree is no seam.
-constexpr std::size_t max_cones = 32;
-
 /// Faces of a chart times the number of parts of its defects that it is cut at, for 3 to 8 of these.
 constexpr std::size_t parted_faces = 20000;
 
@@ -126,37 +123,6 @@ SeamEdges CutCandidates::cut_around(const Region& region) const {
   }
   if (sources.empty() || sinks.empty()) return {};
   return seams_.cut_apart(separable(region.chart), sources, sinks, region.chart, chart_of_face_);
-}
-
-std::vector<SeamEdges> CutCandidates::cuts_to_cones() const {
-  const PolygonMesh mesh = seams_.piece().view();
-  std::vector<SeamEdges> result;
-  for (std::size_t i = 0; i < charts_.size(); ++i) {
-    const int chart = static_cast<int>(i);
-    if (!charts_[i]->solved || !is_first_of_mirrored(chart)) continue;
-    std::vector<DistortedRegion> cones;
-    call_while_listening(region_nanoseconds * static_cast<double>(charts_[i]->chart.triangles.size()),
-                         [&] { cones = sharp_cones(mesh, *charts_[i]); });
-    if (cones.empty() || cones.size() > max_cones) continue;
-    const bool halved = seams_.self_mirrored(chart, chart_of_face_);
-    PieceSeams later = seams_;
-    SeamEdges all;
-    // Nearest first, as a spanning tree grows.
-    std::set<int> left;
-    for (const DistortedRegion& cone : cones) left.insert(halved ? seams_.on_positive_side(cone.vertex) : cone.vertex);
-    while (!left.empty()) {
-      const std::vector<double> distance = later.distances_to_cuts(chart, chart_of_face_);
-      const int next =
-          *std::min_element(left.begin(), left.end(), [&](int a, int b) { return distance[a] < distance[b]; });
-      left.erase(next);
-      if (!(distance[next] > 0)) continue;
-      const SeamEdges cut = later.cut_to(next, false, chart, chart_of_face_);
-      later.add(cut);
-      all.insert(all.end(), cut.begin(), cut.end());
-    }
-    result.push_back(std::move(all));
-  }
-  return result;
 }
 
 std::vector<SeamEdges> CutCandidates::cuts_apart(int chart, const std::vector<int>& defective) const {

@@ -32,9 +32,6 @@ class CutCandidates {
   SeamEdges cut_to(const Region& region, const PieceSeams& seams) const;
   /// Makes an island of the surroundings of a region, up to where the scale is the median.
   SeamEdges cut_around(const Region& region) const;
-  /// Per chart with vertices inside that its angles fold sharply, as the corners of a box are, the cut that joins all
-  /// of them to the seams: what is flat between them is a net then.
-  std::vector<SeamEdges> cuts_to_cones() const;
   /// Cuts that may part the sheets of a chart's map that lie on each other, or open it where it is flipped; `defective`
   /// as defective_faces returns them.
   std::vector<SeamEdges> cuts_between(int chart, const std::vector<int>& defective) const;

@@ -13,9 +13,6 @@ namespace {
 /// Extrema of the scale that are less prominent than this, as log2, are left alone: a factor of 1.2, hardly seen.
 constexpr double min_prominence = 0.25;
 
-/// A cone of less than this, in radians, is bent rather than cut: a twelfth of a full turn.
-constexpr double min_cone = 0.52;
-
 /// Per vertex of a chart: 0 inside, 1 on the outer loop, 2 on another.
 std::vector<char> loop_of_vertex(const PolygonMesh& mesh, const Chart& chart) {
   std::vector<char> result(chart.vertices.size(), 0);
@@ -55,27 +52,6 @@ std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialM
     }
   }
   return regions;
-}
-
-std::vector<DistortedRegion> sharp_cones(const PolygonMesh& mesh, const TrialMap& mapped) {
-  const Chart& chart = mapped.chart;
-  const Positions positions = chart.positions(mesh);
-  std::vector<double> defect(chart.vertices.size(), 2 * pi);
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int v = chart.triangles[t][k];
-      const Eigen::Vector3d a = positions.row(chart.triangles[t][(k + 1) % 3]) - positions.row(v);
-      const Eigen::Vector3d b = positions.row(chart.triangles[t][(k + 2) % 3]) - positions.row(v);
-      defect[v] -= chart.triangle_weights[t] * std::atan2(a.cross(b).norm(), a.dot(b));
-    }
-  }
-  const std::vector<char> loop = loop_of_vertex(mesh, chart);
-  std::vector<DistortedRegion> result;
-  for (int v = 0; v < chart.n_vertices(); ++v) {
-    if (loop[v] == 0 && std::abs(defect[v]) >= min_cone)
-      result.push_back({chart.vertices[v], false, std::abs(defect[v])});
-  }
-  return result;
 }
 
 std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped) {

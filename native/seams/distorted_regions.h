@@ -20,8 +20,4 @@ std::vector<DistortedRegion> scale_extrema(const PolygonMesh& mesh, const TrialM
 /// Vertices away from the outer loop whose faces exceed QC 1 by more than those of their neighbors.
 std::vector<DistortedRegion> angle_peaks(const PolygonMesh& mesh, const TrialMap& mapped);
 
-/// Vertices inside the chart and not on seams whose angle sum is far from a full turn; the volume is the difference, in
-/// radians.
-std::vector<DistortedRegion> sharp_cones(const PolygonMesh& mesh, const TrialMap& mapped);
-
 }  // namespace spectral_conformal

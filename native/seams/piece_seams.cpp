@@ -262,17 +262,6 @@ bool PieceSeams::in_chart(int edge, int chart, const FaceCharts& chart_of_face) 
   return std::any_of(faces.begin(), faces.end(), [&](int face) { return face >= 0 && chart_of_face[face] == chart; });
 }
 
-std::vector<double> PieceSeams::distances_to_cuts(int chart, const FaceCharts& chart_of_face) const {
-  std::vector<int> sources;
-  still_working(10.0 * n_edges());
-  for (int e = 0; e < n_edges(); ++e) {
-    const auto& edge = graph_.edges()[e];
-    if (edge.cut && in_chart(e, chart, chart_of_face))
-      sources.insert(sources.end(), edge.vertices.begin(), edge.vertices.end());
-  }
-  return graph_.distances(sources, [&](int edge) { return in_chart(edge, chart, chart_of_face); });
-}
-
 SeamEdges PieceSeams::cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const {
   const bool halved = self_mirrored(chart, chart_of_face);
   std::vector<char> target(static_cast<std::size_t>(graph_.n_vertices()), 0);

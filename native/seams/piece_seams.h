@@ -76,8 +76,6 @@ class PieceSeams {
   std::vector<SeamEdges> open();
   /// The cheapest cut within a chart from a vertex to the nearest cut, or, from the loop of a hole, to another one.
   SeamEdges cut_to(int vertex, bool on_loop, int chart, const FaceCharts& chart_of_face) const;
-  /// Cost of the cheapest path within a chart from every vertex to a cut; infinite where there is none.
-  std::vector<double> distances_to_cuts(int chart, const FaceCharts& chart_of_face) const;
   /// The edges between some faces of a chart, by their indices in `faces`, and its others, and their images.
   SeamEdges border(const SeparableFaces& faces, const std::vector<int>& some) const;
   /// All edges of the chart on the mirror plane that are not cut.
