@@ -167,7 +167,7 @@ def corner_uv(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def flags(mesh: bpy.types.Mesh, elements: str, name: str) -> np.ndarray:
-    """Return the flag `name`, "select", "hide" or "use_seam", of all `elements` of `mesh`, which is not in edit mode.
+    """Return the flag `name`, such as "hide", of all `elements` of `mesh`, which is not in edit mode.
 
     `elements` is the name of their collection in the mesh.
     """
@@ -190,6 +190,33 @@ def face_values(mesh: bpy.types.Mesh, name: str) -> np.ndarray | None:
         return None
     values = np.empty(len(mesh.polygons), dtype=np.float32)
     found.foreach_get("value", values)
+    return values
+
+
+def edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the crease of every edge of `mesh`, which is not in edit mode, (E,) float64 from 0 to 1."""
+    return _edge_weights(mesh, "crease_edge", "crease")
+
+
+def edge_bevel_weights(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the bevel weight of every edge of `mesh`, which is not in edit mode, (E,) float64 from 0 to 1."""
+    return _edge_weights(mesh, "bevel_weight_edge", "bevel_weight")
+
+
+def _edge_weights(mesh: bpy.types.Mesh, attribute: str, name: str) -> np.ndarray:
+    """Return an attribute of the edges; before 4.0 it is a property of them. 0 for values that are not finite."""
+    values = np.zeros(len(mesh.edges), dtype=np.float32)
+    stored = _attribute(mesh, attribute, "FLOAT", len(values))
+    if stored is not None or bpy.app.version < (4, 0, 0):
+        _read(stored, "value", mesh.edges, name, values)
+    return np.nan_to_num(values.astype(np.float64), nan=0.0).clip(0.0, 1.0)
+
+
+def materials(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the material slot of every face of `mesh`, which is not in edit mode, (F,) int32."""
+    values = np.empty(len(mesh.polygons), dtype=np.int32)
+    stored = _attribute(mesh, "material_index", "INT", len(values))
+    _read(stored, "value", mesh.polygons, "material_index", values)
     return values
 
 

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 
 from .. import names, session
 from ..core.measure.summary import summarize
-from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Options, Preferences, Search, Suggestion, Wishes
+from ..core.seams.suggestion import BY_ANGLE, BY_DISTORTION, Marks, Options, Preferences, Search, Suggestion, Wishes
 from ..core.solve.progress import Progress
 from ..core.solve.solution import Solution, solve_all
 from ..core.words import texts
@@ -208,6 +208,7 @@ class _Question:
     options: Options
     preferences: Preferences
     wishes: Sequence[Wishes]
+    marks: Sequence[Marks]
 
 
 def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the operator
@@ -228,13 +229,14 @@ def _question(chosen: Any, target: Target) -> _Question:  # noqa: ANN401 - the o
     preferences = ()
     if chosen.seam_group:
         preferences = seams.read_preferences(target, chosen.seam_group, chosen.seam_group_use == "PREFER")
-    return _Question(wanted, preferences, seams.read_wishes(target))
+    return _Question(wanted, preferences, seams.read_wishes(target), seams.read_marks(target))
 
 
 def _find(target: Target, question: _Question, report_progress: Progress) -> Suggestion:
     """Search for cuts; any thread may call this."""
     return session.of(Searched).search.suggest(
-        target.polygons, question.options, report_progress, question.preferences, question.wishes
+        *(target.polygons, question.options, report_progress),
+        *(question.preferences, question.wishes, question.marks),
     )
 
 

@@ -10,10 +10,10 @@ import bpy
 import numpy as np
 
 from ..core.mesh.polygon_mesh import PolygonMesh
-from ..core.seams.suggestion import Suggestion, Wishes
+from ..core.seams.suggestion import Marks, Suggestion, Wishes
 from ..core.solve.options import Settings
 from ..core.solve.solution import Solution
-from ..edit_mesh import seam_wishes
+from ..edit_mesh import edge_marks, seam_wishes
 from ..edit_mesh.read import EditMesh
 from . import steps
 from .steps import WhileWriting, Written
@@ -78,6 +78,11 @@ def read_wishes(target: Target) -> list[Wishes]:
         edges, wishes = seam_wishes.of_edges(edit_mesh.mesh)
         found.append(Wishes(edges[wishes == seam_wishes.CUT], edges[wishes == seam_wishes.NEVER]))
     return found
+
+
+def read_marks(target: Target) -> list[Marks]:
+    """Return per mesh its creases, bevels, sharp edges and borders of materials."""
+    return [Marks(*edge_marks.of_edges(edit_mesh.mesh)) for edit_mesh in target.edit_meshes]
 
 
 def read_again(context: bpy.types.Context, target: Target) -> Target | None:

@@ -20,6 +20,7 @@ namespace {
 py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets, const Array<int>& corner_vertices,
                   std::optional<Array<int>> seam_edges, std::optional<Array<bool>> selected_faces,
                   std::optional<Array<double>> vertex_preference, std::optional<Array<int>> avoided_edges,
+                  std::optional<Array<int>> preferred_edges, std::optional<Array<double>> edge_preference,
                   const py::object& given_options, const py::object& progress) {
   const MeshArrays arrays{vertices, face_offsets, corner_vertices, std::move(seam_edges), std::move(selected_faces)};
   const PolygonMesh mesh = arrays.view();
@@ -29,6 +30,11 @@ py::tuple suggest(const Array<double>& vertices, const Array<int>& face_offsets,
     options.avoided_edges = reinterpret_cast<const std::array<int, 2>*>(avoided_edges->data());
     options.n_avoided_edges = static_cast<int>(avoided_edges->shape(0));
   }
+  if (preferred_edges) {
+    options.preferred_edges = reinterpret_cast<const std::array<int, 2>*>(preferred_edges->data());
+    options.n_preferred_edges = static_cast<int>(preferred_edges->shape(0));
+  }
+  if (edge_preference) options.edge_preference = edge_preference->data();
   const Progress callback = progress_of(progress);
   SeamSuggestion suggestion;
   {

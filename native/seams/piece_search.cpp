@@ -56,7 +56,7 @@ SearchedMesh::SearchedMesh(const SeamSuggestionOptions& options, const MirroredP
     : options(options),
       parts(parts),
       given_vertices(given_vertices),
-      avoided(options, parts.symmetry, given_vertices),
+      marks(options, parts.symmetry, given_vertices),
       coarse_options(with_less_energy(options)) {
   if (!(options.qc_gain > 0)) return;
   for (const Piece& piece : parts.pieces) {
@@ -119,8 +119,12 @@ void PieceSearch::make_levels(const Progress& progress) {
     std::vector<double> preference;
     for (const int v : finer->vertices) {
       if (is_own_image) side.push_back(mesh_.parts.symmetry.side[v]);
-      if (mesh_.options.vertex_preference == nullptr) continue;
-      preference.push_back(mesh_.options.vertex_preference[mesh_.given_vertices[static_cast<std::size_t>(v)]]);
+      if (mesh_.options.vertex_preference == nullptr && !mesh_.marks.has_preferred()) continue;
+      double wanted = 0;
+      if (mesh_.options.vertex_preference != nullptr)
+        wanted += mesh_.options.vertex_preference[mesh_.given_vertices[static_cast<std::size_t>(v)]];
+      if (mesh_.marks.has_preferred()) wanted += mesh_.marks.preference_at(v);
+      preference.push_back(wanted);
     }
     levels_.push_back(
         std::make_unique<CoarsePiece>(coarse_piece(*finer, index_, *finer_mirror, side, preference, n, progress)));
@@ -167,7 +171,7 @@ std::vector<double> PieceSearch::cost_factors_of(const SeamGraph& graph, const P
   for (const int v : piece.vertices) given_vertices.push_back(mesh_.given_vertices[static_cast<std::size_t>(v)]);
   std::vector<double> factors = cost_factors(mesh_.options, graph, given_vertices);
   // Filled pieces have all vertices of the piece; only coarse copies have fewer.
-  mesh_.avoided.raise(graph, piece, piece.vertices.size() < this->piece().vertices.size(), factors);
+  mesh_.marks.scale(graph, piece, piece.vertices.size() < this->piece().vertices.size(), factors);
   return factors;
 }
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "seams/avoided_edges.h"
 #include "seams/coarse_piece.h"
 #include "seams/cutter.h"
+#include "seams/edge_marks.h"
 #include "seams/filled_piece.h"
 #include "seams/piece_seams.h"
 #include "seams/pieces.h"
@@ -26,7 +26,7 @@ struct SearchedMesh {
   const SeamSuggestionOptions& options;
   const MirroredPieces& parts;
   const std::vector<int>& given_vertices;
-  AvoidedEdges avoided;
+  EdgeMarks marks;
   SeamSuggestionOptions coarse_options;  ///< of coarse copies
   double area = 0;                       ///< of the finite pieces together; 0 where options.qc_gain is and none asks
 };

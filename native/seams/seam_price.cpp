@@ -6,8 +6,11 @@
 namespace spectral_conformal {
 namespace {
 
+/// Across a flat region, per length of a seam at `shown_angle`.
 constexpr double flat_price = 2;
+/// Not 0: of two ways along sharp edges the shorter is taken.
 constexpr double sharp_price = 0.1;
+/// From about this angle on, shading shows an edge.
 constexpr double shown_angle = 20 * M_PI / 180;
 
 }  // namespace
@@ -15,6 +18,10 @@ constexpr double shown_angle = 20 * M_PI / 180;
 double seam_price(double theta, bool is_concave) {
   const double ratio = (is_concave ? 2 : 1) * theta / shown_angle;
   return std::max(sharp_price, flat_price / (1 + ratio * ratio));
+}
+
+double marked_price(double price, double strength) {
+  return std::pow(price, 1 - strength) * std::pow(sharp_price, strength);
 }
 
 }  // namespace spectral_conformal

@@ -8,4 +8,8 @@ namespace spectral_conformal {
 /// length. A concave edge counts as one of twice its angle: seams are seen least there.
 double seam_price(double theta, bool is_concave);
 
+/// The price of a seam along an edge that the modeler has marked (creased, sharp, between two materials) with a
+/// strength s from 0 to 1: price^(1 - s) (1/10)^s, between that without the mark and that of the sharpest edge.
+double marked_price(double price, double strength);
+
 }  // namespace spectral_conformal

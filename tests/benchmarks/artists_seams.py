@@ -61,7 +61,7 @@ class SeamMeasures:
 
 @dataclass(frozen=True)
 class Model:
-    """A polygon mesh (vertices, face_offsets, corner_vertices), and its artist's seams (S, 2)."""
+    """A polygon mesh (vertices, face_offsets, corner_vertices), its artist's seams (S, 2), and borders of materials."""
 
     name: str
     vertices: np.ndarray
@@ -69,6 +69,7 @@ class Model:
     corners: np.ndarray
     seams: np.ndarray
     islands: int
+    borders: np.ndarray
 
 
 def models(paths: list[Path]) -> Iterator[Model]:
@@ -102,7 +103,8 @@ def _model(name: str, mesh: assets.AssetMesh) -> Model | None:
         or np.ptp(mesh.corner_uv, axis=0).min() <= 0
     ):
         return None
-    return Model(name, mesh.vertices, offsets, corners, seams, islands)
+    borders = welding.material_borders(mesh, vertex_of)
+    return Model(name, mesh.vertices, offsets, corners, seams, islands, borders)
 
 
 def _face_areas(model: Model) -> np.ndarray:
@@ -166,8 +168,10 @@ def measure(model: Model, seams: np.ndarray, islands: int, worst: float) -> Seam
 
 
 def suggested(model: Model) -> SeamMeasures:
-    """Suggest seams from nothing, unwrap, and measure."""
-    seams = spectral_conformal.suggest_seams(model.vertices, model.offsets, model.corners)
+    """Suggest seams from nothing but borders of materials, unwrap, and measure."""
+    seams = spectral_conformal.suggest_seams(
+        model.vertices, model.offsets, model.corners, preferred_edges=model.borders
+    )
     result = spectral_conformal.unwrap(model.vertices, model.offsets, model.corners, seam_edges=seams)
     worst = max((chart.max_qc for chart in result.charts if np.isfinite(chart.max_qc)), default=float("nan"))
     return measure(model, seams, len(result.charts), worst)

@@ -166,6 +166,9 @@ PARAMETERS = {
     "energy_limit": lambda rng, mesh: 4 + float(10 ** rng.uniform(-3, 1)),
     "front": lambda rng, mesh: tuple(rng.normal(size=3) * 10 ** rng.uniform(-2, 2)),
     "avoided_edges": seam_edges,
+    "preferred_edges": seam_edges,
+    # Of as many edges as the other draw seldom has: then it is refused, and else used.
+    "edge_preference": lambda rng, mesh: rng.uniform(0, 1, int(rng.integers(0, 4))),
     "vertex_preference": lambda rng, mesh: rng.uniform(-1, 1, len(mesh.vertices)),
 }
 POLYGON_PARAMETERS = {**PARAMETERS, "metric": space_metric}

@@ -112,6 +112,18 @@ def test_line_elements_keep_their_uvs(tmp_path):
     assert named == [["1", "3"], ["8", "9", "0"]]
 
 
+def test_materials_of_an_obj(tmp_path):
+    path = tmp_path / "a.obj"
+    faces = "f 1 2 3\nusemtl red 1 # no\nf 1 3 4\nusemtl\tblue\nf 2 5 6\nusemtl red 1 # no\nf 2 6 3\n"
+    path.write_text(VERTICES + faces)
+    assert assets.read(path).meshes[0].material_of_face.tolist() == [-1, 0, 1, 0]
+    path.write_text(VERTICES + "usemtl red\nf 1 2 3\nf 1 3 4\n")
+    assert assets.read(path).meshes[0].material_of_face is None
+    path.write_text(VERTICES + "usemtl red\n")
+    with pytest.raises(assets.AssetError):
+        assets.read(path)
+
+
 def test_faces_without_a_map_get_no_uvs(tmp_path):
     path = save(tmp_path / "m.obj", VERTICES + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf 2/1 5/1 6/1 3/1\n")
     content, mesh = with_uv(path, mapped=np.array([False, False]))

@@ -295,6 +295,8 @@ def test_all_else_is_as_it_was(how, tmp_path):
     assert [len(mesh.vertices) for mesh in asset.meshes] == [25, 6, 5, 25, 6]
     # A skinned mesh is moved by its joints alone.
     assert [mesh.scale for mesh in asset.meshes] == pytest.approx([1, 4, 1, 1, 2])
+    assert asset.meshes[0].material_of_face.tolist() == [0] * 16 + [1] * 16
+    assert [mesh.material_of_face for mesh in asset.meshes[1:]] == [None] * 4
     maps = seams_and_uv(asset)
     new = tmp_path / f"new{asset.suffix}"
     assets.write(new, asset, maps)

@@ -214,6 +214,37 @@ def test_avoided_pairs_that_are_no_edges_change_nothing():
         np.testing.assert_array_equal(sc.suggest_seams(*mesh, avoided_edges=avoided), seams)
 
 
+def test_seams_follow_preferred_edges():
+    mesh = closed_creature()
+    points, edges = mesh[0], mesh_edges(mesh)
+    # Lines lengthwise, away from the back, where the seam would be.
+    marked = edges[np.isin(edges, sc.suggest_seams(*mesh)).sum(axis=1) == 0]
+
+    def share(**given):
+        seams = sc.suggest_seams(*mesh, **given)
+        length = np.linalg.norm(points[seams[:, 0]] - points[seams[:, 1]], axis=1)
+        is_marked = np.array([edge in as_set(marked) for edge in map(tuple, np.sort(seams, axis=1).tolist())])
+        assert all(chart.flipped + chart.overlapping == 0 for chart in sc.unwrap(*mesh, seam_edges=seams).charts)
+        return length[is_marked].sum() / length.sum()
+
+    assert share() == 0.0
+    assert share(preferred_edges=marked, edge_preference=np.zeros(len(marked))) == 0.0
+    assert share(preferred_edges=marked) > 0.7
+
+
+def test_preferred_edges_do_not_depend_on_order_or_direction():
+    mesh = closed_creature()
+    marked = mesh_edges(mesh)[::3]
+    strengths = np.linspace(0.2, 0.8, len(marked))
+    seams = sc.suggest_seams(*mesh, preferred_edges=marked, edge_preference=strengths)
+    again = sc.suggest_seams(
+        *mesh,
+        preferred_edges=np.r_[marked[:, ::-1][::-1], marked[:5], [[0, len(mesh[0]) - 1]]],
+        edge_preference=np.r_[strengths[::-1], np.zeros(5), 1.0],
+    )
+    np.testing.assert_array_equal(seams, again)
+
+
 def strip_round_corners():
     """A flat strip in a spiral of right angles, bent to a cone so that its map covers itself."""
     turns = np.linspace(0, 3.6 * np.pi, 120)
@@ -371,6 +402,10 @@ def test_progress_and_cancelling():
         ({"front": (0, 1)}, ValueError, "front must be three finite numbers"),
         ({"vertex_preference": [2.0]}, ValueError, "vertex_preference must be"),
         ({"avoided_edges": [[0, 10**6]]}, ValueError, "avoided_edges has the vertex"),
+        ({"preferred_edges": [[0, 10**6]]}, ValueError, "preferred_edges has the vertex"),
+        ({"preferred_edges": [[0, 1]], "edge_preference": [1.5]}, ValueError, "edge_preference must be 1 numbers"),
+        ({"preferred_edges": [[0, 1]], "edge_preference": ["a"]}, TypeError, "edge_preference must hold real numbers"),
+        ({"edge_preference": [1.0]}, ValueError, "edge_preference needs preferred_edges"),
         ({"weights": "heavy"}, ValueError, "weights must be one of"),
         ({"factorization": "lu"}, ValueError, "factorization must be one of"),
         ({"progress": 3}, TypeError, "progress must be callable"),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes whose faces have vertices of their own, against the same mesh with shared ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from spectral_conformal.assets import AssetMesh, welding
@@ -75,6 +77,17 @@ def test_corners_of_one_face_stay_apart():
     mesh = polygon_mesh(points, [[0, 1, 2, 3, 4], [4, 5, 6]])
     assert np.array_equal(vertex_of(mesh), np.arange(7))
     assert np.array_equal(vertex_of(polygon_mesh([(0, 0, 0)] * 3, [[0, 1, 2]])), np.arange(3))
+
+
+def test_borders_of_materials_are_edges_of_the_welded_mesh():
+    for mesh in (cube(), taken_apart(cube())):
+        material = np.array([0, 0, 0, 0, 0, 7])
+        marked = replace(mesh, material_of_face=material)
+        edges = welding.material_borders(marked, vertex_of(mesh))
+        last = vertex_of(mesh)[mesh.corner_vertices[-4:]]
+        expected = np.sort(np.stack([last, np.roll(last, -1)], axis=1), axis=1)
+        assert sorted(edges.tolist()) == sorted(expected.tolist())
+        assert welding.material_borders(mesh, vertex_of(mesh)).shape == (0, 2)
 
 
 def test_meshes_without_borders_or_faces():

@@ -48,6 +48,13 @@ class Wishes(NamedTuple):
     never: np.ndarray
 
 
+class Marks(NamedTuple):
+    """Edges of a mesh, (n, 2) vertex pairs, along which seams are cheap, and how much, (n,) float64 from 0 to 1."""
+
+    edges: np.ndarray
+    strengths: np.ndarray
+
+
 @dataclass(frozen=True)
 class Cut:
     """Seams to mark together.
@@ -117,6 +124,7 @@ def suggest(
     progress: Progress | None = None,
     preferences: Preferences = (),
     wishes: Sequence[Wishes] = (),
+    marks: Sequence[Marks] = (),
 ) -> Suggestion:
     """Suggest cuts of the selected faces of every mesh. A refused mesh does not stop the others.
 
@@ -126,6 +134,7 @@ def suggest(
         progress: called with the fraction done; returns False to cancel.
         preferences: per mesh where seams are wanted; empty for no preferences.
         wishes: per mesh; empty for no wishes.
+        marks: per mesh; empty for none.
 
     Raises:
         NativeModuleError: `spectral_conformal` cannot be imported.
@@ -134,6 +143,7 @@ def suggest(
     """
     wanted = preferences or [None] * len(meshes)
     wishes = wishes or [Wishes(*[np.empty((0, 2), np.int32)] * 2)] * len(meshes)
+    marks = marks or [Marks(np.empty((0, 2), np.int32), np.empty(0))] * len(meshes)
     fixed = [_fixed(mesh, options, wish) for mesh, wish in zip(meshes, wishes)]
     kept = tuple(Cut(i, edges, _length(meshes[i], edges)) for i, edges in enumerate(fixed) if len(edges))
     if options.method == BY_ANGLE:
@@ -141,7 +151,8 @@ def suggest(
     each = parts([[mesh] for mesh in meshes], progress)
     cut_open = [replace(mesh, seam_edges=np.concatenate([mesh.seam_edges, own])) for mesh, own in zip(meshes, fixed)]
     found = [
-        _suggest(mesh, options, part, own, wish.never) for mesh, part, own, wish in zip(cut_open, each, wanted, wishes)
+        _suggest(mesh, options, part, own, wish.never, mark)
+        for mesh, part, own, wish, mark in zip(cut_open, each, wanted, wishes, marks)
     ]
     if found and all(each.is_too_large for each in found):
         raise MemoryError
@@ -204,7 +215,12 @@ class _Found(NamedTuple):
 
 
 def _suggest(
-    mesh: PolygonMesh, options: Options, progress: Progress | None, preference: np.ndarray | None, never: np.ndarray
+    mesh: PolygonMesh,
+    options: Options,
+    progress: Progress | None,
+    preference: np.ndarray | None,
+    never: np.ndarray,
+    marks: Marks,
 ) -> _Found:
     try:
         cuts = native.spectral_conformal().suggest_cuts(
@@ -215,6 +231,8 @@ def _suggest(
             selected_faces=mesh.selected_faces,
             vertex_preference=preference,
             avoided_edges=never if len(never) else None,
+            preferred_edges=marks.edges if len(marks.edges) else None,
+            edge_preference=marks.strengths if len(marks.edges) else None,
             max_length=options.max_length,
             scale_limit=options.scale_limit,
             qc_limit=options.qc_limit,
@@ -263,19 +281,24 @@ class Search:
         progress: Progress | None = None,
         preferences: Preferences = (),
         wishes: Sequence[Wishes] = (),
+        marks: Sequence[Marks] = (),
     ) -> Suggestion:
         """Suggest cuts as the function `suggest` does."""
-        question = _digest(meshes, options, preferences, wishes)
+        question = _digest(meshes, options, preferences, wishes, marks)
         last = self._last
         if last is not None and last[0] == question:
             return last[1]
-        answer = suggest(meshes, options, progress, preferences, wishes)
+        answer = suggest(meshes, options, progress, preferences, wishes, marks)
         self._last = (question, answer)
         return answer
 
 
 def _digest(
-    meshes: Sequence[PolygonMesh], options: Options, preferences: Preferences, wishes: Sequence[Wishes]
+    meshes: Sequence[PolygonMesh],
+    options: Options,
+    preferences: Preferences,
+    wishes: Sequence[Wishes],
+    marks: Sequence[Marks],
 ) -> bytes:
     """Return a digest of everything that the cuts depend on."""
     digest = hashlib.blake2b(repr(options).encode())
@@ -286,6 +309,6 @@ def _digest(
             digest.update(np.ascontiguousarray(array).data)
     for preference in preferences:
         digest.update(b"none" if preference is None else np.ascontiguousarray(preference).tobytes())
-    for array in (array for wish in wishes for array in wish):
+    for array in (array for edges in (*wishes, *marks) for array in edges):
         digest.update(repr(array.shape).encode() + np.ascontiguousarray(array).tobytes())
     return digest.digest()

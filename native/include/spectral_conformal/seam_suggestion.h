@@ -34,6 +34,13 @@ struct SeamSuggestionOptions {
   /// ignored.
   const std::array<int, 2>* avoided_edges = nullptr;
   int n_avoided_edges = 0;
+  /// (n_preferred_edges,) vertex pairs in any order, or null: edges that the modeler has marked, as creases or borders
+  /// of materials. With edge_preference (n_preferred_edges,) in [0, 1], 1 if null, a seam costs between what it would
+  /// without the mark, 0, and what it costs along the sharpest edge, 1 (marked_price in seam_price.h). Pairs that are
+  /// no edges are ignored.
+  const std::array<int, 2>* preferred_edges = nullptr;
+  const double* edge_preference = nullptr;
+  int n_preferred_edges = 0;
   PatchOptions map;  ///< of the maps whose distortion is measured
 };
 

@@ -160,6 +160,26 @@ def checked_preference(values: npt.ArrayLike | None, n_vertices: int) -> npt.NDA
     return preference
 
 
+def checked_marks(
+    edges: npt.ArrayLike | None, strengths: npt.ArrayLike | None, n_vertices: int
+) -> tuple[npt.NDArray[np.int32] | None, npt.NDArray[np.float64] | None]:
+    """Return `preferred_edges`, (P, 2), and `edge_preference`, (P,)."""
+    if edges is None:
+        if strengths is not None:
+            raise ValueError("edge_preference needs preferred_edges.")
+        return None, None
+    pairs = checked_indices(edges, "preferred_edges", 2, n_vertices)
+    if strengths is None:
+        return pairs, None
+    array = checked_array(strengths, "edge_preference")
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"edge_preference must hold real numbers, not {array.dtype}.")
+    found = np.array(array, dtype=np.float64) if array.shape == (len(pairs),) else None
+    if found is None or not ((found >= 0) & (found <= 1)).all():
+        raise ValueError(f"edge_preference must be {len(pairs)} numbers from 0 to 1, one per edge of preferred_edges.")
+    return pairs, found
+
+
 def checked_progress(progress: Progress | None) -> Progress | None:
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be callable or None, not {type(progress).__name__}.")

@@ -21,6 +21,24 @@ def edge_keys(edges: npt.NDArray[np.integer], n_vertices: int) -> npt.NDArray[np
     return ends[:, 0] * n_vertices + ends[:, 1]
 
 
+def edges_between(
+    values: npt.NDArray[np.integer],
+    face_offsets: npt.NDArray[np.integer],
+    corner_vertices: npt.NDArray[np.integer],
+    n_vertices: int,
+) -> npt.NDArray[np.integer]:
+    """Return the edges, (n, 2), the lower vertex first, whose faces have different values, (F,)."""
+    if (values == values[:1]).all():
+        return np.zeros((0, 2), dtype=corner_vertices.dtype)
+    pairs = np.sort(np.stack([corner_vertices, corner_vertices[next_corner(face_offsets)]], axis=1), axis=1)
+    of_corner = np.repeat(values, np.diff(face_offsets))
+    keys = edge_keys(pairs, n_vertices)
+    order = np.lexsort((of_corner, keys))
+    keys, of_corner = keys[order], of_corner[order]
+    differs = (keys[1:] == keys[:-1]) & (of_corner[1:] != of_corner[:-1])
+    return np.unique(pairs[order[1:][differs]], axis=0)
+
+
 def area_mean(values: npt.NDArray[np.floating], area: npt.NDArray[np.floating]) -> float:
     """Return the mean of `values` (N,) over the surface, given the `area` (N,) of each; NaN without area."""
     total = area.sum()

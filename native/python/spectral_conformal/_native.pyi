@@ -100,6 +100,8 @@ def suggest_seams(
     selected_faces: _Flags | None,
     vertex_preference: _Floats | None,
     avoided_edges: _Indices | None,
+    preferred_edges: _Indices | None,
+    edge_preference: _Floats | None,
     options: SeamOptions,
     progress: Progress | None,
 ) -> tuple[_Indices, _Indices, str]: ...

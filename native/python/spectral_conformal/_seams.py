@@ -33,6 +33,8 @@ def suggest_seams(
     selected_faces: npt.ArrayLike | None = None,
     vertex_preference: npt.ArrayLike | None = None,
     avoided_edges: npt.ArrayLike | None = None,
+    preferred_edges: npt.ArrayLike | None = None,
+    edge_preference: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> npt.NDArray[np.int32]:
@@ -64,6 +66,9 @@ def suggest_seams(
             choice to the distortion. An edge whose ends have the mean p counts as 8^-p times as long.
         avoided_edges: (A, 2) vertex pairs: edges that become seams only in components that could not be unwrapped
             otherwise, or not without flips or overlaps. Pairs that are no edges are ignored.
+        preferred_edges: (P, 2) vertex pairs: edges that are marked on the model, such as creases and borders of
+            materials. A seam costs there as little as along the sharpest edge. Pairs that are no edges are ignored.
+        edge_preference: (P,) from 0 to 1, 1 by default: how strongly each is marked; 0 leaves the cost as it is.
         progress: as in `parameterize`.
 
     Returns:
@@ -88,6 +93,8 @@ def suggest_seams(
         selected_faces=selected_faces,
         vertex_preference=vertex_preference,
         avoided_edges=avoided_edges,
+        preferred_edges=preferred_edges,
+        edge_preference=edge_preference,
         progress=progress,
     )
     if cuts.message:
@@ -105,6 +112,8 @@ def suggest_cuts(
     selected_faces: npt.ArrayLike | None = None,
     vertex_preference: npt.ArrayLike | None = None,
     avoided_edges: npt.ArrayLike | None = None,
+    preferred_edges: npt.ArrayLike | None = None,
+    edge_preference: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **changes: Unpack[SeamOptionChanges],
 ) -> Cuts:
@@ -119,8 +128,15 @@ def suggest_cuts(
     avoided = None
     if avoided_edges is not None:
         avoided = _arguments.checked_indices(avoided_edges, "avoided_edges", 2, len(polygons[0]))
+    preferred, strengths = _arguments.checked_marks(preferred_edges, edge_preference, len(polygons[0]))
     edges, offsets, message = _native.suggest_seams(
-        *polygons, preference, avoided, used.with_energy_limit(), _arguments.checked_progress(progress)
+        *polygons,
+        preference,
+        avoided,
+        preferred,
+        strengths,
+        used.with_energy_limit(),
+        _arguments.checked_progress(progress),
     )
     cuts = np.split(edges, offsets[1:-1]) if len(edges) else []
     if avoided is not None:

@@ -12,6 +12,7 @@ import pytest
 from tests.blender.inside import jobs, scenes
 
 names = importlib.import_module("spectral_unwrap.names")
+edge_marks = importlib.import_module("spectral_unwrap.edit_mesh.edge_marks")
 seam_wishes = importlib.import_module("spectral_unwrap.edit_mesh.seam_wishes")
 
 
@@ -74,6 +75,30 @@ def test_wishes_are_set_changed_cleared_and_counted(reports):
     assert reports() == [("Info", f"{label}: 16 edges") for label in ("Cut Here", "Never Here", "Clear Wishes")]
     assert bpy.ops.mesh.spectral_seam_wish(wish="CUT") == {"CANCELLED"}
     assert reports() == [("Warning", "No edges selected")]
+
+
+def test_marks_of_the_modeler_are_read():
+    ball = sphere()
+    scenes.edit(ball)
+    equator = select_edges(ball, on_equator)
+    bpy.ops.transform.edge_crease(value=0.5)
+    tropic = select_edges(ball, lambda middle: abs(middle.z - 0.7071) < 1e-2)
+    bpy.ops.transform.edge_bevelweight(value=0.25)
+    bpy.ops.mesh.mark_sharp()
+    bm = scenes.edit_mesh(ball)
+    for face in bm.faces:
+        face.material_index = int(face.calc_center_median().x > 0.0)
+    bmesh.update_edit_mesh(ball.data)
+    edges, strengths = edge_marks.of_edges(ball.data)
+    found = dict.fromkeys(equator | tropic, 0.0)
+    for edge, strength in zip(map(frozenset, edges.tolist()), strengths.tolist()):
+        found[edge] = max(found.get(edge, 0.0), strength)
+    expected = {**dict.fromkeys(equator, 0.5), **dict.fromkeys(tropic, 1.0)}
+    for edge in bm.edges:
+        if len({face.material_index for face in edge.link_faces}) > 1:
+            expected[frozenset(vertex.index for vertex in edge.verts)] = 1.0
+    assert len(expected) > 40
+    assert found == pytest.approx(expected, abs=0.01)
 
 
 def test_wishes_are_saved_with_the_mesh(tmp_path):

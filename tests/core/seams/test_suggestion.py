@@ -100,6 +100,8 @@ def test_options_and_seams_reach_the_module(module):
         "front": (0.0, -2.0, 0.0),
         "vertex_preference": None,
         "avoided_edges": None,
+        "preferred_edges": None,
+        "edge_preference": None,
     }
 
 
@@ -143,6 +145,17 @@ def test_edges_to_cut_are_seams_of_the_search_and_of_every_part(monkeypatch):
     assert suggestion.edges(0).tolist() == [[2, 1], [0, 1]]
     assert (suggestion.length, suggestion.part(0, 0).length) == (2.0, 1.0)
     assert suggestion.refused_wishes == 0
+
+
+def test_marks_reach_the_module_and_belong_to_the_question(module):
+    marked = seam_suggestion.Marks(np.array([[0, 1]], np.int32), np.array([0.5]))
+    stronger = marked._replace(strengths=np.array([0.75]))
+    module.cuts = [[], []]
+    search = seam_suggestion.Search()
+    for marks in ([marked], [marked], [stronger]):
+        search.suggest([square()], Options(), marks=marks)
+    assert [options["preferred_edges"].tolist() for options in module.asked] == [[[0, 1]]] * 2
+    assert [options["edge_preference"].tolist() for options in module.asked] == [[0.5], [0.75]]
 
 
 def test_cuts_against_a_wish_are_counted(monkeypatch):

@@ -29,6 +29,13 @@ TEST_CASE("concave edges cost less than convex ones, unless both are flat or sha
   CHECK(seam_price(2, true) == seam_price(2, false));
 }
 
+TEST_CASE("a mark takes the price to that of the sharpest edge, by its strength") {
+  CHECK(marked_price(2, 0) == 2);
+  CHECK(marked_price(2, 1) == doctest::Approx(seam_price(2, false)));
+  CHECK(marked_price(1.6, 0.5) == doctest::Approx(0.4));
+  CHECK(marked_price(0.1, 0.3) == doctest::Approx(0.1));
+}
+
 TEST_SUITE_END();
 
 }  // namespace spectral_conformal::test

@@ -261,6 +261,12 @@ class _Group:
         """(3 triangles,) the row of each corner, over all primitives."""
         return np.concatenate([np.zeros(0, np.int64), *(each.ravel() for each in self.triangles)])
 
+    @property
+    def materials(self) -> Integers:
+        """(triangles,) the material of each triangle, over all primitives; -1 without one."""
+        numbers = [each.get("material", -1) for each in self.primitives]
+        return np.repeat(np.array(numbers, dtype=np.int64), [len(each) for each in self.triangles])
+
 
 class _Mesh:
     def __init__(self, asset: GltfAsset, number: int, mesh: _Json) -> None:
@@ -305,7 +311,11 @@ class _Mesh:
         first, number = in_order_of_use(used + 0.0)
         offsets = np.arange(0, len(used) + 1, 3, dtype=np.int64)
         found_uv = np.concatenate(uv) if has_uv else None
-        return AssetMesh(used[first] + 0.0, offsets, number, found_uv, self.name, placement)
+        material = np.concatenate([group.materials for group in self.groups])
+        return AssetMesh(
+            *(used[first] + 0.0, offsets, number, found_uv, self.name, placement),
+            material_of_face=material if (material != material[:1]).any() else None,
+        )
 
 
 def _triangles(asset: GltfAsset, primitive: _Json, n_rows: int) -> Integers:

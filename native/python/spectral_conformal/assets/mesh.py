@@ -40,6 +40,8 @@ class AssetMesh:
     """Names of the objects in a file that stores all of them as one mesh; empty if it names none."""
     part_of_face: npt.NDArray[np.int64] | None = None
     """(faces,) index into `parts`, -1 for faces in none; None without parts."""
+    material_of_face: npt.NDArray[np.int64] | None = None
+    """(faces,) a number per material, -1 for faces without one; None if the file has less than two."""
 
     def names_of(self, faces: npt.NDArray[np.integer]) -> list[str]:
         """Return the names of the objects that faces belong to; empty if the file has none."""

@@ -26,8 +26,11 @@ _CONTINUATION = re.compile(rb"\\[ \t\r]*\n")
 _BLANK = np.zeros(256, dtype=bool)
 _BLANK[list(b" \t\r\n\v\f")] = True
 _SLASH_TO_BLANK = bytes.maketrans(b"/", b" ")
-_OTHER, _POSITION, _UV, _FACE, _REFERRER, _OBJECT = range(6)
-_KINDS = {b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER, b"o": _OBJECT}
+_OTHER, _POSITION, _UV, _FACE, _REFERRER, _OBJECT, _MATERIAL = range(7)
+_KINDS = {
+    **{b"v": _POSITION, b"vt": _UV, b"f": _FACE, b"l": _REFERRER, b"surf": _REFERRER},
+    **{b"o": _OBJECT, b"usemtl": _MATERIAL},
+}
 # Separated by slashes, a corner's number 0 is its vertex, number 1 its UV: 1, 1/2, 1//3, 1/2/3.
 _FORMS = {(0, False): (0,), (1, False): (0, 1), (2, True): (0, 2), (2, False): (0, 1, 2)}
 
@@ -62,17 +65,35 @@ class ObjAsset(OneMeshAsset):
         corners, corner_uv = self._corners(np.repeat(self._faces, sizes), len(positions))
         has_map = corner_uv.max(initial=-1) >= 0
         found = np.vstack([self._uv, [[np.nan, np.nan]]])[corner_uv] if has_map else None
-        self.mesh = checked(path, AssetMesh(positions, offsets_of(sizes), corners, found, **self._objects()))
+        material = self._materials()
+        self.mesh = checked(
+            path,
+            AssetMesh(positions, offsets_of(sizes), corners, found, material_of_face=material, **self._objects()),
+        )
 
     def _objects(self) -> dict[str, Any]:
         """Return the objects of the mesh as the parts of an `AssetMesh`; none for a file with fewer than two."""
         lines = self._lines_of(_OBJECT)
         if len(lines) < 2:
             return {}
-        spans = zip(self._starts[lines].tolist(), self._ends[lines].tolist())
-        names = [self._data[start:end].strip()[1:].strip() for start, end in spans]
-        parts = tuple(name.decode("utf-8", errors="replace") for name in names)
+        parts = tuple(name.decode("utf-8", errors="replace") for name in self._names(lines))
         return {"parts": parts, "part_of_face": np.searchsorted(lines, self._faces, side="right") - 1}
+
+    def _materials(self) -> npt.NDArray[np.int64] | None:
+        """Return the material of every face, `AssetMesh.material_of_face`."""
+        lines = self._lines_of(_MATERIAL)
+        if len(lines) == 0:
+            return None
+        numbers: dict[bytes, int] = {}
+        of_line = np.array([numbers.setdefault(name, len(numbers)) for name in self._names(lines)], dtype=np.int64)
+        line = np.searchsorted(lines, self._faces, side="right") - 1
+        found = np.where(line < 0, -1, of_line[line])
+        return found if (found != found[:1]).any() else None
+
+    def _names(self, lines: Integers) -> list[bytes]:
+        """Return what follows the keyword in each of the lines."""
+        spans = zip(self._starts[lines].tolist(), self._ends[lines].tolist())
+        return [b"".join(self._data[start:end].split(maxsplit=1)[1:]).strip() for start, end in spans]
 
     def with_uv(self, uv: npt.NDArray[np.float64], mapped: npt.NDArray[np.bool_]) -> bytes:
         """Return the file with a new UV map.

@@ -27,8 +27,8 @@ class Cutting:
 
     Attributes:
         seams: "keep": at the edges that the file marks as seams or, if it marks none, at the island borders of its map.
-            "suggest": at marked edges, and where that lowers the distortion most. "sharp": at marked edges, and at
-            edges whose two faces enclose `sharp_angle` or more.
+            "suggest": at marked edges, and where that lowers the distortion most, along borders of materials where that
+            serves as well. "sharp": at marked edges, and at edges whose two faces enclose `sharp_angle` or more.
         keep_islands: also cut at the island borders of the file's map, whatever `seams` says.
         sharp_angle: in degrees, between the normals of two faces.
         weld_distance: vertices on open borders closer than this fraction of the bounding box's diagonal count as one; 0
@@ -108,7 +108,12 @@ def cut(mesh: AssetMesh, cutting: Cutting) -> CutMesh:
     if cutting.seams == "sharp":
         seams.append(welding.sharp_edges(mesh, vertex_of, math.radians(cutting.sharp_angle)))
     elif cutting.seams == "suggest":
-        cuts = suggest_cuts(*found.polygons, seam_edges=np.concatenate(seams), options=cutting.options)
+        cuts = suggest_cuts(
+            *found.polygons,
+            seam_edges=np.concatenate(seams),
+            preferred_edges=welding.material_borders(mesh, vertex_of),
+            options=cutting.options,
+        )
         seams += cuts
         message = cuts.message
     return CutMesh(mesh, vertex_of, np.concatenate(seams).astype(np.int64), message)

@@ -1,4 +1,4 @@
-"""Weld adjacent faces that have separate vertices, and find sharp edges of the welded mesh.
+"""Weld adjacent faces that have separate vertices, and find sharp edges and material borders of the welded mesh.
 
 Files often store a vertex once per normal or UV, or once per face. UVs belong to the corners of faces, so a solution on
 the welded mesh also holds for the original mesh, which stays unchanged.
@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from .._measuring import next_corner
+from .._measuring import edges_between, next_corner
 from .._sharp_edges import sharp_edges as edges_by_angle
 from .mesh import AssetMesh
 
@@ -115,3 +115,10 @@ def sharp_edges(mesh: AssetMesh, vertex_of: Integers, angle: float) -> Integers:
         angle: in radians.
     """
     return edges_by_angle(mesh.vertices, mesh.face_offsets, mesh.corner_vertices, angle, vertex_of=vertex_of)
+
+
+def material_borders(mesh: AssetMesh, vertex_of: Integers) -> Integers:
+    """Return the edges, (n, 2), between two faces of the welded mesh with different materials."""
+    if mesh.material_of_face is None:
+        return np.zeros((0, 2), np.int64)
+    return edges_between(mesh.material_of_face, mesh.face_offsets, vertex_of[mesh.corner_vertices], len(mesh.vertices))

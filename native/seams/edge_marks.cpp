@@ -1,0 +1,87 @@
+#include "seams/edge_marks.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "concurrency/work_counter.h"
+#include "seams/seam_price.h"
+
+namespace spectral_conformal {
+namespace {
+
+/// Longer than any detour on a mesh of less than a million edges, but small enough that sums keep their digits.
+constexpr double prohibitive = 1e6;
+
+std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+}  // namespace
+
+EdgeMarks::EdgeMarks(const SeamSuggestionOptions& options, const MirrorSymmetry& symmetry,
+                     const std::vector<int>& mesh_vertices) {
+  if (options.n_avoided_edges == 0 && options.n_preferred_edges == 0) return;
+  int last = -1;
+  for (const int v : mesh_vertices) last = std::max(last, v);
+  std::vector<int> canonical(static_cast<std::size_t>(last) + 1, -1);
+  for (std::size_t i = 0; i < mesh_vertices.size(); ++i) {
+    canonical[static_cast<std::size_t>(mesh_vertices[i])] = static_cast<int>(i);
+  }
+  const auto index = [&](int v) { return v > last ? -1 : canonical[static_cast<std::size_t>(v)]; };
+  const auto collect = [&](const std::array<int, 2>* edges, const double* strengths, int n, Marks& marks) {
+    for (int k = 0; k < n; ++k) {
+      const int a = index(edges[k][0]);
+      const int b = index(edges[k][1]);
+      const double strength = strengths == nullptr ? 1 : strengths[k];
+      if (a < 0 || b < 0 || !(strength > 0)) continue;
+      marks.edges.push_back({sorted(a, b), strength});
+      if (symmetry.axis < 0) continue;
+      const int c = symmetry.vertex[static_cast<std::size_t>(a)];
+      const int d = symmetry.vertex[static_cast<std::size_t>(b)];
+      if (c >= 0 && d >= 0) marks.edges.push_back({sorted(c, d), strength});
+    }
+    if (marks.edges.empty()) return;
+    // Of equal edges the strongest mark counts.
+    std::sort(marks.edges.begin(), marks.edges.end(), [](const Mark& one, const Mark& other) {
+      return one.edge != other.edge ? one.edge < other.edge : one.strength > other.strength;
+    });
+    marks.edges.erase(std::unique(marks.edges.begin(), marks.edges.end(),
+                                  [](const Mark& one, const Mark& other) { return one.edge == other.edge; }),
+                      marks.edges.end());
+    marks.largest.assign(mesh_vertices.size(), 0);
+    for (const Mark& mark : marks.edges) {
+      for (const int v : mark.edge) {
+        double& largest = marks.largest[static_cast<std::size_t>(v)];
+        largest = std::max(largest, mark.strength);
+      }
+    }
+  };
+  collect(options.avoided_edges, nullptr, options.n_avoided_edges, avoided_);
+  collect(options.preferred_edges, options.edge_preference, options.n_preferred_edges, preferred_);
+}
+
+/// Of the mark of an edge between canonical vertices; 0 without one.
+double EdgeMarks::Marks::strength(int a, int b, bool is_coarse) const {
+  if (edges.empty()) return 0;
+  const double weaker = std::min(largest[static_cast<std::size_t>(a)], largest[static_cast<std::size_t>(b)]);
+  if (is_coarse || weaker == 0) return weaker;
+  const std::array<int, 2> edge = sorted(a, b);
+  const auto at = std::lower_bound(edges.begin(), edges.end(), edge,
+                                   [](const Mark& mark, const std::array<int, 2>& key) { return mark.edge < key; });
+  return at != edges.end() && at->edge == edge ? at->strength : 0;
+}
+
+void EdgeMarks::scale(const SeamGraph& graph, const Piece& piece, bool is_coarse, std::vector<double>& factors) const {
+  if (avoided_.edges.empty() && preferred_.edges.empty()) return;
+  for (std::size_t e = 0; e < factors.size(); ++e) {
+    const SeamGraph::Edge& edge = graph.edges()[e];
+    const int a = piece.vertices[static_cast<std::size_t>(edge.vertices[0])];
+    const int b = piece.vertices[static_cast<std::size_t>(edge.vertices[1])];
+    count_steps(1);
+    if (avoided_.strength(a, b, is_coarse) > 0) factors[e] *= prohibitive;
+    const double preference = preferred_.strength(a, b, is_coarse);
+    if (!(preference > 0) || !(edge.length > 0)) continue;
+    const double price = edge.cost / edge.length;
+    factors[e] *= marked_price(price, preference) / price;
+  }
+}
+
+}  // namespace spectral_conformal
