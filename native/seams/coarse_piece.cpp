@@ -33,7 +33,7 @@ constexpr double min_corner_height = 0.2;
 constexpr double stalled = 0.01;
 constexpr double relaxed = 0.5;
 constexpr int max_relaxations = 3;
-constexpr std::size_t max_faces_around = 14;
+constexpr std::size_t max_faces_around = 14;  // more would be a fan of thin triangles, whose maps tell nothing
 /// A face with more corners, and a vertex with more faces, only follow what is merged beside them: to look at all of
 /// it at every merge there would take quadratic time.
 constexpr int most_looked_at = 256;

@@ -165,7 +165,7 @@ std::vector<SeamEdges> CutCandidates::cuts_between(int chart, const std::vector<
   // A slit to a flipped face gives it room.
   const TrialMap& mapped = *charts_[chart];
   const Piece& piece = seams_.piece();
-  constexpr std::size_t max_slits = 4;
+  constexpr std::size_t max_slits = 4;  // each takes a solve; those left are for the next step
   for (std::size_t i = 0; i < std::min(mapped.flipped.size(), max_slits); ++i) {
     const int face = mapped.chart.faces[static_cast<std::size_t>(mapped.flipped[i])];
     const int vertex = piece.corner_vertices[static_cast<std::size_t>(piece.face_offsets[face])];
@@ -194,7 +194,7 @@ std::vector<SeamEdges> CutCandidates::halves() const {
   }
   std::sort(worst.begin(), worst.end());
   std::vector<std::function<SeamEdges()>> searches;
-  constexpr std::size_t max_halved = 3;
+  constexpr std::size_t max_halved = 3;  // each takes a solve
   for (std::size_t i = 0; i < std::min(worst.size(), max_halved); ++i) {
     const int chart = worst[i].second;
     if (charts_[chart]->chart.faces.size() < 2) continue;

@@ -39,7 +39,7 @@ constexpr std::size_t max_facets = 8000;
 /// Prices of hinges count as equal within this fraction of the root of the area, so that rounding does not choose.
 constexpr double price_step = 1e-6;
 
-constexpr double joining_nanoseconds = 200;
+constexpr double joining_nanoseconds = 200;  // about what a triangle takes to be moved and tested
 
 /// A rigid motion of the plane: z -> turn z + shift.
 struct Motion {

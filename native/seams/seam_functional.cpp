@@ -10,7 +10,7 @@
 namespace spectral_conformal {
 namespace {
 
-constexpr double island_price = 0.05;
+constexpr double island_price = 0.05;  // parting must save more than one short seam
 /// What exceeds a limit by as much as the limit allows costs as much as seams of this length, in sqrt(A): ten made 12
 /// organic meshes 9 % longer at the same energy.
 constexpr double limit_price = 3;
